@@ -12,7 +12,11 @@
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
+#   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
+#   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
+#   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
+#                 rustup; skipped with a line where there is none)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   format the sources
@@ -42,7 +46,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 
-.PHONY: all demo guides test lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -70,6 +74,16 @@ demo: $(STAMPS)/engine
 test: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace
 	$(PY) -m pytest
+
+# The types of the page come from the messages; the bundle is committed, and a test compares it where node is found.
+studio-page: $(STAMPS)/engine $(STAMPS)/test
+	$(PY) -m niwaki.studio.types studio/page/src/messages.ts
+	cd studio/page && npm ci --silent --no-audit --no-fund && npm run --silent check && npm run --silent build
+
+test-studio: $(STAMPS)/engine $(STAMPS)/test
+	@if command -v chromium >/dev/null; then \
+	  $(MAKE) --no-print-directory $(STAMPS)/browser && NIWAKI_BROWSER=$$(command -v chromium) $(PY) -m pytest tests/browser; \
+	else echo "no chromium found: the studio's page is not tested in a browser (apt-get install chromium)"; fi
 
 lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --all --check
@@ -114,6 +128,16 @@ soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
 
+# Machine code and slices of one memory are in `grad`; the unsafe code of `infer` and `vm` only calls instructions of the
+# processor. A folder of its own, because the flags of the compiler differ.
+SANITIZED := -p niwaki-grad
+HOST := $(shell rustc -vV 2>/dev/null | sed -n 's/host: //p')
+sanitize: $(STAMPS)/venv
+	@if cargo +nightly --version >/dev/null 2>&1; then \
+	  RUSTFLAGS=-Zsanitizer=address ASAN_OPTIONS=detect_leaks=0 \
+	    cargo +nightly test --release --locked --target $(HOST) --target-dir target/sanitize $(SANITIZED) --tests; \
+	else echo "make sanitize needs a nightly toolchain (rustup toolchain install nightly): skipped"; fi
+
 mutants: $(STAMPS)/venv
 	$(PY) tests/mutants/mutants.py $(ONLY)
 
@@ -131,7 +155,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build test lint docs bench bench-hmc guides-oracle; do \
+	for extra in core build studio test browser lint docs bench bench-hmc guides-oracle; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

@@ -125,10 +125,17 @@ def test_every_python_file_opens_with_what_it_is_for():
     assert not [path.relative_to(ROOT).as_posix() for path in bare]
 
 
-#: Imports inside functions: ArviZ is an extra, and warns while it is imported.
-OPTIONAL = {("result/diagnostics.py", "arviz")}
-#: Who imports modules by a name of their own: extras, the gallery's folder, host functions of a search that was read.
-BY_NAME = {"errors/extras.py", "gallery/__init__.py", "inputs/child.py", "search/data.py"}
+#: Imports inside functions: ArviZ is an extra, and warns while it is imported; `resource` is not on every system.
+OPTIONAL = {("errors/memory.py", "resource"), ("result/diagnostics.py", "arviz")}
+#: Who imports modules by a name of their own: extras, the gallery's folder, the shell's commands, the host functions of
+#: a search that was read.
+BY_NAME = {
+    "errors/extras.py",
+    "gallery/__init__.py",
+    "inputs/child.py",
+    "search/data.py",
+    "shell/app.py",
+}
 
 
 def test_no_function_imports_but_what_is_optional():

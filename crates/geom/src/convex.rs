@@ -1,5 +1,6 @@
 //! Convex solids as intersection and voxels use them.
 
+use crate::once::Once;
 use crate::shape::Placement;
 use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
@@ -78,7 +79,7 @@ impl Hull {
     }
 
     fn edges(&self) -> &[Vec3] {
-        self.edges.get_or_init(|| {
+        self.edges.once(|| {
             let mut edges = Vec::new();
             for [a, b] in &self.topology.edges {
                 if let Some(direction) = (self.points[*b as usize] - self.points[*a as usize]).unit() {

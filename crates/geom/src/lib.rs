@@ -11,6 +11,7 @@
 //! - [`sketch`]: running scores of the emitted shapes
 //! - [`window`]: what a sketch shows around a place
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
+//! - `once`: values that are computed when they are first needed
 
 pub mod bounds;
 mod coarse;
@@ -21,6 +22,7 @@ pub mod hull;
 pub mod intersect;
 pub mod limb;
 pub mod mesh;
+mod once;
 pub mod plane;
 pub mod primitive;
 pub mod render;

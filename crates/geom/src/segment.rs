@@ -15,6 +15,7 @@
 //! over a welded base one wedge for each strip of the base.
 
 use crate::convex::Hull;
+use crate::once::Once;
 use crate::topology::Topology;
 use crate::vector::Vec3;
 use serde::{Deserialize, Serialize};
@@ -127,7 +128,7 @@ pub(crate) fn tube() -> Arc<Topology> {
         }
         Arc::new(tube)
     };
-    TUBE.get_or_init(build).clone()
+    TUBE.once(build).clone()
 }
 
 /// A ring cut into quadrangles by lines parallel to the one from the mark to the vertex opposite.

@@ -9,6 +9,7 @@ use crate::coarse::{convex, ring};
 use crate::convex::{Convex, Hull, is_aligned};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
+use crate::once::Once;
 use crate::plane::flat::{self, Round};
 use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
@@ -347,12 +348,12 @@ impl Shape {
     pub fn pieces(&self) -> Option<&[Hull]> {
         let (Solid::Segment(tube), Some(coarse)) = (&self.0.solid, &self.0.hull) else { return None };
         let corners = Convex::Hull(&coarse.whole);
-        Some(coarse.pieces.get_or_init(|| segment::pieces(corners.corners(), tube.onto.is_some())))
+        Some(coarse.pieces.once(|| segment::pieces(corners.corners(), tube.onto.is_some())))
     }
 
     /// The coarse mesh as triangles in the world; computed when first needed.
     pub fn world_mesh(&self) -> &TriMesh {
-        self.0.world.get_or_init(|| {
+        self.0.world.once(|| {
             let mesh = match (&self.0.solid, self.convex()) {
                 (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| self.0.placement.apply(p))),
                 (solid, _) if solid.is_flat() => {
@@ -363,7 +364,7 @@ impl Shape {
                 }
                 (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
             };
-            Box::new(mesh.expect("checked when the shape was made"))
+            Box::new(mesh.expect("the same numbers gave a mesh when the shape was made"))
         })
     }
 

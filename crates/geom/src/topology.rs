@@ -4,6 +4,7 @@
 //! corners of triangles but not of the hull (facts of the original: caps are fans about their centre, `4 n`
 //! triangles in all). A box is eight corners, bit 0, 1 and 2 of the index choosing the high x, y and z.
 
+use crate::once::Once;
 use std::sync::{Arc, OnceLock};
 
 /// Faces, edges and triangles of a convex solid, as vertex indices.
@@ -53,7 +54,7 @@ impl Topology {
             let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
             Arc::new(Topology::from_faces(8, faces.iter().map(|f| f.to_vec()).collect()))
         };
-        CUBOID.get_or_init(build)
+        CUBOID.once(build)
     }
 
     /// A prism or frustum over an `n`-gon whose caps have no middle.
@@ -65,14 +66,14 @@ impl Topology {
             let caps = [(0..n).rev().collect(), (n..2 * n).collect()];
             Arc::new(Topology::from_faces(2 * n as usize, sides.chain(caps).collect()))
         };
-        FRUSTA.get(n).map_or_else(build, |cell| cell.get_or_init(build).clone())
+        FRUSTA.get(n).map_or_else(build, |cell| cell.once(build).clone())
     }
 
     /// A prism or frustum over an `n`-gon.
     pub fn prism(n: usize) -> Arc<Topology> {
         static PRISMS: [OnceLock<Arc<Topology>>; 65] = [const { OnceLock::new() }; 65];
         match PRISMS.get(n) {
-            Some(cell) => cell.get_or_init(|| Arc::new(Topology::new_prism(n))).clone(),
+            Some(cell) => cell.once(|| Arc::new(Topology::new_prism(n))).clone(),
             None => Arc::new(Topology::new_prism(n)),
         }
     }

@@ -3,6 +3,7 @@
 //!
 //! The renderer shares no code with the engine's: a stroke is all points near enough to one of its discs, an ellipse all
 //! that satisfy its equation.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod scenes;
 

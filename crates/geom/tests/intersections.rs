@@ -3,6 +3,7 @@
 //!
 //! The search does not use separating axes: it minimises the depth `max over faces of (distance outside)` over
 //! all points by the ellipsoid method (Groetschel, Lovasz & Schrijver 1988, 3.1). Negative means a common inside.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod scenes;
 

@@ -2,6 +2,7 @@
 //!
 //! The meshes are not part of the project: the test reads them from the folder in `NIWAKI_REFERENCE_TARGETS` and
 //! prints a note when it is not set.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_geom::{Sketch, Target, TriMesh, VolumeMatch, vec3};
 use std::path::Path;

@@ -3,6 +3,7 @@
 //! The loop tests each triangle against each cell and fills what they enclose. Cells that a solid misses or touches by
 //! less than the tolerance of a test may or may not be filled, so the loop gives two results: with the solid shrunk and
 //! grown by a ten-thousandth of a cell. The engine's result must lie between them.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod scenes;
 

@@ -1,5 +1,6 @@
 //! Windows show what plain loops over pixels and cells count, turn with the scene, and depend on the scene alone, not on
 //! how it came about.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod scenes;
 

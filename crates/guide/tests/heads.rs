@@ -2,6 +2,7 @@
 //!
 //! Densities are integrated over the values themselves, by maps that have nothing to do with the head's coordinates. Each
 //! case of draws raises a false alarm with probability at most 1e-6; there are about a hundred.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_guide::{Head, Lesson};
 use niwaki_math::{Dist, Draw, Family, Param, Stream};

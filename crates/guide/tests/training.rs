@@ -1,4 +1,5 @@
 //! Training finds what can be known, with the same bits on any number of threads, and stops where numbers are not finite.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_guide::{Diverged, Head, Lesson, Net, NetForm, Rows, Scratch, Trained, Training, train};
 use niwaki_math::{Dist, Draw, Stream};

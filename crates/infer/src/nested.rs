@@ -19,7 +19,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value, same};
 use std::collections::{HashMap, VecDeque};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 /// How many `infer` may be inside one another. Each takes some of the host's stack.
 const DEPTH: usize = 16;
@@ -147,6 +147,9 @@ const REMEMBERED_BYTES: usize = 1 << 20;
 
 /// The latest answers. A call that is run again (in a replay, or after another choice of the same activation changed)
 /// is not searched again. An inner search is a function of its inputs, so this changes no result.
+///
+/// Nobody waits for this lock: while another thread looks, a call is searched again. After a fork that thread may not
+/// be there.
 #[derive(Default)]
 pub struct Known(Mutex<VecDeque<Answered>>);
 
@@ -155,7 +158,7 @@ type Answered = (u16, Vec<Value>, Value, u64);
 
 impl Known {
     fn find(&self, constant: u16, args: &[Value]) -> Option<(Value, u64)> {
-        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = self.0.try_lock().ok()?;
         let is_it = |(c, given, ..): &&Answered| {
             *c == constant && given.len() == args.len() && given.iter().zip(args).all(|(a, b)| same(a, b))
         };
@@ -163,9 +166,10 @@ impl Known {
     }
 
     fn remember(&self, constant: u16, args: &[Value], (answer, steps): (&Value, u64)) {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        known.truncate(REMEMBERED - 1);
-        known.push_front((constant, args.to_vec(), answer.clone(), steps));
+        if let Ok(mut known) = self.0.try_lock() {
+            known.truncate(REMEMBERED - 1);
+            known.push_front((constant, args.to_vec(), answer.clone(), steps));
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::faults;
 use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
+use crate::shared::Shared;
 use crate::trajectories::broken_off;
 use niwaki_infer::chain::agreement::compare;
 use niwaki_infer::chain::counts::{Count, Counts};
@@ -18,7 +19,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// Proposals at one site of the program.
 #[pyclass(frozen, get_all, name = "Site", module = "niwaki._engine")]
@@ -41,7 +42,7 @@ pub struct PySite {
 #[pyclass(frozen, name = "Chains", module = "niwaki._engine")]
 pub struct PyChains {
     task: Py<PyTask>,
-    chains: Mutex<Chains>,
+    chains: Shared<Chains>,
 }
 
 #[pymethods]
@@ -70,7 +71,7 @@ impl PyChains {
             Chains::start(&kept, &settings, method.chains, known.as_ref())
         })?;
         let task = Py::new(py, PyTask { task: kept, model: own.model.clone_ref(py) })?;
-        Ok(PyChains { task, chains: Mutex::new(chains) })
+        Ok(PyChains { task, chains: Shared::new(chains) })
     }
 
     /// Makes ``steps`` proposals in each chain; whether it was interrupted.
@@ -85,18 +86,24 @@ impl PyChains {
         let own = self.task.get();
         let (task, classes) = (&own.task, &own.model.get().classes);
         let caller = watch.as_ref().map(|callable| (callable, classes));
+        let mut using = self.chains.lock(py)?;
+        let chains: &mut Chains = &mut using;
         let (stopped, pressed) = detached(py, &task.program, threads, caller, |watch| {
-            let mut chains = self.chains.lock().unwrap_or_else(PoisonError::into_inner);
             chains.advance(task, steps, &|done, best| watch.look(done, 0, best))
         })?;
         Ok(stopped || pressed)
     }
 
+    /// Refuses where nobody could ever use them: see [`Shared::check`].
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        self.chains.check(py)
+    }
+
     /// The best state of each chain.
     fn best(&self, py: Python<'_>) -> PyResult<Vec<PyRun>> {
-        let task = &self.task.get().task;
+        let (task, using) = (&self.task.get().task, self.chains.lock(py)?);
+        let chains: &Chains = &using;
         let (best, _) = detached(py, &task.program, None, None, |_| {
-            let chains = self.lock();
             let rungs = chains.chains.iter().filter_map(Ladder::best);
             rungs.map(|rung| rung.best.get(&rung.state, task)).collect::<Result<Vec<_>, _>>()
         })?;
@@ -104,40 +111,40 @@ impl PyChains {
     }
 
     /// The samples of each chain.
-    fn samples(&self) -> Vec<Vec<PyRun>> {
-        let chains = self.lock();
+    fn samples(&self, py: Python<'_>) -> PyResult<Vec<Vec<PyRun>>> {
+        let chains = self.chains.lock(py)?;
         let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
-        first.map(|rung| rung.samples.all.iter().map(|run| self.run(run.clone())).collect()).collect()
+        Ok(first.map(|rung| rung.samples.all.iter().map(|run| self.run(run.clone())).collect()).collect())
     }
 
     /// The present state of each chain.
-    fn now(&self) -> Vec<PyRun> {
-        let (program, chains) = (&self.task.get().task.program, self.lock());
+    fn now(&self, py: Python<'_>) -> PyResult<Vec<PyRun>> {
+        let (program, chains) = (&self.task.get().task.program, self.chains.lock(py)?);
         let first = chains.chains.iter().filter_map(|ladder| ladder.rungs.first());
-        first.map(|rung| self.run(Arc::new(rung.now(program)))).collect()
+        Ok(first.map(|rung| self.run(Arc::new(rung.now(program)))).collect())
     }
 
     /// Proposals between two samples, of each chain.
-    fn thin(&self) -> Vec<u64> {
-        let chains = self.lock();
-        chains.chains.iter().filter_map(|ladder| Some(ladder.rungs.first()?.samples.thin)).collect()
+    fn thin(&self, py: Python<'_>) -> PyResult<Vec<u64>> {
+        let chains = self.chains.lock(py)?;
+        Ok(chains.chains.iter().filter_map(|ladder| Some(ladder.rungs.first()?.samples.thin)).collect())
     }
 
     /// Exchanges between neighbouring powers, all chains together: (tried, made).
-    fn exchanges(&self) -> Vec<(u64, u64)> {
-        let chains = self.lock();
+    fn exchanges(&self, py: Python<'_>) -> PyResult<Vec<(u64, u64)>> {
+        let chains = self.chains.lock(py)?;
         let mut all = vec![(0, 0); chains.chains.first().map_or(0, |ladder| ladder.exchanges.len())];
         for ladder in &chains.chains {
             for (sum, one) in all.iter_mut().zip(&ladder.exchanges) {
                 *sum = (sum.0 + one.0, sum.1 + one.1);
             }
         }
-        all
+        Ok(all)
     }
 
     /// Proposals by site, all chains together.
-    fn sites(&self) -> Vec<PySite> {
-        let (program, chains) = (&self.task.get().task.program, self.lock());
+    fn sites(&self, py: Python<'_>) -> PyResult<Vec<PySite>> {
+        let (program, chains) = (&self.task.get().task.program, self.chains.lock(py)?);
         let mut all = Counts::new(program);
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
             for (sum, count) in all.sites.iter_mut().zip(&chain.counts.sites) {
@@ -152,7 +159,7 @@ impl PyChains {
             accepted,
             outside,
         };
-        all.named(program).into_iter().map(site).collect()
+        Ok(all.named(program).into_iter().map(site).collect())
     }
 
     /// Of each leaf of the kernel that follows the gradient, in order, all chains and powers together: a dict with
@@ -160,7 +167,7 @@ impl PyChains {
     /// ``structures``, ``recordings``, ``divergences`` (see [`broken_off`]), ``warmup_divergences``; ``step``, by chain;
     /// and ``fault``, an exception or None.
     fn trajectories<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let (program, chains) = (&self.task.get().task.program, self.lock());
+        let (program, chains) = (&self.task.get().task.program, self.chains.lock(py)?);
         let mut all: Vec<(TrajectoryCounts, Vec<f64>, u64, u64)> = Vec::new();
         for chain in chains.chains.iter().flat_map(|ladder| &ladder.rungs) {
             for (leaf, (counts, step, (structures, recordings))) in chain.trajectories().enumerate() {
@@ -198,7 +205,7 @@ impl PyChains {
     /// Sums over the chains: proposals, activations entered, calls skipped, instructions, primitives that were taken out
     /// of the scene or put into it (`moved`); primitives, choices and bytes held.
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let chains = self.lock();
+        let chains = self.chains.lock(py)?;
         let facts = PyDict::new(py);
         let sum = |of: fn(&Chain) -> u64| {
             chains.chains.iter().flat_map(|ladder| &ladder.rungs).map(of).sum::<u64>()
@@ -300,10 +307,6 @@ fn explain<'py>(
 }
 
 impl PyChains {
-    fn lock(&self) -> std::sync::MutexGuard<'_, Chains> {
-        self.chains.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     fn run(&self, run: Arc<Run>) -> PyRun {
         PyRun::new(run, self.task.get().model.get().classes.clone())
     }

@@ -1,6 +1,7 @@
 //! Log densities with their gradients for Python.
 
 use crate::faults;
+use crate::shared::Shared;
 use crate::values::Classes;
 use niwaki_grad::{Continuous, Live, Refused, jax};
 use niwaki_infer::Failure;
@@ -9,7 +10,7 @@ use niwaki_vm::fault::Fault;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// A continuous choice of a sampler: its coordinates are `x[first : first + count]`.
 #[pyclass(frozen, get_all, name = "Coordinates", module = "niwaki._engine")]
@@ -47,22 +48,22 @@ impl PyCoordinates {
 /// The log density of a model around one run, over unconstrained coordinates.
 #[pyclass(frozen, name = "Density", module = "niwaki._engine")]
 pub struct PyDensity {
-    live: Mutex<Live>,
+    live: Shared<Live>,
     program: Arc<Program>,
     classes: Arc<Classes>,
 }
 
 impl PyDensity {
     pub fn new(live: Live, program: Arc<Program>, classes: Arc<Classes>) -> PyDensity {
-        PyDensity { live: Mutex::new(live), program, classes }
+        PyDensity { live: Shared::new(live), program, classes }
     }
 
-    fn with<T>(&self, f: impl FnOnce(&mut Live) -> T) -> T {
-        f(&mut self.live.lock().unwrap_or_else(PoisonError::into_inner))
+    fn with<T>(&self, py: Python<'_>, f: impl FnOnce(&mut Live) -> T) -> PyResult<T> {
+        Ok(f(&mut *self.live.lock(py)?))
     }
 
     fn point<'a>(&self, py: Python<'_>, x: &'a PyReadonlyArray1<'_, f64>) -> PyResult<&'a [f64]> {
-        let dim = self.dim();
+        let dim = self.dim(py)?;
         let wrong = |found: &str| {
             let fault =
                 Fault::new("bad-setting", format!("`x` has {found}, but there are {dim} coordinates"))
@@ -78,26 +79,26 @@ impl PyDensity {
 impl PyDensity {
     /// Number of coordinates.
     #[getter]
-    fn dim(&self) -> usize {
-        self.with(|live| live.dim())
+    fn dim(&self, py: Python<'_>) -> PyResult<usize> {
+        self.with(py, |live| live.dim())
     }
 
     /// Coordinates of the recorded run, shape (dim,).
     #[getter]
-    fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.with(|live| live.recorded().start.clone()))
+    fn start<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(PyArray1::from_slice(py, &self.with(py, |live| live.recorded().start.clone())?))
     }
 
     /// Continuous choices.
     #[getter]
-    fn choices(&self) -> Vec<PyCoordinates> {
-        self.with(|live| live.recorded().choices.iter().map(PyCoordinates::of).collect())
+    fn choices(&self, py: Python<'_>) -> PyResult<Vec<PyCoordinates>> {
+        self.with(py, |live| live.recorded().choices.iter().map(PyCoordinates::of).collect())
     }
 
     /// Operations of (a value with its gradient, a gradient alone), and guards, of the path last used.
     #[getter]
-    fn operations(&self) -> (usize, usize, usize) {
-        self.with(|live| {
+    fn operations(&self, py: Python<'_>) -> PyResult<(usize, usize, usize)> {
+        self.with(py, |live| {
             let density = &live.recorded().density;
             let (both, slope) = density.operations();
             (both, slope, density.guards().len())
@@ -106,14 +107,14 @@ impl PyDensity {
 
     /// How often the program was recorded.
     #[getter]
-    fn recordings(&self) -> usize {
-        self.with(|live| live.recordings())
+    fn recordings(&self, py: Python<'_>) -> PyResult<usize> {
+        self.with(py, |live| live.recordings())
     }
 
     /// Primitives that the run emits; their scores are no part of the density.
     #[getter]
-    fn emitted(&self) -> usize {
-        self.with(|live| live.recorded().emitted)
+    fn emitted(&self, py: Python<'_>) -> PyResult<usize> {
+        self.with(py, |live| live.recorded().emitted)
     }
 
     /// ``(log density, gradient)`` at ``x``; ``None`` where the run makes other choices.
@@ -124,7 +125,7 @@ impl PyDensity {
     ) -> PyResult<Option<(f64, Bound<'py, PyArray1<f64>>)>> {
         let point = self.point(py, &x)?;
         let mut g = vec![0.0; point.len()];
-        match self.with(|live| live.value_and_gradient(point, &mut g)) {
+        match self.with(py, |live| live.value_and_gradient(point, &mut g))? {
             Ok(value) => Ok(Some((value, PyArray1::from_vec(py, g)))),
             Err(Refused::Structure | Refused::Rounding) => Ok(None),
             Err(Refused::Fault(fault)) => Err(faults::raise(py, &Failure::Run(fault), &self.program)),
@@ -135,12 +136,12 @@ impl PyDensity {
     fn values<'py>(&self, py: Python<'py>, x: PyReadonlyArray1<'py, f64>) -> PyResult<Bound<'py, PyDict>> {
         let point = self.point(py, &x)?;
         // By the path of the point; where it has none, by the path used last.
-        let (recorded, values) = self.with(|live| {
+        let (recorded, values) = self.with(py, |live| {
             let values = live.values(point);
             let recorded = live.recorded().clone();
             let values = values.unwrap_or_else(|_| recorded.values(point));
             (recorded, values)
-        });
+        })?;
         let values_by_path = PyDict::new(py);
         for choice in &recorded.choices {
             if let Some(value) = values.get(&choice.address) {
@@ -151,18 +152,18 @@ impl PyDensity {
     }
 
     /// Compiles machine code now instead of later; returns whether this machine supports it.
-    fn compile(&self, py: Python<'_>) -> bool {
-        py.detach(|| {
-            self.with(|live| {
-                live.compiled().finish();
-                live.compiled().is_native()
-            })
-        })
+    fn compile(&self, py: Python<'_>) -> PyResult<bool> {
+        let mut using = self.live.lock(py)?;
+        let live: &mut Live = &mut using;
+        Ok(py.detach(|| {
+            live.compiled().finish();
+            live.compiled().is_native()
+        }))
     }
 
     /// The text of a JAX function ``log_density(x)``; NaN off the recorded path.
-    fn jax(&self) -> String {
-        self.with(|live| jax::source(&live.recorded().density))
+    fn jax(&self, py: Python<'_>) -> PyResult<String> {
+        self.with(py, |live| jax::source(&live.recorded().density))
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::faults;
 use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
+use crate::shared::Shared;
 use niwaki_guide::Progress;
 use niwaki_infer::guide::Guide;
 use niwaki_infer::guide::bound::BoundGuide;
@@ -11,7 +12,7 @@ use niwaki_infer::log::Entry;
 use niwaki_vm::fault::Fault;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// A trained guide.
 #[pyclass(frozen, name = "Guide", module = "niwaki._engine")]
@@ -70,21 +71,21 @@ impl PyGuide {
 /// Traces to learn from.
 #[pyclass(frozen, name = "Lessons", module = "niwaki._engine")]
 pub struct PyLessons {
-    examples: Mutex<Vec<Example>>,
+    examples: Shared<Vec<Example>>,
 }
 
 #[pymethods]
 impl PyLessons {
     #[new]
     fn new() -> PyLessons {
-        PyLessons { examples: Mutex::default() }
+        PyLessons { examples: Shared::new(Vec::new()) }
     }
 
     /// Adds a run of a task; one that is ``held_out`` judges.
     fn add(&self, py: Python<'_>, task: &PyTask, run: &PyRun, held_out: bool) -> PyResult<()> {
         let entries: Vec<Entry> = run.entries();
         let example = Example { task: task.keeping_all(py)?, entries, held_out };
-        self.examples.lock().unwrap_or_else(PoisonError::into_inner).push(example);
+        self.examples.lock(py)?.push(example);
         Ok(())
     }
 
@@ -104,10 +105,11 @@ impl PyLessons {
         let classes = &task.model.get().classes;
         let caller = watch.as_ref().map(|call| (call, classes));
         let start = start.map(|own| own.guide.clone());
+        let using = self.examples.lock(py)?;
+        let examples: &[Example] = &using;
         let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
-            let examples = self.examples.lock().unwrap_or_else(PoisonError::into_inner);
             let mut seen = |now: Progress| watch.look(now.step, now.steps as usize, -now.held_out);
-            train(&examples, &making, start.as_deref(), &mut seen)
+            train(examples, &making, start.as_deref(), &mut seen)
         })?;
         let told = PyDict::new(py);
         let losses = result.history.iter().map(|now| (now.step, now.loss, now.held_out));

@@ -6,6 +6,7 @@
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //!   `networks`: networks of guides, for a comparison with other software;
+//! * `threads`: the pools of threads; `shared`: values that several threads of Python use;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
@@ -19,6 +20,8 @@ mod networks;
 mod pictures;
 mod runs;
 mod search;
+mod shared;
+mod threads;
 mod trajectories;
 mod values;
 mod views;

@@ -61,7 +61,12 @@ pub struct PyProgram {
 impl PyProgram {
     /// Its host functions; inner runs are limited as the outer ones.
     pub fn hosts(&self, limits: Limits) -> Arc<dyn Hosts> {
-        if self.methods.is_empty() { self.hosts.clone() } else { Arc::new(self.inferences(limits)) }
+        if self.has_inferences() { Arc::new(self.inferences(limits)) } else { self.hosts.clone() }
+    }
+
+    /// Whether it has inferences inside.
+    pub fn has_inferences(&self) -> bool {
+        !self.methods.is_empty()
     }
 
     /// The program compiled so that these variables can be read at choices; otherwise it is the same.

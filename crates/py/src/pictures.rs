@@ -3,6 +3,7 @@
 //! Arrays are copied, and the interpreter's lock is released while rays are traced.
 
 use crate::geometry::PyShape;
+use crate::threads::Pool;
 use niwaki_geom::render::{self, Backdrop, Camera, Shot, Surface, View};
 use niwaki_geom::{Vec3, fine};
 use numpy::ndarray::Array2;
@@ -60,8 +61,7 @@ fn render_meshes<'py>(
         backdrop: backdrop.map_or(Backdrop::Clear, |(top, bottom)| Backdrop::Roll { top, bottom }),
         ghost_color: ghost_color.unwrap_or(Shot::default().ghost_color),
     };
-    let bytes = py
-        .detach(|| render::render(&surfaces, ghost.as_ref(), &shot))
+    let bytes = Pool::inside(py, || render::render(&surfaces, ghost.as_ref(), &shot))?
         .map_err(|error| PyValueError::new_err(error.to_string()))?;
     bytes.into_pyarray(py).reshape([height, width, 4])
 }

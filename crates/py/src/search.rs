@@ -9,6 +9,7 @@ use crate::gradients::PyDensity;
 use crate::guides::PyGuide;
 use crate::model::PyProgram;
 use crate::runs::{PyRun, PyTrace};
+use crate::threads::Pool;
 use crate::values::Classes;
 use niwaki_infer::chain::counts::Count;
 use niwaki_infer::chain::form::Attached;
@@ -41,6 +42,9 @@ use std::time::Duration;
 
 /// Time between two calls of the callback.
 const PAUSE: Duration = Duration::from_millis(50);
+
+/// The exit status of a child that was forked in a callback and came back (`EX_SOFTWARE` of sysexits.h).
+const FORKED: i32 = 70;
 
 /// The progress of a search, and whether it should stop.
 #[derive(Default)]
@@ -77,9 +81,10 @@ impl Watch {
     }
 }
 
-/// Runs `work` without the interpreter's lock on a new thread, its parallel parts on `threads` threads (`None`:
-/// all of the machine's); meanwhile this thread watches. Also returns whether Ctrl-C was pressed, even if that was
-/// too late to stop anything.
+/// Runs `work` without the interpreter's lock on a pool of `threads` threads (`None`: as many as the machine has);
+/// meanwhile this thread watches. Also returns whether Ctrl-C was pressed, even if that was too late to stop anything.
+///
+/// A callback that forks may not come back in the child, where the search does not go on: the child then ends.
 pub(crate) fn detached<T: Send>(
     py: Python<'_>,
     program: &Program,
@@ -87,38 +92,34 @@ pub(crate) fn detached<T: Send>(
     caller: Option<Caller<'_>>,
     work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
 ) -> PyResult<(T, bool)> {
-    let pool = match threads {
-        Some(n) => Some(
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(n.max(1))
-                .build()
-                .map_err(|error| PyRuntimeError::new_err(error.to_string()))?,
-        ),
-        None => None,
-    };
-    let (watch, mut raised) = (Watch::default(), None);
+    let pool = Pool::borrow(py, threads)?;
+    let (watch, mut raised, process) = (Watch::default(), None, std::process::id());
     let done = py.detach(|| {
-        std::thread::scope(|scope| {
-            let (finished, wait) = channel::<()>();
-            let (watch, pool) = (&watch, &pool);
-            let worker = scope.spawn(move || {
-                let _dropped_at_the_end = finished;
-                match pool {
-                    Some(pool) => pool.install(|| work(watch)),
-                    None => work(watch),
-                }
-            });
+        let (finished, wait) = channel::<()>();
+        let (watch, raised) = (&watch, &mut raised);
+        let working = move || {
+            let _dropped_at_the_end = finished;
+            work(watch)
+        };
+        pool.beside(working, move || {
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if raised.is_none()
                     && let Err(error) = watch.tell(caller)
                 {
-                    raised = Some(error);
+                    *raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);
                 }
+                if std::process::id() != process {
+                    eprintln!(
+                        "niwaki: the search stays in the parent of this fork; end the child in `progress`"
+                    );
+                    std::process::exit(FORKED);
+                }
             }
-            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         })
     });
+    pool.give_back(py);
+    let done = done.ok_or_else(|| PyRuntimeError::new_err("the search ended without a result"))?;
     // The callback gets the final progress, however short the search was.
     if raised.is_none() && done.is_ok() {
         raised = watch.tell(caller).err();
@@ -322,13 +323,14 @@ impl PyTask {
         self.at_once(py, || replay(&unscored, source, missing))
     }
 
-    /// Runs a short function without the interpreter's lock.
+    /// Runs a short function without the interpreter's lock. Only inferences inside of the model are parallel.
     fn at_once<T: Send>(
         &self,
         py: Python<'_>,
         work: impl FnOnce() -> Result<T, Failure> + Send,
     ) -> PyResult<T> {
-        py.detach(work).map_err(|failure| faults::raise(py, &failure, &self.task.program))
+        let done = if self.model.get().has_inferences() { Pool::inside(py, work)? } else { py.detach(work) };
+        done.map_err(|failure| faults::raise(py, &failure, &self.task.program))
     }
 
     /// The method of a text.

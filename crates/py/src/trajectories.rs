@@ -4,6 +4,7 @@ use crate::faults;
 use crate::gradients::PyCoordinates;
 use crate::runs::{PyChoice, PyRun};
 use crate::search::{PyTask, detached};
+use crate::threads::Pool;
 use niwaki_infer::Failure;
 use niwaki_infer::gradient::explore::{Explored, Plan, explore};
 use niwaki_infer::hamiltonian::{BrokenOff, Cause};
@@ -98,7 +99,7 @@ impl PyTrajectories {
     /// Of each draw of a chain, by running it: log densities of the choices, and of factors and observations, nats.
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
         let (own, chain) = (self.task.get(), self.chain(chain)?);
-        let scores = py.detach(|| chain.scores(&own.task));
+        let scores = Pool::inside(py, || chain.scores(&own.task))?;
         let scores = scores.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
         let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))

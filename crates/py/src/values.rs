@@ -33,12 +33,17 @@ impl Classes {
         Classes(Mutex::new(types.into_iter().zip(classes.iter().cloned()).collect()))
     }
 
+    fn known(&self, kind: &Bound<'_, PyType>) -> Option<Arc<Class>> {
+        let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        known.iter().find(|(own, _)| own.is(kind)).map(|(_, class)| class.clone())
+    }
+
     /// The machine's class for a type of records; a type that the program never makes itself is added.
     fn of(&self, kind: &Bound<'_, PyType>) -> PyResult<Option<Arc<Class>>> {
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, class)) = known.iter().find(|(own, _)| own.is(kind)) {
-            return Ok(Some(class.clone()));
+        if let Some(known) = self.known(kind) {
+            return Ok(Some(known));
         }
+        // Without the lock, as Python may switch to another thread in here.
         let (fields, record) = if kind.is_subclass_of::<PyTuple>()? && kind.hasattr("_fields")? {
             (kind.getattr("_fields")?.extract::<Vec<String>>()?, ClassKind::NamedTuple)
         } else if kind.hasattr("__dataclass_fields__")? {
@@ -48,6 +53,10 @@ impl Classes {
             return Ok(None);
         };
         let name = kind.name()?.to_string();
+        if let Some(known) = self.known(kind) {
+            return Ok(Some(known));
+        }
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let class = Arc::new(Class { id: known.len() as u32, name, fields, kind: record });
         known.push((kind.clone().unbind(), class.clone()));
         Ok(Some(class))

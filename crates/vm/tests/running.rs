@@ -1,5 +1,6 @@
 //! The claim: a compiled program has the results of core form, suspends where it may, never uses the host stack,
 //! and stops at its budgets with the model's own call stack.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw};

@@ -16,13 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from niwaki.draw.limits import check_size
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
-from niwaki.errors.settings import bad, is_whole
 from niwaki.inputs import library, limit, read_apart
-
-#: Pixels of the longer side, at most: a page of A0 at 350 dpi.
-LONGEST = 16_384
 
 _COSTLY = re.compile(
     r"<(?:\w+:)?(?:use|clipPath|filter|image|marker|mask|pattern|textPath)\b|dasharray|filter\s*:(?!\s*none)"
@@ -37,10 +34,9 @@ def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image
     FileError
         resvg is not installed, or cannot read it, or needs too much time or memory.
     InputError
-        `bad-setting`: the size is not from 1 to 16,384.
+        `bad-setting`: the size is not from 1 to 16,384, or there is no memory for it.
     """
-    if not is_whole(size) or not 1 <= size <= LONGEST:
-        raise bad("size", size, f"pixels from 1 to {LONGEST}", "512")
+    check_size((size, size))
     optional("resvg_py", "drawing SVG files", "color")
     data = text.encode()
     if len(data) <= limit("apart") and not _COSTLY.search(text):

@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,6 +28,7 @@ from niwaki.errors.settings import bad, is_number
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
+from niwaki.once import cached_property
 from niwaki.result import Progress, Sample
 from niwaki.search import run
 

@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from niwaki.draw.picture import LARGEST, picture
+from niwaki.draw.limits import LARGEST, check_size
+from niwaki.draw.picture import picture
 from niwaki.draw.scene import Part, Scene, Volume
 from niwaki.errors import FileError
 from niwaki.errors.files import write_whole
+from niwaki.errors.settings import count
 
 FORMATS = (".gif", ".apng")
 
@@ -57,12 +59,12 @@ def growth(
     settings
         As for `animate`.
     """
-    _at_least_one("frames", frames)
+    count("frames", frames, most=LARGEST)
     if len(scene) == 0:
         raise FileError("scene-empty", path, verb="animate")
     order = scene.parts if parts is None else tuple(parts)
-    count = min(frames, len(order))
-    states = [Scene(order[: -(-len(order) * (k + 1) // count)]) for k in range(count)]
+    shown = min(frames, len(order))
+    states = [Scene(order[: -(-len(order) * (k + 1) // shown)]) for k in range(shown)]
     return animate(states, path, target, like=scene, **settings)
 
 
@@ -117,6 +119,7 @@ def animate(
     whole = _together(states) if like is None else like
     if len(whole) == 0:
         raise FileError("scene-empty", place, verb="animate")
+    check_size(size, len(states))
     drawn = [picture(state, target, size=size, samples=samples, like=whole, **settings) for state in states]
     # Both formats count time in hundredths of a second or coarser; browsers slow down what is faster than 0.02 s.
     step = max(20, 10 * round(100.0 * seconds / len(drawn)))
@@ -177,8 +180,3 @@ def _together(states: Sequence[Scene]) -> Scene:
 def _shapes(part: Part) -> int:
     """A number that distinguishes a part's shapes from others at its address."""
     return hash(tuple(shape.vertices().tobytes() for shape in part.shapes))
-
-
-def _at_least_one(name: str, number: int) -> None:
-    if not 1 <= number <= LARGEST:
-        raise FileError("setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}")

@@ -19,11 +19,12 @@ from PIL import Image
 from niwaki import _engine
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.marks import is_flat
+from niwaki.draw.limits import LARGEST, check_size
 from niwaki.draw.palette import paints
 from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
 from niwaki.errors.files import write_whole
-from niwaki.errors.settings import is_number, is_whole
+from niwaki.errors.settings import count, is_number
 
 Backdrop = Literal["studio", "white", "slate", "clear"]
 Rgb = tuple[float, float, float]
@@ -36,9 +37,6 @@ BACKDROPS: dict[str, tuple[Rgb, Rgb] | None] = {
     "slate": ((0.27, 0.29, 0.32), (0.19, 0.205, 0.23)),
     "clear": None,
 }
-
-#: Largest width, height and number of samples.
-LARGEST = 16_384
 
 IMAGE_FORMATS = (".png", ".jpg", ".jpeg", ".webp")
 
@@ -104,11 +102,8 @@ def picture(
     if len(scene) == 0 and target is None and like is None:
         raise FileError("scene-empty", verb="draw")
     width, height = size
-    for name, number in (("width", width), ("height", height), ("samples", samples)):
-        if not is_whole(number) or not 1 <= number <= LARGEST:
-            raise FileError(
-                "setting", name=name, found=number, expected=f"a whole number from 1 to {LARGEST}"
-            )
+    check_size(size)
+    count("samples", samples, most=LARGEST)
     for name, value in (
         ("azimuth", azimuth),
         ("elevation", elevation),

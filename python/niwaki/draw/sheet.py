@@ -13,9 +13,11 @@ from typing import Any
 from PIL import Image, ImageDraw, ImageFont
 
 from niwaki._engine import Shape
+from niwaki.draw.limits import check_size
 from niwaki.draw.picture import BACKDROPS, picture, save_image
 from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
+from niwaki.errors.settings import count
 
 
 def sheet(
@@ -51,11 +53,12 @@ def sheet(
         raise FileError(
             "setting", name="captions", found=len(captions), expected=f"one for each of {len(scenes)} scenes"
         )
-    if columns is not None and columns < 1:
-        raise FileError("setting", name="columns", found=columns, expected="at least 1")
-    across = columns or _columns(len(scenes))
+    if columns is not None:
+        count("columns", columns)
+    across = min(columns or _columns(len(scenes)), len(scenes))
     down = -(-len(scenes) // across)
     width, height = size
+    check_size(size, across * down)
     letters = max(11, round(height / 22))
     strip = round(letters * 2.2) if captions else 0
     gap = max(2, round(height / 120))

@@ -2,14 +2,33 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 from niwaki.errors.kinds import InputError
 
+#: The largest count: the engine counts in 64 bits.
+MOST = 2**63 - 1
+
+#: The most characters of a value in a message.
+LONGEST = 200
+
 
 def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
     """The error about the value of a setting."""
-    return InputError("bad-setting", name=name, found=repr(found), expected=expected, suggestion=suggestion)
+    return InputError("bad-setting", name=name, found=shown(found), expected=expected, suggestion=suggestion)
+
+
+def shown(value: Any) -> str:
+    """A value as a message shows it: of a long one the beginning, of a huge number the number of its digits."""
+    if is_whole(value) and value.bit_length() > 256:
+        return f"a number of about {round(value.bit_length() * 0.30103)} digits"
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):
+        # Whole numbers of many digits within a value, and values within values, that Python refuses to write.
+        return "a value too long to write"
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def is_whole(value: Any) -> bool:
@@ -18,14 +37,28 @@ def is_whole(value: Any) -> bool:
 
 
 def is_number(value: Any) -> bool:
-    """Whether it is a number, which a truth value is not."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    """Whether it is a number that a real number can hold, which a truth value is not."""
+    return isinstance(value, float) or (is_whole(value) and abs(value) <= sys.float_info.max)
 
 
-def shown(value: Any) -> str:
-    """A value for a message: its first 60 characters."""
-    try:
-        return f"{value!r:.60}"
-    except (ValueError, RecursionError):
-        # Python refuses to write whole numbers of many digits.
-        return "a value too long to write"
+def count(name: str, value: Any, least: int = 1, most: int = MOST, usual: str | None = None) -> int:
+    """The value, where it is a whole number within these bounds; else the error about it.
+
+    Parameters
+    ----------
+    name
+        The setting, as the person wrote it.
+    value
+        What was given.
+    least, most
+        The bounds, both allowed.
+    usual
+        A value that makes sense, for the message.
+    """
+    if is_whole(value) and least <= value <= most:
+        return int(value)
+    if is_whole(value) and value > most:
+        raise bad(name, value, f"at most {most}", usual or "a smaller number")
+    expected = {0: "a whole number, 0 or more", 1: "a whole number above 0"}
+    suggestion = usual or ("0" if least == 0 else f"{least} or more")
+    raise bad(name, value, expected.get(least, f"a whole number, at least {least}"), suggestion)

@@ -13,7 +13,7 @@ from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.kinds import place
 from niwaki.errors.messages import MESSAGES
-from niwaki.errors.settings import bad
+from niwaki.errors.settings import MOST, bad, is_whole
 from niwaki.errors.source import Span
 from niwaki.lang.core import Core
 from niwaki.lang.lower import lower
@@ -60,14 +60,8 @@ def task(
 ) -> _engine.Task:
     """A model with its arguments and sketches, ready to be searched; `lock` has the values of held choices."""
     for name, found, least in (("max_steps", max_steps, 1), ("max_memory", max_memory, 1 << 20)):
-        if not isinstance(found, int) or not least <= found < 2**63:
-            raise InputError(
-                "bad-setting",
-                name=name,
-                found=repr(found),
-                expected=f"a whole number, at least {least}",
-                suggestion=f"{least} or more",
-            )
+        if not is_whole(found) or not least <= found <= MOST:
+            raise bad(name, found, f"a whole number, at least {least}", f"{least} or more")
     program = model.program()
     given = arguments(model, args, kwargs or {})
     try:

@@ -95,7 +95,9 @@ class _Namer(ast.NodeTransformer):
         self.root = root
 
     def _hook(self, name: str, args: list[ast.expr], keywords: list[ast.keyword], at: ast.AST) -> ast.Call:
-        hook = ast.Attribute(ast.Name(HOOK, ast.Load()), name, ast.Load())
+        hook = ast.copy_location(ast.Attribute(ast.Name(HOOK, ast.Load()), name, ast.Load()), at)
+        # CPython takes the line on which an attribute ends as that of its call.
+        hook.end_lineno, hook.end_col_offset = hook.lineno, hook.col_offset
         built = ast.copy_location(ast.Call(hook, args, keywords), at)
         return ast.fix_missing_locations(built)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-from functools import cached_property
 from os import PathLike, cpu_count
 from pathlib import Path
 from typing import Any
@@ -18,14 +17,16 @@ from niwaki import draw, gallery, guides
 from niwaki._engine import Shape
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.svg import svg
+from niwaki.draw.limits import LARGEST
 from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
-from niwaki.errors.settings import bad
+from niwaki.errors.settings import bad, count
 from niwaki.guides.traces import best_of
 from niwaki.letters import glyphs
 from niwaki.letters.glyphs import PIXEL, Letter, Piece
 from niwaki.methods import at_least_one, smc
+from niwaki.once import cached_property
 from niwaki.search.checks import check_threads, fresh
 
 #: Models that write.
@@ -118,7 +119,7 @@ class Word:
 
     def picture(self, width: int = 1600) -> Image:
         """The page as an image, so many pixels wide."""
-        at_least_one("width", width)
+        count("width", width, most=LARGEST)
         return drawing(self.scene, size=self.size(width), style=self.style, window=self.window)
 
     def svg(self) -> str:

@@ -9,6 +9,7 @@ guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
 method      the base class: a method as data
 checks      checks of settings
+room        whether the counts of a method fit into memory
 """
 
 from niwaki.methods.chains import STRATEGIES, Mh, mh

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad, is_whole
+from niwaki.errors.settings import bad, count, is_whole, shown
 from niwaki.methods import kernels
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
@@ -13,15 +13,12 @@ from niwaki.methods.kernels import Kernel
 
 def at_least_one(name: str, value: int) -> int:
     """The value, where it is a whole number above zero."""
-    if not is_whole(value) or value < 1:
-        raise bad(name, value, "a whole number above 0", "1 or more")
-    return value
+    return count(name, value)
 
 
 def from_zero(name: str, value: int, usual: str = "0") -> None:
     """Refuse what is not a whole number, 0 or more."""
-    if not is_whole(value) or value < 0:
-        raise bad(name, value, "a whole number, 0 or more", usual)
+    count(name, value, 0, usual=usual)
 
 
 def proposal(kernel: Any) -> None:
@@ -57,13 +54,13 @@ def one_of(name: str, value: str, known: tuple[str, ...]) -> None:
 
 def samples(n: int) -> None:
     """Refuse a number of samples that is none."""
-    if not is_whole(n) or n < 1:
-        raise InputError("no-samples", detail=f"n={n!r}")
+    if is_whole(n) and n < 1:
+        raise InputError("no-samples", detail=f"n={shown(n)}")
+    count("n", n)
 
 
 def particles(n: int, least: int = 1) -> None:
     """Refuse a number of particles that is too small."""
-    if not is_whole(n) or n < 1:
-        raise InputError("no-particles", found=repr(n))
-    if n < least:
-        raise bad("particles", n, f"a whole number, at least {least}", "100")
+    if is_whole(n) and n < 1:
+        raise InputError("no-particles", found=shown(n))
+    count("particles", n, least, usual="100")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import bad, count, is_number
 from niwaki.methods.checks import at_least_one, one_of
 from niwaki.methods.method import Method
 
@@ -72,7 +72,7 @@ class Hmc(Method):
         _check(self)
         if not is_number(self.jitter) or not 0 <= self.jitter <= 1:
             raise bad("jitter", self.jitter, "a share in [0, 1]", "0.5")
-        _count("steps", self.steps)
+        count("steps", self.steps, most=MOST, usual="100")
 
 
 @dataclass(frozen=True)
@@ -104,8 +104,7 @@ class Nuts(Method):
     def __post_init__(self) -> None:
         """Check the settings."""
         _check(self)
-        if not is_whole(self.max_depth) or not 1 <= self.max_depth <= 20:
-            raise bad("max_depth", self.max_depth, "a whole number from 1 to 20", "10")
+        count("max_depth", self.max_depth, 1, 20, "10")
 
 
 hmc, nuts = Hmc, Nuts
@@ -133,22 +132,14 @@ def explore(draws: int = 8, chains: int = 128, warmup: int = 6, steps: int = 30,
 def _check(method: Hmc | Nuts) -> None:
     """Check what both have in common."""
     for name, usual in (("warmup", "1000"), ("climb", "100")):
-        value = getattr(method, name)
-        if not is_whole(value) or not 0 <= value <= MOST:
-            raise bad(name, value, f"a whole number from 0 to {MOST}", usual)
+        count(name, getattr(method, name), 0, MOST, usual)
     if not is_number(method.target_accept) or not 0 < method.target_accept < 1:
         raise bad("target_accept", method.target_accept, "a share between 0 and 1", "0.8")
     step = method.step_size
     if step is not None and (not is_number(step) or not 0 < step < float("inf")):
         raise bad("step_size", step, "a number above 0", "0.1, or leave it out")
     one_of("metric", method.metric, METRICS)
-    _count("draws", method.draws)
-    _count("thin", method.thin)
+    for name in ("draws", "thin"):
+        count(name, getattr(method, name), most=MOST, usual="1000")
     for name in ("chains", "tries"):
         at_least_one(name, getattr(method, name))
-
-
-def _count(name: str, value: int) -> None:
-    """Refuse a number of transitions or steps that the engine cannot count."""
-    if at_least_one(name, value) > MOST:
-        raise bad(name, value, f"at most {MOST}", "1000")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.inputs import bytes_of
+from niwaki.once import cached_property
 
 
 class Guide:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import bad, count, is_number
 from niwaki.methods.checks import at_least_one, guided
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
@@ -59,8 +59,7 @@ class Improve(Method):
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         at_least_one("particles", self.particles)
-        if not is_whole(self.regrow) or self.regrow < 2:
-            raise bad("regrow", self.regrow, "a whole number of particles from 2 on", "20")
+        count("regrow", self.regrow, 2, usual="20")
         if not is_number(self.power) or not 0 < self.power < float("inf"):
             raise bad("power", self.power, "a number above 0", "16")
         for name in ("rounds", "diverse"):

@@ -25,7 +25,7 @@ from msgspec import Struct
 
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import MOST, bad, count, is_number
 from niwaki.methods.guide import Guide
 
 __all__ = [
@@ -556,8 +556,4 @@ def _share(name: str, value: Any) -> float:
 
 
 def _whole(name: str, value: int, least: int, most: int | None = None) -> int:
-    if not is_whole(value) or value < least:
-        raise bad(name, value, f"a whole number, at least {least}", str(least))
-    if most is not None and value > most:
-        raise bad(name, value, f"a whole number, at most {most}", str(most))
-    return value
+    return count(name, value, least, MOST if most is None else most, str(least))

@@ -7,7 +7,7 @@ from dataclasses import InitVar, dataclass
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import MOST, bad, is_number, is_whole, shown
 from niwaki.methods.checks import at_least_one, one_of
 from niwaki.methods.checks import guided as with_guide
 from niwaki.methods.checks import particles as check_particles
@@ -112,9 +112,9 @@ class Smc(Method):
                 if given is not None and not (name == "particles" and is_whole(given)):
                     raise bad(name, given, "no number of populations beside `seconds`", "None")
             self._set("seconds", float(self.seconds))
-        if not isinstance(self.particles, int):
+        if isinstance(self.particles, (list, tuple, range)):
             self._set("particles", tuple(self.particles))
-        sizes = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        sizes: Any = self.particles if isinstance(self.particles, tuple) else (self.particles,)
         for size in sizes or (0,):
             check_particles(size)
         one_of("order", self.order, ORDERS)
@@ -139,7 +139,7 @@ class Smc(Method):
 
     def _check_moves(self) -> None:
         at_least_one("moves", self.moves)
-        if self.at not in MOMENTS and (not is_whole(self.at) or int(self.at) < 1):
+        if self.at not in MOMENTS and (not is_whole(self.at) or not 1 <= int(self.at) <= MOST):
             raise bad("at", self.at, 'a number of barriers, "resampled" or "end"', "1")
         at_least_one("chains", self.chains)
         if self.draws is not None:
@@ -267,10 +267,10 @@ smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh
 def _check_power(method: Smc | ParticleGibbs | Pimh) -> None:
     """Check the power, and when to resample."""
     if not is_number(method.power) or not 0 < method.power < float("inf"):
-        raise InputError("bad-power", found=repr(method.power))
+        raise InputError("bad-power", found=shown(method.power))
     method._set("power", float(method.power))
     if method.ess is not None and (not is_number(method.ess) or not 0 <= method.ess <= 1):
-        raise InputError("bad-threshold", found=repr(method.ess))
+        raise InputError("bad-threshold", found=shown(method.ess))
 
 
 def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:

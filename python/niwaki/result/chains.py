@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
-from niwaki.lang.compiled import as_fault
+from niwaki.lang.compiled import as_fault, translated
 from niwaki.methods import Mh
 from niwaki.methods.kernels import Kernel
+from niwaki.once import cached_property
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
 from niwaki.result.info import Info
@@ -140,10 +140,13 @@ class MhInfo(Info):
         Raises
         ------
         InputError
-            The result was pickled, and its chains stayed behind.
+            The result was pickled, and its chains stayed behind; or they were moving when this process was forked, or
+            are moving and this is their `progress`.
         """
         if self._running is None:
             raise InputError("chains-gone", name=self.search.model.name)
+        with translated(self.search.model.name):
+            self._running.chains.check()
         return self._running
 
     def samples_of(self, runs: Iterable[_engine.Run]) -> list[Sample]:

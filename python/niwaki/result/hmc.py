@@ -9,7 +9,6 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from niwaki import _engine
 from niwaki.errors import ModelFault
 from niwaki.lang.compiled import as_fault, translated
 from niwaki.methods import Hmc, Nuts
+from niwaki.once import cached_property
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.info import Info
 from niwaki.result.sample import Sample

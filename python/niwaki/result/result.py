@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import cached_property
 from itertools import accumulate, pairwise
 from os import PathLike
 from pathlib import Path
@@ -24,6 +23,7 @@ from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import Model
 from niwaki.methods import Method, Mh, at_least_one
+from niwaki.once import cached_property
 from niwaki.result import diagnostics
 from niwaki.result.chains import MhInfo
 from niwaki.result.hmc import HmcInfo, together

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,6 +10,7 @@ from niwaki import _engine, draw
 from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
+from niwaki.once import cached_property
 from niwaki.result import parts
 from niwaki.result.gradient import LogDensity
 from niwaki.targets.target import Target

@@ -20,18 +20,19 @@ import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.schema import Unfit, decoded, fitted, shown
-from niwaki.errors.settings import bad, is_whole
+from niwaki.errors.settings import bad, count, is_whole
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Guide, Method, Mh
+from niwaki.once import cached_property
 from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
@@ -120,8 +121,7 @@ class Search:
         ):
             if not isinstance(getattr(self, name), kind):
                 raise bad(name, getattr(self, name), f"a {kind.__name__.lower()}", suggestion)
-        if not isinstance(self.runs, int) or isinstance(self.runs, bool) or self.runs < 1:
-            raise bad("runs", self.runs, "a whole number above 0", "1 or more")
+        count("runs", self.runs)
         if self.keep not in KEEP:
             raise bad("keep", self.keep, '"all" or "best"', '"all"')
         if self.polish is not None:

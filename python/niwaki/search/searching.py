@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
+from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
 from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, at_least_one
+from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
@@ -173,6 +175,7 @@ def _start(search: Search, seed: int) -> _engine.Run | None:
 
 def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> Result:
     """One run of a search, with one seed."""
+    check_method(search.method)
     start = _start(search, seed)
     if isinstance(search.method, Mh):
         return chains_of(search, search.method, seed, threads, watch, start)
@@ -296,7 +299,7 @@ def regrown(
         seed = search.seed if sample.seed is None else sample.seed
     check_seed(seed)
     check_threads(threads)
-    at_least_one("particles", particles)
+    check_room("particles", at_least_one("particles", particles), PARTICLE, "particle")
     if power is None:
         power = getattr(search.method, "power", 1.0)
     if not sample.has_ended:
@@ -316,6 +319,7 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
     only what depends on it. So chains improve the best of a population.
     """
     check_polish(method)
+    check_method(method)
     check_seed(seed)
     check_threads(threads)
     best = result.best

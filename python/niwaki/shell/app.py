@@ -16,6 +16,7 @@ from niwaki.errors import FileError
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
     "models": "List the gallery: name, target, title.",
+    "studio": "Open a page in the browser to grow models by hand.",
     "grow": "Grow a model into its target.",
     "replay": "Write the best result of a search again, in any format.",
     "check": "Compile a model and report what it is made of, with advice.",

@@ -10,7 +10,9 @@ import typer
 
 from niwaki import color as coloring
 from niwaki import methods, search
+from niwaki.draw.limits import LARGEST
 from niwaki.errors.folders import held_folder
+from niwaki.errors.settings import count as whole
 from niwaki.shell.app import Folder, app
 
 
@@ -40,8 +42,9 @@ def color(
     ] = None,
 ) -> None:
     """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
-    for flag, value in (("--count", count), ("--size", size), ("--measure", measure)):
-        methods.at_least_one(flag, value)
+    methods.at_least_one("--count", count)
+    for flag, value in (("--size", size), ("--measure", measure)):
+        whole(flag, value, most=LARGEST)
     seed = search.fresh(seed)
     read = coloring.Drawing.load(drawing, measure)
     asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)

@@ -13,9 +13,10 @@ from rich.console import Console
 
 from niwaki import letters as writing
 from niwaki import search
+from niwaki.draw.limits import LARGEST
 from niwaki.errors.folders import held_folder
+from niwaki.errors.settings import count
 from niwaki.letters.word import PARTICLES, STYLES, TRIES
-from niwaki.methods import at_least_one
 from niwaki.shell.app import Folder, app
 
 
@@ -41,7 +42,7 @@ def letters(
     ] = None,
 ) -> None:
     """Write TEXT in vines or lightning; writes word.png, word.svg and growth.gif."""
-    at_least_one("--width", width)
+    count("--width", width, most=LARGEST)
     seed = search.fresh(seed)
     start = time.perf_counter()
     with held_folder(output or Path("out")) as folder:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
-
 from niwaki.errors import InputError
+from niwaki.errors.memory import free_memory
 
 #: Memory that a mesh takes while it is checked and filled, and while its file is read: measured on closed meshes of a
 #: million and ten million triangles, the worst of the formats.
@@ -14,7 +13,7 @@ BYTES_PER_BYTE = 20
 
 def check_memory(name: str, what: str, needed: int) -> None:
     """Refuse a mesh that would not fit while it is read, checked and filled."""
-    free = _free_memory()
+    free = free_memory()
     if needed > free:
         raise InputError(
             "mesh-too-large",
@@ -23,18 +22,3 @@ def check_memory(name: str, what: str, needed: int) -> None:
             needed=f"{needed / 1e9:.1f} GB",
             free=f"{free / 1e9:.1f} GB",
         )
-
-
-def _free_memory() -> int:
-    """Bytes that a program can still get; without an answer of the system, as many as there can be."""
-    try:
-        with open("/proc/meminfo", encoding="ascii") as lines:
-            for line in lines:
-                if line.startswith("MemAvailable:"):
-                    return int(line.split()[1]) * 1024
-    except (OSError, ValueError):
-        pass
-    try:
-        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, OSError, ValueError):
-        return 1 << 62

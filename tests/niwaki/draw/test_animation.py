@@ -9,7 +9,7 @@ import pytest
 from niwaki._engine import Shape
 from niwaki.draw.animation import animate, growth
 from niwaki.draw.scene import Scene
-from niwaki.errors import FileError
+from niwaki.errors import FileError, InputError
 from PIL import Image
 
 SMALL = {"size": (96, 72), "samples": 1}
@@ -82,6 +82,6 @@ def test_bad_settings_are_refused_and_leave_nothing(tmp_path: Path) -> None:
         with pytest.raises(FileError) as caught:
             animate(states, tmp_path / name, **{**SMALL, **settings})
         assert caught.value.code == code
-    with pytest.raises(FileError):
+    with pytest.raises(InputError, match="frames"):
         growth(row(), tmp_path / "row.gif", frames=0)
     assert list(tmp_path.iterdir()) == []

@@ -14,7 +14,7 @@ from niwaki import _engine
 from niwaki._engine import Shape
 from niwaki.draw.picture import picture
 from niwaki.draw.scene import Scene
-from niwaki.errors import FileError
+from niwaki.errors import FileError, InputError
 from niwaki.targets import examples as targets
 from PIL import Image
 
@@ -101,7 +101,7 @@ def test_bad_settings_are_refused() -> None:
     with pytest.raises(FileError, match="backdrop"):
         picture(block(), backdrop="beach")  # type: ignore[arg-type]
     for settings in ({"size": (0, 10)}, {"size": (10, 10), "samples": 0}):
-        with pytest.raises((ValueError, FileError), match=r"width|samples"):
+        with pytest.raises(InputError, match=r"width|samples"):
             picture(block(), **settings)
     vertices, faces, normals = _engine.fine_mesh(block().parts[0].shapes[0])
     with pytest.raises(ValueError, match="mesh 0: vertex 0 is not finite"):

@@ -6,7 +6,7 @@ import pytest
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
-from niwaki.errors import FileError
+from niwaki.errors import FileError, InputError
 
 
 def blocks(count: int) -> list[Scene]:
@@ -26,5 +26,5 @@ def test_bad_settings_are_refused() -> None:
         sheet([])
     with pytest.raises(FileError, match="captions"):
         sheet(blocks(2), ["one"])
-    with pytest.raises(FileError, match="columns"):
+    with pytest.raises(InputError, match="columns"):
         sheet(blocks(2), columns=0)

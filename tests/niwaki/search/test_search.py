@@ -14,7 +14,7 @@ from typing import Any
 
 import niwaki as nw
 import pytest
-from niwaki.errors import NiwakiError
+from niwaki.errors import NiwakiError, memory
 from niwaki.gallery import entry
 
 GOLDEN = Path(__file__).parents[2] / "golden"
@@ -192,6 +192,9 @@ PROGRAMS = {
 
 SETTINGS: dict[str, Callable[[], Any]] = {
     "particles": lambda: nw.smc(particles=0),
+    "a number of particles that is none": lambda: nw.smc(1.5),
+    "a number of particles of many digits": lambda: nw.smc(10**5000),
+    "particles that do not fit": lambda: nw.run(COINS, nw.smc(10**15)),
     "power": lambda: nw.smc(power=-1.0),
     "ess": lambda: nw.smc(ess=3.0),
     "order": lambda: nw.smc(order="random"),
@@ -257,6 +260,7 @@ def test_messages_of_models_that_fail(golden: Any) -> None:
     golden(GOLDEN / "searches.txt", "\n".join(found))
 
 
-def test_messages_of_settings(golden: Any) -> None:
+def test_messages_of_settings(golden: Any, monkeypatch: Any) -> None:
+    monkeypatch.setattr(memory, "free_memory", lambda: 8 * 10**9)
     found = [f"## {name}\n\n{refused(ask)}\n" for name, ask in SETTINGS.items()]
     golden(GOLDEN / "settings.txt", "\n".join(found))

@@ -174,7 +174,7 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     ]
     whole = cube()
     found.append(warned(lambda: nw.Target(whole.vertices, whole.faces[1:], "a cube with a hole")))
-    monkeypatch.setattr("niwaki.targets.memory._free_memory", lambda: 1000)
+    monkeypatch.setattr("niwaki.targets.memory.free_memory", lambda: 1000)
     found += [
         refused(lambda: nw.Target(np.eye(3), np.tile([0, 1, 2], (10_000_000, 1)), "a scan")),
         refused(lambda: nw.Receiver.load(lines)).replace(str(tmp_path), "targets"),

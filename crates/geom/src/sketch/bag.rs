@@ -8,6 +8,7 @@
 
 use super::same_bag;
 use crate::bounds::Aabb;
+use crate::once::Once;
 use crate::primitive::Primitive;
 use crate::tree::{BoxTree, Boxed};
 use std::sync::{Arc, OnceLock};
@@ -89,7 +90,7 @@ impl<M: Clone> Bag<M> {
         let removed = tree.remove(primitive.aabb(), |p| p.primitive == *primitive);
         self.bounds = tree.bounds();
         self.held = Held::Tree(tree);
-        removed.map(|item| item.mark.get_or_init(mark).clone())
+        removed.map(|item| item.mark.once(mark).clone())
     }
 
     /// Becomes a tree, as by the first removal: copies then share it.

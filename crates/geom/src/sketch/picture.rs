@@ -18,6 +18,7 @@ use super::bag::Bag;
 use super::tiles::Tiles;
 use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use crate::error::GeomError;
+use crate::once::Once;
 use crate::primitive::Primitive;
 use crate::view::camera::check_size;
 use crate::view::{Cover, Rays};
@@ -165,7 +166,7 @@ impl Picture {
 
     fn plate(&self) -> &Plate {
         let on = |ray: usize| self.on[ray / 64] >> (ray % 64) & 1 == 1;
-        self.plate.get_or_init(|| Plate::new(&self.rays, self.size, on))
+        self.plate.once(|| Plate::new(&self.rays, self.size, on))
     }
 
     fn amount(&self, word: usize, rays: u64) -> Amount {

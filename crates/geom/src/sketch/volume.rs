@@ -17,6 +17,7 @@ use super::{Sketch, SketchSpec, log_normal, share};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
+use crate::once::Once;
 use crate::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
 use crate::window::solid::{Sums, Volume, sums_of};
@@ -75,7 +76,7 @@ impl Target {
 
     /// Wanted and empty cells by boxes, brick by brick.
     pub(crate) fn sums(&self) -> &[Sums] {
-        self.sums.get_or_init(|| sums_of(&self.planes, self.grid.dims()))
+        self.sums.once(|| sums_of(&self.planes, self.grid.dims()))
     }
 
     /// Number of cells that the target and `voxels`, of the same grid, both fill.

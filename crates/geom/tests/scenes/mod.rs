@@ -1,4 +1,5 @@
 //! Random shapes for tests, from a small generator of their own, so that a seed always gives the same scene.
+#![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 // Each test file uses a part of it.
 #![allow(dead_code)]

@@ -216,7 +216,7 @@ impl Native {
         if !self.gradient(x, g) {
             return None;
         }
-        let Rest(rest) = self.rest.as_ref().expect("complete");
+        let Rest(rest) = self.rest.as_ref().expect("`Compiled` calls this only where the code `is_complete`");
         // SAFETY: `gradient` checked the lengths.
         unsafe { rest.run(x, g, &mut self.scratch) };
         Some(self.scratch[self.shared.value])

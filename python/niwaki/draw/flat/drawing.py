@@ -11,6 +11,7 @@ from PIL import Image, ImageChops, ImageDraw, ImageFilter
 
 from niwaki.draw.flat.marks import Mark, Rgb, marks, style_of
 from niwaki.draw.flat.strokes import Point
+from niwaki.draw.limits import check_size
 from niwaki.draw.scene import Scene
 
 #: The factor by which a drawing is larger before its edges are made smooth.
@@ -58,6 +59,7 @@ def drawing(
         RGBA.
     """
     chosen = style_of(style)
+    check_size(size, fine=FINE)
     left, top, scale = framing(scene if like is None else like, window, size, margin)
     wide = size[0] * FINE, size[1] * FINE
     paper = tuple(round(255 * part) for part in chosen.paper)

@@ -23,6 +23,14 @@ CHAINS = (
         cure='kernels.on("width", kernels.drift())',
     ),
     Message(
+        "in-use",
+        "these chains cannot be used here",
+        why="what moves is only half changed; in a child of a fork the thread that moves it is not there",
+        help="wait for their end; fork before they move, or go on in the parent",
+        example="os.fork() while another thread is in `result.more(10_000)`",
+        cure="result.more(10_000); os.fork()",
+    ),
+    Message(
         "bad-kernel",
         "this kernel cannot run",
         help="see `niwaki.kernels`",

@@ -21,6 +21,14 @@ SETTINGS = (
         cure="smc(100)",
     ),
     Message(
+        "no-room",
+        "`{name}` asks for {asked}, which do not fit into memory",
+        why="each {what} takes at least {each}, together {needed}; {free} are free",
+        help="ask for fewer: at most {fit}",
+        example="run(model, method=importance(10**9))",
+        cure="run(model, method=importance(10**6))",
+    ),
+    Message(
         "machine-limit",
         "the model is too large for the machine",
         why="the compiler says: {found}",

@@ -1,0 +1,118 @@
+//! The threads of the engine: the pools in which its parallel parts run, also after a fork.
+//!
+//! A fork copies the memory of a process, but of its threads only the one that calls it. A pool from before has no thread
+//! in the child, so work that is given to it is never done. Here a pool knows the process that made it: a child builds
+//! its own. Everything in this crate that can run in parallel is inside of [`Pool::inside`]; the pool that Rayon would
+//! make for the whole process has no such memory, and is never used.
+//!
+//! A search borrows a pool for as long as it runs. So searches side by side, and a search that a host function of another
+//! one calls, never wait for each other's threads.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::{Mutex, PoisonError};
+
+/// Pools that wait for work, the last used at the end.
+///
+/// This lock is taken only with the interpreter's lock, which is not given away meanwhile. A fork of Python has the
+/// interpreter's lock, too, so no child finds this one taken.
+static IDLE: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
+
+/// How many pools wait at most.
+const KEPT: usize = 4;
+
+/// Threads of one process.
+pub struct Pool {
+    threads: ThreadPool,
+    /// How many were asked for; `None` for as many as `RAYON_NUM_THREADS` or the machine says.
+    asked: Option<usize>,
+    process: u32,
+}
+
+impl Pool {
+    /// A pool for one search: one that waits, or else a new one.
+    ///
+    /// # Errors
+    /// The system gives no more threads.
+    pub fn borrow(py: Python<'_>, asked: Option<usize>) -> PyResult<Pool> {
+        let process = std::process::id();
+        let mut idle = waiting(py);
+        // Dropping a pool of the parent would tell threads that are not there to end.
+        for foreign in idle.extract_if(.., |pool| pool.process != process) {
+            std::mem::forget(foreign);
+        }
+        if let Some(at) = idle.iter().rposition(|pool| pool.asked == asked) {
+            return Ok(idle.remove(at));
+        }
+        let builder = ThreadPoolBuilder::new().thread_name(|number| format!("niwaki {number}"));
+        // Rayon's word for "as many as the machine has" is 0.
+        let builder = builder.num_threads(asked.map_or(0, |n| n.max(1)));
+        let threads = builder.build().map_err(|error| {
+            PyRuntimeError::new_err(format!("no threads for the search: {error}; use fewer `threads`"))
+        })?;
+        // Each thread has worked before the interpreter's lock is given away, and a fork is possible: what threads set up for
+        // the whole process (the allocator's list of them, the collector of their queues) is then complete.
+        apart(|| threads.broadcast(|_| ()));
+        Ok(Pool { threads, asked, process })
+    }
+
+    /// Gives the pool back, for the next search.
+    pub fn give_back(self, py: Python<'_>) {
+        let mut idle = waiting(py);
+        if idle.len() == KEPT {
+            idle.remove(0);
+        }
+        idle.push(self);
+    }
+
+    /// Runs `work` on a thread of this pool, where its parallel parts find the others, and waits for it.
+    pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        apart(|| self.threads.install(work))
+    }
+
+    /// Starts `work` on a thread of this pool, and runs `meanwhile` beside it; gives the result of `work`, once both have
+    /// ended.
+    pub fn beside<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+        meanwhile: impl FnOnce() + Send,
+    ) -> Option<T> {
+        let mut done = None;
+        let place = &mut done;
+        apart(|| {
+            self.threads.in_place_scope(|scope| {
+                scope.spawn(move |_| *place = Some(work()));
+                meanwhile();
+            });
+        });
+        done
+    }
+
+    /// Runs `work` without the interpreter's lock, its parallel parts on all threads.
+    ///
+    /// # Errors
+    /// As for [`Pool::borrow`].
+    pub fn inside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+        let pool = Pool::borrow(py, None)?;
+        let result = py.detach(|| pool.run(work));
+        pool.give_back(py);
+        Ok(result)
+    }
+}
+
+/// The pools that wait; the caller has the interpreter's lock.
+fn waiting(_: Python<'_>) -> std::sync::MutexGuard<'static, Vec<Pool>> {
+    IDLE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Runs `work` here; if this is a thread of a pool (a host function searches), on a thread of its own. A thread of a pool
+/// that waits for another pool takes up other work of its own meanwhile, and would come back only after that.
+fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    if rayon::current_thread_index().is_none() {
+        return work();
+    }
+    std::thread::scope(|scope| {
+        scope.spawn(work).join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}

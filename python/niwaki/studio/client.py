@@ -1,0 +1,150 @@
+"""A script's way to the studio: every message that the page sends, and every answer that it gets.
+
+with niwaki.studio.connect("http://127.0.0.1:8000", key) as studio:
+    studio.ask("model", reference="spaceship")
+    studio.ask("run")
+    print(studio.view["results"])
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from contextlib import ExitStack
+from itertools import count
+from types import TracebackType
+from typing import Any, Self
+
+import msgspec
+from websockets.sync.client import ClientConnection
+from websockets.sync.client import connect as dial
+
+from niwaki.errors import NiwakiError
+from niwaki.studio.frames import opened
+from niwaki.studio.messages import PROTOCOL, Command, Shape
+
+
+class StudioError(NiwakiError):
+    """A command was refused, or its work failed; with the text that the page shows."""
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(code)
+        self.code, self.text = code, text
+
+    def render(self) -> str:
+        """The text."""
+        return self.text
+
+
+class Studio:
+    """A connection to a studio.
+
+    Attributes
+    ----------
+    view : dict
+        What every window shows, up to date with the last message that was read.
+    shapes : list of (Shape, bytes)
+        The shapes that have come.
+    events : list of dict
+        Every event that has come.
+    """
+
+    def __init__(self, url: str, key: str) -> None:
+        address = url.replace("http://", "ws://", 1).rstrip("/") + "/socket"
+        headers = {"Authorization": f"Bearer {key}"}
+        self._open = ExitStack()
+        dialled = dial(address, additional_headers=headers, max_size=None, compression=None, proxy=None)
+        self._socket: ClientConnection = self._open.enter_context(dialled)
+        self._ids = count(1)
+        self.view: dict[str, Any] = {}
+        self.session = ""
+        self.shapes: list[tuple[Shape, bytes]] = []
+        self.events: list[dict[str, Any]] = []
+        self.ask("hello", protocol=PROTOCOL)
+
+    def send(self, kind: str | Command, **fields: Any) -> int:
+        """Send a command, by its kind and its fields, and return its number."""
+        number = next(self._ids)
+        data = msgspec.to_builtins(kind) if isinstance(kind, Command) else {"kind": kind, **fields}
+        self._socket.send(json.dumps({**msgspec.to_builtins(data), "id": number}))
+        return number
+
+    def ask(self, kind: str | Command, timeout: float = 60.0, **fields: Any) -> dict[str, Any]:
+        """Send a command, and wait until its work is done.
+
+        Returns
+        -------
+        dict
+            The last answer that was more than `done`, or that.
+
+        Raises
+        ------
+        StudioError
+            It was refused or failed.
+        """
+        return self.wait(self.send(kind, **fields), timeout)
+
+    def wait(self, number: int, timeout: float = 60.0) -> dict[str, Any]:
+        """Read messages until a command is done."""
+        found: dict[str, Any] = {}
+        end = time.monotonic() + timeout
+        while True:
+            event = self.read(end - time.monotonic())
+            if event.get("id") != number or event["kind"] == "shape":
+                continue
+            if event["kind"] == "error":
+                raise StudioError(event["problem"]["code"], event["problem"]["text"])
+            if event["kind"] != "done":
+                found = event
+            if event["kind"] in ("done", "state"):
+                return found or event
+
+    def read(self, timeout: float = 60.0) -> dict[str, Any]:
+        """Read one message.
+
+        Raises
+        ------
+        TimeoutError
+            None came.
+        """
+        data = self._socket.recv(max(timeout, 0.0))
+        if isinstance(data, bytes):
+            header, payload = opened(data)
+            shape = msgspec.json.decode(header, type=Shape)
+            self.shapes.append((shape, bytes(payload)))
+            event: dict[str, Any] = {"kind": "shape", **msgspec.to_builtins(shape)}
+        else:
+            event = json.loads(data)
+        if event["kind"] == "state":
+            self.view, self.session = event["view"], event["session"]
+        elif event["kind"] == "patch":
+            self.view |= event["changes"]
+        self.events.append(event)
+        return event
+
+    def close(self) -> None:
+        """End the connection."""
+        self._open.close()
+
+    def __enter__(self) -> Self:
+        """Itself."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """End the connection."""
+        self.close()
+
+
+def connect(url: str, key: str) -> Studio:
+    """Connect to a studio.
+
+    Parameters
+    ----------
+    url
+        Where it is: `http://127.0.0.1:PORT`.
+    key
+        Its key; the file `key` in the session's folder has both.
+    """
+    return Studio(url, key)

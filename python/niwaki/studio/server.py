@@ -1,0 +1,178 @@
+"""The server: the page's files, the socket, uploads and exported files. It never imports a model.
+
+GET  /            the page (and /app.js, /app.css)
+GET  /open        the link that the terminal shows (`niwaki.studio.security`)
+GET  /socket      a websocket: JSON both ways, geometry as frames
+POST /upload      a mesh; `?name=ship.obj` says its format
+GET  /file/HASH   what was exported
+"""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import json
+import re
+import sys
+import tempfile
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from starlette.applications import Starlette
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from niwaki.studio.messages import AnyCommand, Failed, Problem
+from niwaki.studio.security import Guard
+from niwaki.studio.session import Session
+from niwaki.studio.window import Window
+
+#: The page's files: no other path is read.
+PAGE = {"/": "index.html", "/app.js": "app.js", "/app.css": "app.css", "/inter.woff2": "inter.woff2"}
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".woff2": "font/woff2",
+}
+
+#: Bytes of a command; of a mesh that is sent, and how many seconds may pass while it comes.
+COMMAND, UPLOAD, PATIENCE = 1 << 20, 64 << 20, 60.0
+#: Seconds in which a mesh has to be read.
+READING = 60.0
+#: Windows and scripts at one time.
+WINDOWS = 32
+
+MESHES = (".obj", ".stl", ".ply", ".glb", ".gltf")
+_decode = msgspec.json.Decoder(AnyCommand).decode
+
+
+def application(session: Session, port: int) -> Guard:
+    """The application, guarded."""
+
+    async def page(request: Request) -> Response:
+        name = PAGE[request.url.path]
+        place = files("niwaki.studio").joinpath("page").joinpath(name)
+        return Response(place.read_bytes(), media_type=TYPES[Path(name).suffix])
+
+    async def file(request: Request) -> Response:
+        name = request.path_params["hash"]
+        folder = session.journal.folder / "files" / name
+        if not re.fullmatch("[0-9a-f]{64}", name) or not folder.is_dir():
+            return PlainTextResponse("no such file\n", 404)
+        place = next(folder.iterdir())
+        return FileResponse(place, filename=place.name, content_disposition_type="attachment")
+
+    async def upload(request: Request) -> Response:
+        suffix = Path(request.query_params.get("name", "")).suffix.lower()
+        if suffix not in MESHES:
+            return _refused(415, "file-format", f"a mesh is one of {', '.join(MESHES)}")
+        declared = request.headers.get("content-length", "0")
+        if not declared.isdecimal() or int(declared) > UPLOAD:
+            return _too_large()
+        body = bytearray()
+        try:
+            async with asyncio.timeout(PATIENCE):
+                async for chunk in request.stream():
+                    body += chunk
+                    if len(body) > UPLOAD:
+                        return _too_large()
+        except TimeoutError:
+            return _refused(408, "too-slow", f"it did not arrive within {PATIENCE:.0f} s")
+        except ClientDisconnect:
+            return _refused(400, "cut-short", "it was cut short")
+        return await _read(bytes(body), suffix, session.journal.folder / "uploads")
+
+    routes: list[Any] = [Route(path, page) for path in PAGE]
+    routes += [Route("/file/{hash}", file), Route("/upload", upload, methods=["POST"])]
+    return Guard(Starlette(routes=[*routes, WebSocketRoute("/socket", _socket(session))]), port)
+
+
+def _socket(session: Session) -> Any:
+    """The end of a socket."""
+
+    async def socket(connection: WebSocket) -> None:
+        if len(session.windows) >= WINDOWS:
+            await connection.close(1013)
+            return
+        await connection.accept()
+        window = Window()
+        sending = asyncio.create_task(_send(connection, window))
+        try:
+            while True:
+                text = await connection.receive_text()
+                try:
+                    if len(text) > COMMAND:
+                        raise msgspec.ValidationError("the message is too long")
+                    command = _decode(text)
+                except (msgspec.MsgspecError, UnicodeError) as error:
+                    window.tell(Failed(_id_of(text), Problem("bad-message", f"{error}")))
+                    continue
+                await session.obey(window, command)
+        except (WebSocketDisconnect, KeyError, RuntimeError):
+            # A binary message, or the end.
+            pass
+        finally:
+            session.windows.discard(window)
+            sending.cancel()
+
+    return socket
+
+
+async def _send(connection: WebSocket, window: Window) -> None:
+    async for data in window.waiting():
+        if isinstance(data, str):
+            await connection.send_text(data)
+        else:
+            await connection.send_bytes(data)
+    await connection.close(1013)
+
+
+def _id_of(text: str) -> int:
+    """The number of a message that is refused, where it has one."""
+    try:
+        found = json.loads(text[:COMMAND])
+        return found["id"] if isinstance(found["id"], int) and not isinstance(found["id"], bool) else 0
+    except (ValueError, KeyError, TypeError, RecursionError):
+        return 0
+
+
+async def _read(body: bytes, suffix: str, folder: Path) -> Response:
+    """Read a mesh in a process of its own, and keep what it has read."""
+    name = hashlib.sha256(body).hexdigest()
+    with tempfile.TemporaryDirectory(dir=folder) as place:
+        source, sink = Path(place) / f"mesh{suffix}", Path(place) / "mesh.stl"
+        await asyncio.to_thread(source.write_bytes, body)
+        command = (sys.executable, "-m", "niwaki.studio.worker.uploads", str(source), str(sink))
+        pipe = asyncio.subprocess.PIPE
+        reader = await asyncio.create_subprocess_exec(
+            *command, stdin=asyncio.subprocess.DEVNULL, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
+        )
+        try:
+            async with asyncio.timeout(READING):
+                said, _ = await reader.communicate()
+        except TimeoutError:
+            reader.kill()
+            await reader.wait()
+            return _refused(422, "too-slow", f"it could not be read within {READING:.0f} s")
+        if reader.returncode != 0 or not said.strip():
+            return _refused(
+                422, "mesh-too-large", "it could not be read within the memory that a mesh may take"
+            )
+        found = json.loads(said.splitlines()[-1])
+        if "error" in found:
+            return _refused(422, found.get("code", "file-unreadable"), found["error"])
+        sink.rename(folder / f"{name}.stl")
+    return JSONResponse({"source": f"upload:{name}", **found})
+
+
+def _refused(status: int, code: str, text: str) -> Response:
+    return JSONResponse({"code": code, "text": text}, status)
+
+
+def _too_large() -> Response:
+    return _refused(413, "mesh-too-large", f"a mesh that is sent has at most {UPLOAD >> 20} MB")

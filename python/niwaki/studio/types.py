@@ -1,0 +1,95 @@
+"""The page's types, written from the messages: `python -m niwaki.studio.types FILE` writes them as TypeScript."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any, get_args
+
+from msgspec import inspect as look
+
+from niwaki.studio import messages
+
+HEADER = "// Written from python/niwaki/studio/messages.py by `make studio-page`; change it there.\n"
+
+
+def typescript() -> str:
+    """Every message as an interface, and the unions of commands and of events."""
+    commands = get_args(messages.AnyCommand)
+    events = [one for one in vars(messages).values() if _is_event(one)]
+    known: dict[str, look.StructType] = {}
+    for kind in (*commands, *events, messages.View):
+        _collect(look.type_info(kind), known)
+    blocks = [_interface(kind) for kind in known.values()]
+    blocks.append(_union("Command", commands))
+    blocks.append(_union("Event", events))
+    return "\n".join([HEADER, f"export const PROTOCOL = {messages.PROTOCOL};\n", *blocks])
+
+
+def _is_event(one: Any) -> bool:
+    return isinstance(one, type) and issubclass(one, messages.Event) and one is not messages.Event
+
+
+def _union(name: str, kinds: Any) -> str:
+    return f"export type {name} =\n" + "\n".join(f"  | {kind.__name__}" for kind in kinds) + ";\n"
+
+
+def _collect(kind: look.Type, known: dict[str, look.StructType]) -> None:
+    """The structs that a type names, those that it needs first."""
+    if isinstance(kind, look.StructType):
+        if kind.cls.__name__ in known:
+            return
+        for field in kind.fields:
+            _collect(field.type, known)
+        known[kind.cls.__name__] = kind
+    elif isinstance(kind, look.UnionType):
+        for one in kind.types:
+            _collect(one, known)
+    elif isinstance(kind, look.ListType):
+        _collect(kind.item_type, known)
+
+
+def _interface(kind: look.StructType) -> str:
+    lines = [
+        f"/** {(kind.cls.__doc__ or '').partition(chr(10))[0]} */",
+        f"export interface {kind.cls.__name__} {{",
+    ]
+    is_sent = issubclass(kind.cls, messages.Command) or kind.forbid_unknown_fields
+    if kind.tag_field is not None:
+        lines.append(f'  {kind.tag_field}: "{kind.tag}";')
+    for field in kind.fields:
+        mark = "?" if is_sent and not field.required else ""
+        lines.append(f"  {field.encode_name}{mark}: {_type(field.type)};")
+    return "\n".join([*lines, "}", ""])
+
+
+def _type(kind: look.Type) -> str:
+    match kind:
+        case look.StructType():
+            return kind.cls.__name__
+        case look.UnionType():
+            return " | ".join(dict.fromkeys(_type(one) for one in kind.types))
+        case look.ListType():
+            inner = _type(kind.item_type)
+            return f"({inner})[]" if "|" in inner else f"{inner}[]"
+        case look.TupleType():
+            return f"[{', '.join(_type(one) for one in kind.item_types)}]"
+        case look.DictType():
+            return f"Record<string, {_type(kind.value_type)}>"
+        case look.LiteralType():
+            return " | ".join(f'"{value}"' for value in kind.values)
+        case look.IntType() | look.FloatType():
+            return "number"
+        case look.StrType():
+            return "string"
+        case look.BoolType():
+            return "boolean"
+        case look.NoneType():
+            return "null"
+        case look.AnyType():
+            return "any"
+    raise TypeError(f"no TypeScript for {kind}")
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_text(typescript())

@@ -1,0 +1,122 @@
+"""The work that changes results: a search, a part grown again, a choice that is set."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from math import isfinite
+from typing import Any
+
+import niwaki as nw
+from niwaki.errors import InputError
+from niwaki.lang.compiled import translated
+from niwaki.result import Progress, Result, Sample
+from niwaki.search import Search
+from niwaki.shell.references import ModelReference
+from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow
+from niwaki.studio.worker import asks, models, runs, shapes
+
+#: Rounds of `improve` at effort 1: its own usual number.
+ROUNDS = 15
+#: Particles that grow a part again.
+REGROWN = 100
+
+
+def ghost(job: Ghost, send: Any) -> Answer:
+    """The mesh of the target."""
+    found = models.reference(job.question.model)
+    ask = job.question.ask
+    placed = None if ask.sketch is not None else ask.target or asks.usual(found)
+    if placed is not None:
+        target, foot = asks.placed(placed)
+        many = len(target.faces) > shapes.GHOST_TRIANGLES
+        note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
+        header, payload = shapes.ghost(target, foot, note)
+        header.id = job.id
+        send(header, payload)
+    return Answer()
+
+
+def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
+    """Search for results that differ; the best so far is shown while it runs."""
+    found, asked = asks.search(job.question)
+    settings, begun = job.question.settings, time.perf_counter()
+    shown = [-float("inf")]
+
+    def progress(now: Progress) -> None:
+        sample = now.sample
+        if sample is not None and sample.log_score > shown[0]:
+            shown[0] = sample.log_score
+            send(*_shape(sample, "best", job.id, Key(job.run)))
+        best = shown[0] if isfinite(shown[0]) else None
+        send(Progressed(job.id, now.done, best, time.perf_counter() - begun))
+        check()
+
+    result = nw.grow(
+        found.model,
+        **asked,
+        rounds=max(1, round(ROUNDS * settings.effort)),
+        diverse=settings.count if settings.count > 1 else None,
+        seed=job.seed,
+        lock=runs.given(job.question.lock) or None,
+        progress=progress,
+    )
+    return _answered(result, found, job.run, job.file, "run", send, job.id)
+
+
+def regrow(job: Regrow, send: Any) -> Answer:
+    """Grow a part of a result again, in place, by seeds that follow one another; equal outcomes are given once."""
+    search, choices = _searched(
+        job.question, runs.sample(job.source, job.number), runs.given(job.question.lock)
+    )
+    with translated(search.model.name, choices=choices):
+        whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
+    found: list[Sample] = []
+    for number in range(job.count):
+        one = whole.regrow(job.part, REGROWN, seed=(job.seed + number) % 2**53).best
+        if one.choices not in [choices, *(other.choices for other in found)]:
+            found.append(one)
+    if not found:
+        raise InputError("no-runs", detail=f"`{job.part}` has no other form here")
+    result = Result(search, found, job.seed)
+    return _answered(result, models.reference(job.question.model), job.run, job.file, "regrow", send, job.id)
+
+
+def change(job: Change, send: Any) -> Answer:
+    """Run with the choices of a result, some of them changed; choices that it newly makes are drawn from the seed."""
+    one = runs.sample(job.source, job.number)
+    search, choices = _searched(job.question, one, None)
+    choices |= runs.given(job.changes)
+    with translated(search.model.name, choices=choices):
+        trace = search.task.replay(choices, search.seed)
+    sample = Sample.of_trace(trace, search, one.seed)
+    if not job.file:
+        send(*_shape(sample, "moving", job.id, Key(job.run)))
+        return Answer()
+    result = Result(search, [sample], search.seed)
+    found = models.reference(job.question.model)
+    return _answered(result, found, job.run, job.file, job.origin, send, job.id)
+
+
+def _searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
+    """The search of a result with the present model and arguments, and the result's choices."""
+    model, args = models.reference(question.model).model, asks.arguments(question)
+    search = replace(one.search, model=model, args=args, choices=None, lock=lock or None, polish=None)
+    return search, dict(one.choices)
+
+
+def _shape(sample: Sample, what: str, job: int, key: Key) -> Any:
+    return shapes.shape(sample.scene, "light", what=what, id=job, key=key, is_flat=runs.is_flat(sample))
+
+
+def _answered(
+    result: Result, found: ModelReference, run: int, file: str, origin: str, send: Any, job: int
+) -> Answer:
+    """Store the results that ended, the best first, and show them."""
+    ended = [one for one in result.samples if one.has_ended] or list(result.samples)
+    result.samples = sorted(ended, key=lambda one: -one.log_score)
+    outcomes = runs.store(result, found, run, file, origin)
+    for one, outcome in zip(result.samples, outcomes, strict=True):
+        send(*_shape(one, "result", job, outcome.key))
+    return Answer(outcomes=outcomes, interrupted=result.interrupted)

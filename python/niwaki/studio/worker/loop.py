@@ -1,0 +1,129 @@
+"""A worker's loop: jobs arrive as frames on standard input, reports leave as frames on standard output.
+
+A thread reads, so that `stop` is seen while a job runs. When the pipe closes the process ends: no worker outlives its
+server. What a model prints goes to standard error.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import sys
+import threading
+import traceback
+import warnings
+from collections.abc import Callable
+from typing import Any, BinaryIO
+
+import msgspec
+
+from niwaki.errors import NiwakiError
+from niwaki.errors.source import Span
+from niwaki.studio import messages
+from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
+from niwaki.studio.worker import jobs, models, runs
+
+#: Sends a report, with the bytes of a mesh where it has one.
+Send = Callable[..., None]
+
+
+class Stopped:
+    """Whether the present job is to stop; set by the thread that reads."""
+
+    def __init__(self) -> None:
+        self.job: int | None = None
+        self.stopping: set[int] = set()
+
+    def check(self) -> None:
+        """Stop a search that shows its progress; what it has found is kept."""
+        if self.job in self.stopping:
+            raise KeyboardInterrupt
+
+
+def main() -> None:
+    """Serve until the pipe closes."""
+    source, sink = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    warnings.simplefilter("ignore")
+    waiting: queue.SimpleQueue[messages.AnyJob] = queue.SimpleQueue()
+    stopped = Stopped()
+    threading.Thread(target=_read, args=(source, waiting, stopped), daemon=True).start()
+    lock = threading.Lock()
+
+    def send(report: messages.AnyReport, payload: bytes = b"") -> None:
+        data = frame(msgspec.json.encode(report), payload)
+        with lock:
+            sink.write(LENGTH.pack(len(data)) + data)
+            sink.flush()
+
+    while True:
+        job = waiting.get()
+        stopped.job = job.id
+        try:
+            answer = done(job, send, stopped)
+        except KeyboardInterrupt:
+            answer = messages.Answer(interrupted=True)
+        except Exception as error:
+            answer = messages.Answer(problem=problem(error))
+        answer.id = job.id
+        stopped.job = None
+        send(answer)
+
+
+def _read(source: BinaryIO, waiting: queue.SimpleQueue[Any], stopped: Stopped) -> None:
+    decode = msgspec.json.Decoder(messages.AnyJob).decode
+    while True:
+        head = source.read(LENGTH.size)
+        if len(head) < LENGTH.size:
+            os._exit(0)
+        (length,) = LENGTH.unpack(head)
+        assert length <= LONGEST
+        header, _ = opened(source.read(length))
+        if header.startswith(b'{"stop"'):
+            stopped.stopping.add(msgspec.json.decode(header)["stop"])
+        else:
+            waiting.put(decode(header))
+
+
+def done(job: messages.AnyJob, send: Send, stopped: Stopped) -> messages.Answer:
+    """The work of one job."""
+    match job:
+        case messages.ListModels():
+            return models.listed(job)
+        case messages.Load():
+            return models.loaded(job)
+        case messages.Ghost():
+            return jobs.ghost(job, send)
+        case messages.Grow():
+            return jobs.grow(job, send, stopped.check)
+        case messages.Regrow():
+            return jobs.regrow(job, send)
+        case messages.Change():
+            return jobs.change(job, send)
+        case messages.Hold():
+            return runs.hold(job)
+        case messages.DescribeRun():
+            return runs.describe(job, send)
+        case messages.ShowRun():
+            return runs.show(job, send)
+        case messages.WriteFile():
+            return runs.write(job)
+
+
+def problem(error: BaseException) -> messages.Problem:
+    """An error as the page shows it: the shell's text, and the place if it has one."""
+    if not isinstance(error, NiwakiError):
+        traceback.print_exception(error, file=sys.stderr)
+        return messages.Problem("failed", f"{type(error).__name__}: {error}")
+    span = getattr(error, "span", None)
+    stack = getattr(error, "stack", ())
+    if span is None and stack:
+        span = stack[-1].span
+    return messages.Problem(error.code, str(error), placed(span))
+
+
+def placed(span: Span | None) -> messages.Place | None:
+    """A span as plain data."""
+    if span is None:
+        return None
+    return messages.Place(span.file.path, span.line, span.column, span.end_line, span.end_column)

@@ -1,0 +1,150 @@
+"""Results that are stored: replayed from the file of their run, and described, held, shown or written."""
+
+from __future__ import annotations
+
+import json
+from collections import OrderedDict
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+from niwaki.result import Result, Sample
+from niwaki.search.data import Reader, Writer
+from niwaki.shell import run_files
+from niwaki.shell.references import ModelReference
+from niwaki.studio.messages import (
+    Answer,
+    ChoiceInfo,
+    Choices,
+    Described,
+    DescribeRun,
+    Hold,
+    Key,
+    Outcome,
+    PartInfo,
+    Pin,
+    Place,
+    ShowRun,
+    WriteFile,
+)
+from niwaki.studio.worker import asks, models, shapes
+from niwaki.studio.worker.places import noted, slider
+
+#: Results that are kept ready.
+KEPT = 64
+
+_samples: OrderedDict[tuple[str, int], Sample] = OrderedDict()
+
+
+def sample(source: str, number: int) -> Sample:
+    """A result of a stored run."""
+    key = source, number
+    if key not in _samples:
+        data = run_files.load(source)
+        _samples[key] = run_files.replayed(data, number)
+        _samples[key].seed = data["runs"][number]["seed"]
+        if len(_samples) > KEPT:
+            _samples.popitem(last=False)
+    _samples.move_to_end(key)
+    return _samples[key]
+
+
+def store(result: Result, found: ModelReference, run: int, file: str, origin: str) -> list[Outcome]:
+    """Write a run, and name its results."""
+    data = run_files.written(result, found)
+    for number, one in enumerate(result.samples):
+        _samples[file, number] = one
+    run_files.save(file, data)
+    return [outcome(one, Key(run, number), origin) for number, one in enumerate(result.samples)]
+
+
+def outcome(one: Sample, key: Key, origin: str) -> Outcome:
+    """The numbers of a result."""
+    numbers = run_files.numbers(one)
+    return Outcome(key, numbers["log_score"], numbers["similarity"], one.primitives, one.seed, origin)
+
+
+def given(choices: Choices) -> dict[str, Any]:
+    """Values of choices from plain data."""
+    read = Reader()
+    return {address: read(value) for address, value in choices.items()}
+
+
+def hold(job: Hold) -> Answer:
+    """The choices that hold parts of a result."""
+    one, write = sample(job.source, job.number), Writer()
+    pins = [
+        Pin(part, {address: write(value) for address, value in one.held(part).items()}) for part in job.parts
+    ]
+    return Answer(pins=pins)
+
+
+def describe(job: DescribeRun, send: Any) -> Answer:
+    """The choices and parts of a result, with places in the source."""
+    one = sample(job.source, job.number)
+    choices, families = one.choices, one.families
+    found = models.reference(job.question.model)
+    seen = noted(found.model, asks.arguments(job.question), choices)
+    infos = []
+    for address, value in choices.items():
+        if families[address] == "delta":
+            continue
+        reach = slider(seen.distributions.get(address), value)
+        low, high, whole = reach or (None, None, False)
+        infos.append(
+            ChoiceInfo(
+                address, families[address], _shown(value), low, high, whole, _place(seen.places.get(address))
+            )
+        )
+    parts = [PartInfo(part.address, _place(seen.places.get(part.address))) for part in one.scene.parts]
+    send(Described(job.id, job.key, infos, parts))
+    return Answer()
+
+
+def _shown(value: Any) -> Any:
+    """A value as a page shows it."""
+    return value if isinstance(value, bool | int | float) else str(value)
+
+
+def _place(span: Any) -> Place | None:
+    return (
+        None
+        if span is None
+        else Place(span.file.path, span.line, span.column, span.end_line, span.end_column)
+    )
+
+
+def show(job: ShowRun, send: Any) -> Answer:
+    """The shape of a result."""
+    one = sample(job.source, job.number)
+    header, payload = shapes.shape(
+        one.scene, job.detail, what="result", key=job.key, id=job.id, is_flat=is_flat(one)
+    )
+    send(header, payload)
+    return Answer()
+
+
+def is_flat(one: Sample) -> bool:
+    """Whether it is a drawing in the plane."""
+    return one.search.score.window is not None
+
+
+def write(job: WriteFile) -> Answer:
+    """Write a result as a file; its recipe is the file of its run, with this result as the best."""
+    folder = Path(job.folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    data: dict[str, Any] = run_files.load(job.source)
+    data["best"] = job.number
+    if job.format == "json":
+        return Answer(path=str(run_files.save(folder / "run.json", data)))
+    one: nw.Sample = sample(job.source, job.number)
+    style = run_files.style(data, one)
+    path = folder / f"best.{job.format}"
+    if job.format == "png":
+        styled: dict[str, Any] = {} if style is None else {"style": style, "size": (800, 800)}
+        one.save(path, **styled)
+    else:
+        one.export(path, scale=job.scale, style=style if job.format == "svg" else None)
+    # The recipe lies beside it, so that the folder explains itself.
+    (folder / "run.json").write_text(json.dumps(data, indent=1, allow_nan=False) + "\n")
+    return Answer(path=str(path))

@@ -1,0 +1,115 @@
+"""A scene as a mesh for the page: one mesh, with the number of its part for each triangle.
+
+The payload of a frame, for n vertices and m triangles, little-endian:
+
+    positions (n, 3) float32 | normals (n, 3) float32, only if fine | colours (n, 4) uint8, sRGB
+    corners (m, 3) uint32 | parts (m,) uint32
+
+The light mesh is the one that scores see; it comes without normals and is shown with flat faces.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.draw.palette import paints
+from niwaki.draw.parts import part_meshes
+from niwaki.draw.scene import Scene
+from niwaki.studio.messages import Shape
+from niwaki.targets.target import Target
+
+#: The ghost of a target has no more triangles than about this; a larger mesh is thinned for the eye.
+GHOST_TRIANGLES = 60_000
+GHOST_COLOR = (0.36, 0.55, 0.80)
+
+Arrays = tuple[NDArray[Any], NDArray[Any] | None, NDArray[Any], NDArray[Any], NDArray[Any]]
+
+
+def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tuple[Shape, bytes]:
+    """The header and the payload of a scene."""
+    pieces = _fine(scene) if detail == "fine" else _light(scene)
+    return _packed([part.address for part in scene.parts], pieces, detail=detail, **header)
+
+
+def ghost(target: Target, pivot: tuple[float, float, float], note: str = "") -> tuple[Shape, bytes]:
+    """The header and the payload of a target."""
+    vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
+    header, data = _packed(
+        [], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", pivot=pivot, note=note
+    )
+    low, high = target.bounds.tolist()
+    header.low, header.high = tuple(low), tuple(high)
+    return header, data
+
+
+def _fine(scene: Scene) -> list[tuple[int, Any, NDArray[Any], NDArray[Any] | None, NDArray[Any]]]:
+    numbers = {part.address: number for number, part in enumerate(scene.parts)}
+    return [
+        (numbers[part.address], piece.paint.color, piece.vertices, piece.normals, piece.faces)
+        for part in part_meshes(scene)
+        for piece in part.pieces
+    ]
+
+
+def _light(scene: Scene) -> list[tuple[int, Any, NDArray[Any], NDArray[Any] | None, NDArray[Any]]]:
+    return [
+        (number, paint.color, one.vertices(), None, one.faces())
+        for number, (part, worn) in enumerate(zip(scene.parts, paints(scene), strict=True))
+        for one, paint in zip(part.shapes, worn, strict=True)
+    ]
+
+
+def _packed(parts: list[str], pieces: list[Any], **header: Any) -> tuple[Shape, bytes]:
+    """Pieces (part, colour, vertices, normals or None, faces) one after the other."""
+    counts = [len(vertices) for _, _, vertices, _, _ in pieces]
+    starts = np.cumsum([0, *counts])
+    points = _joined([vertices for _, _, vertices, _, _ in pieces], 3, "<f4")
+    faces = _joined([f + start for (_, _, _, _, f), start in zip(pieces, starts, strict=False)], 3, "<u4")
+    colors = np.concatenate(
+        [np.tile(_bytes(color), (n, 1)) for (_, color, _, _, _), n in zip(pieces, counts, strict=True)]
+        or [np.zeros((0, 4), np.uint8)]
+    )
+    owners = np.repeat([p for p, *_ in pieces], [len(f) for *_, f in pieces]).astype("<u4")
+    arrays = [points, colors, faces, owners]
+    if pieces and pieces[0][3] is not None:
+        arrays.insert(1, _joined([normals for _, _, _, normals, _ in pieces], 3, "<f4"))
+    low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(3), np.zeros(3))
+    described = Shape(
+        vertices=len(points),
+        triangles=len(faces),
+        parts=parts,
+        low=tuple(low.tolist()),
+        high=tuple(high.tolist()),
+        **header,
+    )
+    return described, b"".join(array.tobytes() for array in arrays)
+
+
+def _joined(arrays: list[NDArray[Any]], width: int, kind: str) -> NDArray[Any]:
+    return np.concatenate([np.zeros((0, width)), *arrays]).astype(kind)
+
+
+def _bytes(color: tuple[float, float, float]) -> NDArray[np.uint8]:
+    return np.array([*(round(255 * min(max(c, 0.0), 1.0)) for c in color), 255], dtype=np.uint8)
+
+
+def thinned(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int = GHOST_TRIANGLES
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """A mesh of about `most` triangles at most: vertices of one cell of a grid become one (Rossignac, Borrel 1993)."""
+    cells = 256
+    extent = float(np.ptp(vertices, axis=0).max()) or 1.0
+    while len(faces) > most and cells > 8:
+        grid = np.floor((vertices - vertices.min(axis=0)) * (cells / extent)).astype(np.int64)
+        key = (grid[:, 0] * (cells + 1) + grid[:, 1]) * (cells + 1) + grid[:, 2]
+        _, first, number = np.unique(key, return_index=True, return_inverse=True)
+        merged = number[faces]
+        a, b, c = merged.T
+        merged = np.unique(merged[(a != b) & (b != c) & (c != a)], axis=0)
+        if len(merged) <= most:
+            return vertices[first], merged
+        cells = cells * 3 // 4
+    return vertices, faces

@@ -1,0 +1,361 @@
+// Written from python/niwaki/studio/messages.py by `make studio-page`; change it there.
+
+export const PROTOCOL = 1;
+
+/** The first message: the whole state is the answer. */
+export interface Hello {
+  kind: "hello";
+  protocol: number;
+  id?: number;
+}
+
+/** Take a model: a name of the gallery, or a reference that was named at the start. */
+export interface ChooseModel {
+  kind: "model";
+  reference: string;
+  id?: number;
+}
+
+/** A volume to fill: where it comes from, and how it is placed. */
+export interface TargetAsk {
+  source: string;
+  move?: [number, number, number];
+  scale?: [number, number, number];
+  turn?: number;
+}
+
+/** A line of a pen: points as shares of the picture's height from its upper left corner, and the pen's width. */
+export interface Stroke {
+  points: [number, number][];
+  width?: number;
+}
+
+/** A perspective camera; `fov` is vertical, degrees. */
+export interface Eye {
+  position: [number, number, number];
+  look_at: [number, number, number];
+  up: [number, number, number];
+  fov: number;
+}
+
+/** A silhouette drawn by hand, over the view of a camera. */
+export interface Sketch {
+  strokes: Stroke[];
+  aspect: number;
+  camera?: Eye | null;
+}
+
+/** What a scene should be like; with nothing in it, what the model of the gallery is usually asked. */
+export interface Ask {
+  target?: TargetAsk | null;
+  sketch?: Sketch | null;
+  floor?: number | null;
+}
+
+/** Say what the scene should be like. */
+export interface SetAsk {
+  kind: "ask";
+  ask: Ask;
+  id?: number;
+}
+
+/** How to search. */
+export interface Settings {
+  count?: number;
+  seed?: number | null;
+  effort?: number;
+}
+
+/** Set arguments by name, or settings; what is left out stays. */
+export interface Set {
+  kind: "set";
+  arguments?: Record<string, any> | null;
+  settings?: Settings | null;
+  id?: number;
+}
+
+/** Search; pinned parts are held. A search that runs is stopped first, and nothing of it is kept. */
+export interface Run {
+  kind: "run";
+  id?: number;
+}
+
+/** Stop the search; what it has found becomes results. */
+export interface Stop {
+  kind: "stop";
+  id?: number;
+}
+
+/** Hold parts of the picked result in what follows. */
+export interface PinParts {
+  kind: "pin";
+  parts: string[];
+  id?: number;
+}
+
+/** Hold them no more; all, where none is named. */
+export interface FreeParts {
+  kind: "free";
+  parts?: string[];
+  id?: number;
+}
+
+/** Grow a part of the picked result again, in place; `count` times, by seeds that follow one another. */
+export interface Reroll {
+  kind: "reroll";
+  part: string;
+  count?: number;
+  id?: number;
+}
+
+/** Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result. */
+export interface Choose {
+  kind: "choose";
+  address: string;
+  value: number | boolean;
+  phase?: "end" | "move";
+  id?: number;
+}
+
+/** One result: the number of its run, and its place there. */
+export interface Key {
+  run: number;
+  number?: number;
+}
+
+/** Ask for the choices of a result, with places in the source. */
+export interface Describe {
+  kind: "describe";
+  key: Key;
+  id?: number;
+}
+
+/** Ask for the shape of a result. */
+export interface Show {
+  kind: "show";
+  key: Key;
+  detail?: "fine" | "light";
+  id?: number;
+}
+
+/** Go on with this result. */
+export interface Pick {
+  kind: "pick";
+  key: Key;
+  id?: number;
+}
+
+/** Mark a result, or take the mark away. */
+export interface Star {
+  kind: "star";
+  key: Key;
+  on?: boolean;
+  id?: number;
+}
+
+/** Take the last step back. */
+export interface Undo {
+  kind: "undo";
+  id?: number;
+}
+
+/** Take the step again that was taken back. */
+export interface Redo {
+  kind: "redo";
+  id?: number;
+}
+
+/** Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats. */
+export interface Export {
+  kind: "export";
+  key: Key;
+  format: "3mf" | "glb" | "json" | "obj" | "ply" | "png" | "stl" | "svg";
+  scale?: number | null;
+  id?: number;
+}
+
+/** A parameter of a model; `default` only where it is a number, a text or a truth value. */
+export interface Parameter {
+  name: string;
+  default: any;
+  is_required: boolean;
+}
+
+/** A model that can be chosen. */
+export interface ModelInfo {
+  reference: string;
+  title: string;
+  parameters: Parameter[];
+  target: string | null;
+  draws: string | null;
+  is_file: boolean;
+}
+
+/** The numbers of a result, as the gallery shows them; scores in nats. */
+export interface Outcome {
+  key: Key;
+  log_score: number | null;
+  similarity: number | null;
+  primitives: number;
+  seed: number | null;
+  origin: string;
+}
+
+/** A held part: its pattern, and the values of the choices that hold it. */
+export interface Pin {
+  part: string;
+  choices: Record<string, any>;
+}
+
+/** A place in a model's file, counted from 1; the end is excluded. */
+export interface Place {
+  path: string;
+  line: number;
+  column: number;
+  end_line: number;
+  end_column: number;
+}
+
+/** An error as the shell prints it. */
+export interface Problem {
+  code: string;
+  text: string;
+  place: Place | null;
+}
+
+/** The search that is running. */
+export interface Searching {
+  run: number;
+  done: number;
+  best: number | null;
+  seconds: number;
+}
+
+/** All that every window shows; a patch has some of its fields. */
+export interface View {
+  model: ModelInfo | null;
+  arguments: Record<string, any>;
+  ask: Ask;
+  settings: Settings;
+  results: Outcome[];
+  picked: Key | null;
+  pins: Pin[];
+  stars: Key[];
+  models: ModelInfo[];
+  targets: string[];
+  problem: Problem | null;
+  searching: Searching | null;
+  interrupted: boolean;
+  undo: number;
+  redo: number;
+}
+
+/** The whole state; `rev` counts the patches. */
+export interface State {
+  kind: "state";
+  id: number;
+  session: string;
+  rev: number;
+  view: View | null;
+}
+
+/** What has changed since the revision before. */
+export interface Patch {
+  kind: "patch";
+  id: number;
+  rev: number;
+  changes: Record<string, any>;
+}
+
+/** A choice of a result: its value, and the range of a slider where it has one. */
+export interface ChoiceInfo {
+  address: string;
+  family: string;
+  value: any;
+  low: number | null;
+  high: number | null;
+  is_whole: boolean;
+  place: Place | null;
+}
+
+/** A primitive of a result, and the line that emits it. */
+export interface PartInfo {
+  address: string;
+  place: Place | null;
+}
+
+/** The choices and parts of a result. */
+export interface Described {
+  kind: "described";
+  id: number;
+  key: Key | null;
+  choices: ChoiceInfo[];
+  parts: PartInfo[];
+}
+
+/** The header of a frame with a mesh: see `niwaki.studio.worker.shapes`. */
+export interface Shape {
+  kind: "shape";
+  id: number;
+  what: "best" | "ghost" | "moving" | "result";
+  key: Key | null;
+  detail: "fine" | "light";
+  vertices: number;
+  triangles: number;
+  parts: string[];
+  low: [number, number, number];
+  high: [number, number, number];
+  pivot: [number, number, number];
+  is_flat: boolean;
+  note: string;
+}
+
+/** A command has done its work. */
+export interface Done {
+  kind: "done";
+  id: number;
+  interrupted: boolean;
+}
+
+/** A file to fetch from `/file/HASH`. */
+export interface File {
+  kind: "file";
+  id: number;
+  hash: string;
+  name: string;
+}
+
+/** A command was refused, or its work failed. */
+export interface Failed {
+  kind: "error";
+  id: number;
+  problem: Problem | null;
+}
+
+export type Command =
+  | Hello
+  | ChooseModel
+  | SetAsk
+  | Set
+  | Run
+  | Stop
+  | PinParts
+  | FreeParts
+  | Reroll
+  | Choose
+  | Describe
+  | Show
+  | Pick
+  | Star
+  | Undo
+  | Redo
+  | Export;
+
+export type Event =
+  | State
+  | Patch
+  | Described
+  | Shape
+  | Done
+  | File
+  | Failed;

@@ -1,0 +1,127 @@
+// What the page knows: the session's view as the studio tells it, and this window's own selection.
+
+import { computed, signal } from "@preact/signals";
+import { connect, Refused } from "./link";
+import type { Described, Event, Eye, Key, Outcome, Shape, View } from "./messages";
+
+export const view = signal<View | null>(null);
+export const isOpen = signal(false);
+export const described = signal<Described | null>(null);
+/** The call or iteration that is selected; "" for the whole model, null for nothing. */
+export const level = signal<string | null>(null);
+/** The primitive that was clicked. */
+export const part = signal<string | null>(null);
+export const hovered = signal<string | null>(null);
+export const notices = signal<{ id: number; text: string; isError: boolean }[]>([]);
+export const tool = signal<"look" | "place" | "draw">("look");
+export const showGhost = signal(true);
+/** The camera, for what depends on it. */
+export const eye = signal<Eye | null>(null);
+/** Of the pen, in heights of the view. */
+export const penWidth = signal(0.06);
+export const theme = signal<"light" | "dark">(
+  matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
+);
+
+export const isSearching = computed(() => view.value?.searching != null);
+export const picked = computed(() => view.value?.picked ?? null);
+export const pinned = computed(() => new Set((view.value?.pins ?? []).map((one) => one.part)));
+
+export const sameKey = (a: Key | null | undefined, b: Key | null | undefined): boolean =>
+  a != null && b != null && a.run === b.run && (a.number ?? 0) === (b.number ?? 0);
+export const nameOf = (key: Key): string => `${key.run}.${key.number ?? 0}`;
+export const isStarred = (key: Key): boolean => (view.value?.stars ?? []).some((one) => sameKey(one, key));
+
+// ---- shapes: who wants to know
+
+type Listener = (shape: Shape, payload: ArrayBuffer) => void;
+const listeners: Listener[] = [];
+export const onShape = (listener: Listener): void => void listeners.push(listener);
+
+// ---- notices
+
+let notes = 0;
+export function note(text: string, isError = false): void {
+  const id = ++notes;
+  notices.value = [...notices.value.slice(-3), { id, text, isError }];
+  if (!isError) setTimeout(() => dismiss(id), 4000);
+}
+export const dismiss = (id: number): void => {
+  notices.value = notices.value.filter((one) => one.id !== id);
+};
+
+// ---- the link
+
+function heard(event: Event): void {
+  if (event.kind === "state") {
+    view.value = event.view as View;
+    if (view.value.interrupted) note("The last search was cut off when the studio ended. Grow starts it again.");
+  } else if (event.kind === "patch" && view.value !== null) {
+    view.value = { ...view.value, ...event.changes };
+  } else if (event.kind === "described") {
+    described.value = event;
+  } else if (event.kind === "error" && event.id === 0 && event.problem) {
+    note(event.problem.text, true);
+  }
+}
+
+const link = connect(
+  heard,
+  (shape, payload) => listeners.forEach((one) => one(shape, payload)),
+  (open) => (isOpen.value = open),
+);
+
+/** Sends a command, and shows why it was refused. */
+export async function tell(command: Parameters<typeof link.send>[0]): Promise<Event | undefined> {
+  try {
+    return await link.send(command);
+  } catch (problem) {
+    if (problem instanceof Refused) note(problem.message, true);
+    return undefined;
+  }
+}
+
+// ---- what buttons and keys do
+
+export const best = computed<Outcome | null>(
+  () => view.value?.results.find((one) => sameKey(one.key, view.value?.picked)) ?? null,
+);
+
+export function run(): void {
+  void tell({ kind: "run" });
+}
+export function stop(): void {
+  void tell({ kind: "stop" });
+}
+export function select(address: string | null): void {
+  part.value = address;
+  level.value = address === null ? null : address.split("/").slice(0, -1).join("/");
+}
+export function pinOrFree(name: string): void {
+  if (pinned.value.has(name)) void tell({ kind: "free", parts: [name] });
+  else void tell({ kind: "pin", parts: [name] });
+}
+export function reroll(name: string, count: number): void {
+  void tell({ kind: "reroll", part: name, count });
+}
+export async function exported(format: "glb" | "stl" | "obj" | "svg" | "png" | "json" | "3mf"): Promise<void> {
+  if (picked.value === null) return;
+  const found = await tell({ kind: "export", key: picked.value, format });
+  if (found?.kind !== "file") return;
+  const anchor = document.createElement("a");
+  anchor.href = `/file/${found.hash}`;
+  anchor.download = found.name;
+  anchor.click();
+  note(`${found.name} is written`);
+}
+export async function uploaded(file: File): Promise<void> {
+  note(`Reading ${file.name}`);
+  const answer = await fetch(`/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+  const found = await answer.json();
+  if (!answer.ok) {
+    note(`${file.name}: ${found.text}`, true);
+    return;
+  }
+  for (const one of found.notes as string[]) note(`${file.name}: ${one}`);
+  void tell({ kind: "ask", ask: { target: { source: found.source } } });
+}

@@ -1,0 +1,90 @@
+// The bar at the top: what is open, undo and redo, tools, export, light.
+
+import { useState } from "preact/hooks";
+import * as store from "../store";
+import { Icon } from "./icons";
+
+const FORMATS = [
+  ["glb", "GLB", "for Blender, engines, the web"],
+  ["stl", "STL", "for 3D printing"],
+  ["obj", "OBJ", "for everything else"],
+  ["png", "PNG", "a picture"],
+  ["json", "Recipe", "run.json, for niwaki replay"],
+] as const;
+
+export function Bar({ onFit }: { onFit: () => void }) {
+  const view = store.view.value;
+  const [isExporting, setExporting] = useState(false);
+  const isFlat = view?.model?.draws != null;
+  const formats = isFlat ? ([["svg", "SVG", "the drawing"], ...FORMATS.slice(3)] as const) : FORMATS;
+  return (
+    <header class="bar">
+      <span class="mark">Niwaki</span>
+      <div class="group" role="group" aria-label="History">
+        <button class="icon-button" title="Undo (Ctrl Z)" disabled={!view?.undo} onClick={() => store.tell({ kind: "undo" })}>
+          <Icon name="undo" />
+        </button>
+        <button class="icon-button" title="Redo (Ctrl Shift Z)" disabled={!view?.redo} onClick={() => store.tell({ kind: "redo" })}>
+          <Icon name="redo" />
+        </button>
+      </div>
+      <div class="group" role="group" aria-label="View">
+        <button class="icon-button" title="Look at everything (F)" onClick={onFit}>
+          <Icon name="fit" />
+        </button>
+        <button
+          class="icon-button"
+          title="Show the target (T)"
+          aria-pressed={store.showGhost.value}
+          onClick={() => (store.showGhost.value = !store.showGhost.value)}
+        >
+          <Icon name="ghost" />
+        </button>
+        <button
+          class="icon-button"
+          title="Draw a silhouette to grow into (D)"
+          aria-pressed={store.tool.value === "draw"}
+          onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}
+        >
+          <Icon name="pen" />
+        </button>
+      </div>
+      <span class="grow" />
+      {!store.isOpen.value && <span class="warning" role="status">not connected</span>}
+      <button
+        class="icon-button"
+        title={store.theme.value === "light" ? "Dark" : "Light"}
+        onClick={() => (store.theme.value = store.theme.value === "light" ? "dark" : "light")}
+      >
+        <Icon name={store.theme.value === "light" ? "moon" : "sun"} />
+      </button>
+      <div class="menu-holder">
+        <button
+          class="button"
+          aria-haspopup="menu"
+          aria-expanded={isExporting}
+          disabled={store.picked.value === null}
+          onClick={() => setExporting(!isExporting)}
+        >
+          <Icon name="save" /> Export
+        </button>
+        {isExporting && (
+          <div class="menu" role="menu" onMouseLeave={() => setExporting(false)}>
+            {formats.map(([format, name, use]) => (
+              <button
+                key={format}
+                role="menuitem"
+                onClick={() => {
+                  setExporting(false);
+                  void store.exported(format);
+                }}
+              >
+                <b>{name}</b> <span>{use}</span>
+              </button>
+            ))}
+          </div>
+        )}
+      </div>
+    </header>
+  );
+}

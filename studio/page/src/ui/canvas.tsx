@@ -1,0 +1,156 @@
+// The middle: the scene, the pen over it, messages, and the error of a model that does not compile.
+
+import { effect } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { isBelow } from "../stage/meshes";
+import { Stage } from "../stage/stage";
+import type { Key } from "../messages";
+import * as store from "../store";
+import { shapeOf } from "./gallery";
+import { Icon } from "./icons";
+import { Pen } from "./pen";
+import { currentTarget } from "./setup";
+
+export let stage: Stage;
+/** What is on the stage: of tests and of the page itself. */
+export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
+
+export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" | null }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const holder = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    stage = new Stage(
+      canvas.current!,
+      (target) => void store.tell({ kind: "ask", ask: { target } }),
+      () => (store.eye.value = stage.eye()),
+    );
+    const watch = new ResizeObserver(([entry]) => stage.resize(entry.contentRect.width, entry.contentRect.height));
+    watch.observe(holder.current!);
+    follow();
+  }, []);
+  useEffect(() => stage?.setHandles(handles), [handles]);
+
+  const down = useRef<[number, number] | null>(null);
+  const at = (event: PointerEvent): [number, number] => [event.offsetX, event.offsetY];
+  return (
+    <main class="stage" ref={holder}>
+      <canvas
+        ref={canvas}
+        tabIndex={0}
+        aria-label="The scene. Drag to look around, click a part to select it."
+        onPointerDown={(event) => (down.current = at(event))}
+        onPointerMove={(event) => {
+          if (event.buttons === 0 && store.tool.value === "look") store.hovered.value = stage.partAt(...at(event));
+        }}
+        onPointerLeave={() => (store.hovered.value = null)}
+        onPointerUp={(event) => {
+          const from = down.current;
+          const to = at(event);
+          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) store.select(stage.partAt(...to));
+        }}
+      />
+      <Pen />
+      <Problem />
+      <Notices />
+    </main>
+  );
+}
+
+function Problem() {
+  const problem = store.view.value?.problem;
+  if (problem == null) return null;
+  return (
+    <div class="problem" role="alert">
+      <h3>{problem.place === null ? problem.code : `${problem.place.path.replace(/^.*\//, "")}:${problem.place.line}`}</h3>
+      <pre>{problem.text}</pre>
+      <p>The last good shape stays. Save the file again to go on.</p>
+    </div>
+  );
+}
+
+function Notices() {
+  return (
+    <div class="notices" aria-live="polite">
+      {store.notices.value.map((one) => (
+        <div key={one.id} class={one.isError ? "notice error" : "notice"}>
+          <pre>{one.text}</pre>
+          <button class="icon-button tiny" title="Dismiss" onClick={() => store.dismiss(one.id)}>
+            <Icon name="close" />
+          </button>
+        </div>
+      ))}
+    </div>
+  );
+}
+
+/** Keep the stage up to date with what the studio tells. */
+function follow(): void {
+  store.onShape((shape, payload) => {
+    if (shape.what === "ghost") {
+      stage.pivot.set(...shape.pivot);
+      stage.setGhost(shape, payload, currentTarget());
+      if (shape.note) store.note(shape.note);
+    } else if (shape.what === "best" || shape.what === "moving") {
+      put(shape, payload);
+    } else if (store.sameKey(shape.key, store.picked.value) && !store.isSearching.value) {
+      if (shape.detail === "fine" || !(shown.detail === "fine" && store.sameKey(shown.key, shape.key))) {
+        put(shape, payload);
+      }
+    }
+  });
+  const put = (shape: Parameters<Stage["show"]>[0], payload: ArrayBuffer) => {
+    stage.show(shape, payload);
+    shown.key = shape?.key ?? null;
+    shown.what = shape?.what ?? "";
+    shown.detail = shape?.detail ?? "";
+    remark();
+  };
+  const remark = () => {
+    const level = store.level.value;
+    const over = store.hovered.value;
+    const pins = [...store.pinned.value];
+    stage.mark(
+      (address) => (level !== null && level !== "" && isBelow(address, level)) || (over !== null && isBelow(address, over)) || address === store.part.value,
+      (address) => pins.some((pin) => isBelow(address, pin)),
+    );
+  };
+  // What is picked is shown: at once as it is in the gallery, then finely, with its choices.
+  let last = "";
+  effect(() => {
+    const key = store.picked.value;
+    const name = key === null ? "" : store.nameOf(key);
+    if (store.isSearching.value || name === last) return;
+    last = name;
+    if (key === null) {
+      put(null, new ArrayBuffer(0));
+      store.described.value = null;
+      return;
+    }
+    const light = shapeOf(name);
+    if (light !== undefined) put(light[0], light[1]);
+    void store.tell({ kind: "show", key, detail: "fine" });
+    void store.tell({ kind: "describe", key });
+  });
+  effect(() => {
+    // A search that has ended without a result leaves the picked one.
+    if (store.isSearching.value) last = "";
+  });
+  let model = "";
+  effect(() => {
+    const reference = store.view.value?.model?.reference ?? "";
+    if (reference !== model && model !== "") {
+      stage.forget();
+      store.level.value = store.part.value = null;
+    }
+    model = reference;
+  });
+  effect(() => {
+    void [store.level.value, store.hovered.value, store.pinned.value, store.part.value];
+    remark();
+  });
+  effect(() => stage.setGhostVisible(store.showGhost.value));
+  effect(() => {
+    document.documentElement.dataset.theme = store.theme.value;
+    stage.paint(store.theme.value);
+  });
+}

@@ -1,0 +1,93 @@
+// The strip of results: pictures from one direction, scores, stars.
+
+import { useEffect, useRef } from "preact/hooks";
+import { HEIGHT, thumbnail, WIDTH } from "../stage/thumbs";
+import type { Outcome, Shape } from "../messages";
+import * as store from "../store";
+import { Icon } from "./icons";
+
+/** Shapes by result, and what waits for them. */
+const shapes = new Map<string, [Shape, ArrayBuffer]>();
+const waiting = new Map<string, () => void>();
+
+store.onShape((shape, payload) => {
+  if (shape.what !== "result" || shape.key == null) return;
+  const name = store.nameOf(shape.key);
+  if (shape.detail === "light" || !shapes.has(name)) shapes.set(name, [shape, payload]);
+  waiting.get(name)?.();
+});
+
+export const shapeOf = (name: string): [Shape, ArrayBuffer] | undefined => shapes.get(name);
+
+export function Gallery() {
+  const view = store.view.value;
+  const strip = useRef<HTMLDivElement>(null);
+  const results = view?.results ?? [];
+  const move = (event: KeyboardEvent) => {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    const at = results.findIndex((one) => store.sameKey(one.key, view?.picked));
+    const next = results[Math.min(Math.max(at + by, 0), results.length - 1)];
+    if (next === undefined) return;
+    void store.tell({ kind: "pick", key: next.key });
+    strip.current?.querySelectorAll<HTMLElement>("[role=option]")[results.indexOf(next)]?.focus();
+  };
+  return (
+    <div class="gallery" role="listbox" aria-label="Results" aria-orientation="horizontal" ref={strip} onKeyDown={move}>
+      {results.length === 0 && <p class="quiet empty">Results appear here, the best first.</p>}
+      {results.map((one, place) => (
+        <Card key={store.nameOf(one.key)} outcome={one} number={place + 1} />
+      ))}
+    </div>
+  );
+}
+
+function Card({ outcome, number }: { outcome: Outcome; number: number }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const name = store.nameOf(outcome.key);
+  const isPicked = store.sameKey(outcome.key, store.picked.value);
+  const isStarred = store.isStarred(outcome.key);
+  const theme = store.theme.value;
+  useEffect(() => {
+    const draw = () => {
+      const found = shapes.get(name);
+      if (found === undefined || canvas.current === null) return;
+      thumbnail(canvas.current, found[0], found[1], theme, found[0].low, found[0].high);
+      canvas.current.dataset.drawn = "yes";
+    };
+    waiting.set(name, draw);
+    if (shapes.has(name)) draw();
+    else void store.tell({ kind: "show", key: outcome.key, detail: "light" });
+    return () => void waiting.delete(name);
+  }, [name, theme]);
+  const share = outcome.similarity === null ? "" : `${(100 * outcome.similarity).toFixed(1)} %`;
+  const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
+  return (
+    <div
+      class="card"
+      role="option"
+      tabIndex={isPicked ? 0 : -1}
+      aria-selected={isPicked}
+      aria-label={`Result ${number}, score ${score}, ${share} agreement${isStarred ? ", starred" : ""}`}
+      onClick={() => void store.tell({ kind: "pick", key: outcome.key })}
+    >
+      <canvas ref={canvas} width={WIDTH} height={HEIGHT} />
+      <div class="caption">
+        <b>{number}</b>
+        <span title={`log score ${score}`}>{share || score}</span>
+        <button
+          class="icon-button tiny star"
+          aria-pressed={isStarred}
+          title={isStarred ? "Take the star away" : "Keep: starred results stay"}
+          onClick={(event) => {
+            event.stopPropagation();
+            void store.tell({ kind: "star", key: outcome.key, on: !isStarred });
+          }}
+        >
+          <Icon name="star" filled={isStarred} />
+        </button>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,151 @@
+// The right side: the part that is selected, its place in the source, its choices.
+
+import { isBelow } from "../stage/meshes";
+import type { ChoiceInfo, Place } from "../messages";
+import * as store from "../store";
+import { Icon } from "./icons";
+
+const SHOWN = 60;
+
+export function Inspector() {
+  const view = store.view.value;
+  const best = store.best.value;
+  const level = store.level.value;
+  const described = store.described.value;
+  if (view === null || best === null || described === null || !store.sameKey(described.key, best.key)) {
+    return (
+      <aside class="side right" aria-label="Part">
+        <section>
+          <h2>Part</h2>
+          <p class="quiet">{best === null ? "Grow something, then click a part of it." : "…"}</p>
+        </section>
+      </aside>
+    );
+  }
+  const here = level ?? "";
+  const choices = described.choices.filter((one) => isBelow(one.address, here));
+  const count = described.parts.filter((one) => isBelow(one.address, here)).length;
+  const place = described.parts.find((one) => one.address === store.part.value)?.place ?? null;
+  return (
+    <aside class="side right" aria-label="Part">
+      <section>
+        <h2>{level === null ? "Whole" : "Part"}</h2>
+        <Levels here={here} />
+        <p class="quiet">
+          {count} {count === 1 ? "piece" : "pieces"}, {choices.length} {choices.length === 1 ? "choice" : "choices"}
+        </p>
+        {place !== null && <Source place={place} />}
+        {here !== "" && (
+          <div class="actions">
+            <button class="button" onClick={() => store.reroll(here, 1)} title="Grow this part again (R)">
+              <Icon name="dice" /> Re-roll
+            </button>
+            <button class="button" onClick={() => store.reroll(here, 12)} title="Twelve other forms of this part">
+              12 variants
+            </button>
+            <button
+              class="button"
+              aria-pressed={store.pinned.value.has(here)}
+              onClick={() => store.pinOrFree(here)}
+              title="Hold this part in what comes (P)"
+            >
+              <Icon name="pin" filled={store.pinned.value.has(here)} /> {store.pinned.value.has(here) ? "Free" : "Pin"}
+            </button>
+          </div>
+        )}
+      </section>
+      <section class="choices" aria-label="Choices">
+        {choices.slice(0, SHOWN).map((one) => (
+          <Choice key={one.address} choice={one} here={here} />
+        ))}
+        {choices.length > SHOWN && <p class="quiet">{choices.length - SHOWN} more; select a smaller part.</p>}
+      </section>
+    </aside>
+  );
+}
+
+/** The calls around the selection, outermost first. */
+function Levels({ here }: { here: string }) {
+  const steps = here === "" ? [] : here.split("/");
+  const name = store.view.value?.model?.reference.replace(/^.*[/:]/, "") ?? "";
+  return (
+    <nav class="levels" aria-label="Calls">
+      <button aria-current={here === ""} onClick={() => (store.level.value = "")}>
+        {name}
+      </button>
+      {steps.map((step, k) => {
+        const address = steps.slice(0, k + 1).join("/");
+        return (
+          <button
+            key={address}
+            aria-current={address === here}
+            onClick={() => (store.level.value = address)}
+            onMouseEnter={() => (store.hovered.value = address)}
+            onMouseLeave={() => (store.hovered.value = null)}
+          >
+            {step}
+          </button>
+        );
+      })}
+    </nav>
+  );
+}
+
+function Source({ place }: { place: Place }) {
+  const file = place.path.replace(/^.*\//, "");
+  return (
+    <p class="source" title={place.path}>
+      {file}:{place.line}
+    </p>
+  );
+}
+
+function Choice({ choice, here }: { choice: ChoiceInfo; here: string }) {
+  const name = here === "" ? choice.address : choice.address.slice(here.length + 1);
+  const isBoolean = typeof choice.value === "boolean";
+  const isPinned = store.pinned.value.has(choice.address);
+  const set = (value: number | boolean, phase: "move" | "end") =>
+    void store.tell({ kind: "choose", address: choice.address, value, phase });
+  const step = choice.is_whole ? 1 : ((choice.high ?? 1) - (choice.low ?? 0)) / 200;
+  const where = choice.place === null ? "" : `, line ${choice.place.line}`;
+  return (
+    <div class="choice">
+      <label title={`${choice.address}: ${choice.family}${where}`}>
+        <span>{name}</span>
+        {isBoolean ? (
+          <input
+            type="checkbox"
+            checked={choice.value}
+            onChange={(event) => set(event.currentTarget.checked, "end")}
+          />
+        ) : choice.low === null ? null : (
+          <input
+            type="range"
+            min={choice.low}
+            max={choice.high ?? undefined}
+            step={step || "any"}
+            value={choice.value}
+            onInput={(event) => {
+              const value = Number(event.currentTarget.value);
+              event.currentTarget.nextElementSibling!.textContent = shown(value);
+              set(value, "move");
+            }}
+            onChange={(event) => set(Number(event.currentTarget.value), "end")}
+          />
+        )}
+        <output>{shown(choice.value)}</output>
+      </label>
+      <button
+        class="icon-button tiny"
+        aria-pressed={isPinned}
+        title={isPinned ? `Free ${choice.address}` : `Pin ${choice.address}`}
+        onClick={() => store.pinOrFree(choice.address)}
+      >
+        <Icon name="pin" filled={isPinned} />
+      </button>
+    </div>
+  );
+}
+
+const shown = (value: unknown): string =>
+  typeof value === "number" && !Number.isInteger(value) ? value.toFixed(Math.abs(value) < 10 ? 2 : 1) : String(value);

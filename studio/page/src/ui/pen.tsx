@@ -1,0 +1,98 @@
+// The pen: strokes over the view become a silhouette that is asked for, seen by the camera of that moment.
+
+import { useEffect, useRef } from "preact/hooks";
+import type { Eye, Sketch, Stroke } from "../messages";
+import * as store from "../store";
+import { stage } from "./canvas";
+
+const near = (a: number[], b: number[]): boolean => a.every((one, k) => Math.abs(one - b[k]) < 1e-6 * (1 + Math.abs(one)));
+const sameEye = (a: Eye, b: Eye): boolean => near(a.position, b.position) && near(a.look_at, b.look_at);
+
+export function Pen() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const current = useRef<Stroke | null>(null);
+  const isDrawing = store.tool.value === "draw";
+  const sketch = store.view.value?.ask.sketch ?? null;
+  const isFlat = store.view.value?.model?.draws != null;
+  const eye = store.eye.value;
+  const isSeen = sketch !== null && (sketch.camera == null || (eye !== null && sameEye(sketch.camera, eye)));
+
+  const redraw = (strokes: Stroke[]) => {
+    const page = canvas.current!;
+    page.width = page.clientWidth * devicePixelRatio;
+    page.height = page.clientHeight * devicePixelRatio;
+    const pen = page.getContext("2d")!;
+    pen.lineCap = pen.lineJoin = "round";
+    pen.strokeStyle = getComputedStyle(page).color;
+    for (const stroke of strokes) {
+      pen.lineWidth = (stroke.width ?? 0.05) * page.height;
+      pen.beginPath();
+      const [first, ...rest] = stroke.points.map(([x, y]) => [x * page.height, y * page.height] as const);
+      pen.moveTo(...first);
+      for (const point of rest.length ? rest : [first]) pen.lineTo(...point);
+      pen.stroke();
+    }
+  };
+  useEffect(() => redraw(isSeen ? sketch!.strokes : []), [sketch, isSeen, store.theme.value]);
+
+  const point = (event: PointerEvent): [number, number] => {
+    const high = canvas.current!.clientHeight;
+    return [event.offsetX / high, event.offsetY / high];
+  };
+  const done = () => {
+    const stroke = current.current;
+    current.current = null;
+    if (stroke === null) return;
+    const { clientWidth, clientHeight } = canvas.current!;
+    const kept = isSeen ? sketch!.strokes : [];
+    const ask: Sketch = { strokes: [...kept, stroke], aspect: clientWidth / clientHeight, camera: isFlat ? null : stage.eye() };
+    void store.tell({ kind: "ask", ask: { sketch: ask } });
+  };
+  return (
+    <>
+      <canvas
+        ref={canvas}
+        class={isDrawing ? "pen active" : "pen"}
+        aria-hidden={!isDrawing}
+        onPointerDown={(event) => {
+          event.currentTarget.setPointerCapture(event.pointerId);
+          current.current = { points: [point(event)], width: store.penWidth.value };
+        }}
+        onPointerMove={(event) => {
+          if (current.current === null) return;
+          current.current.points.push(point(event));
+          redraw([...(isSeen ? sketch!.strokes : []), current.current]);
+        }}
+        onPointerUp={done}
+        onPointerCancel={done}
+      />
+      {isDrawing && (
+        <div class="pen-bar" role="group" aria-label="Pen">
+          <label>
+            pen
+            <input
+              type="range"
+              min={0.01}
+              max={0.2}
+              step={0.01}
+              value={store.penWidth.value}
+              aria-label="Width of the pen"
+              onInput={(event) => (store.penWidth.value = Number(event.currentTarget.value))}
+            />
+          </label>
+          {sketch?.camera != null && !isSeen && (
+            <button class="text-button" onClick={() => stage.lookFrom(sketch.camera!)}>
+              back to its view
+            </button>
+          )}
+          <button class="text-button" disabled={sketch === null} onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+            clear
+          </button>
+          <button class="button small" onClick={() => ((store.tool.value = "look"), store.run())} disabled={sketch === null}>
+            Grow into it
+          </button>
+        </div>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,250 @@
+// The left side: the model and its arguments, what to grow into, how to search.
+
+import { useRef } from "preact/hooks";
+import type { Parameter, Settings, TargetAsk } from "../messages";
+import * as store from "../store";
+import { Icon } from "./icons";
+
+const title = (name: string): string => {
+  const bare = name.replace(/^.*\//, "").replace("gallery:", "").replace(/_/g, " ");
+  return bare.startsWith("upload:") ? "your mesh" : bare;
+};
+
+/** The target as it is asked, or the model's usual one. */
+export function currentTarget(): TargetAsk | null {
+  const view = store.view.value;
+  if (view === null || view.ask.sketch != null) return null;
+  return view.ask.target ?? (view.model?.target ? { source: view.model.target } : null);
+}
+
+export function Setup({ handles, setHandles }: { handles: string | null; setHandles: (mode: any) => void }) {
+  const view = store.view.value;
+  if (view === null) return <aside class="side" aria-label="Model and target" />;
+  return (
+    <aside class="side" aria-label="Model and target">
+      <section>
+        <h2>Model</h2>
+        <select
+          aria-label="Model"
+          value={view.model?.reference ?? ""}
+          onChange={(event) => void store.tell({ kind: "model", reference: event.currentTarget.value })}
+        >
+          {view.models.map((one) => (
+            <option key={one.reference} value={one.reference}>
+              {title(one.reference)}
+            </option>
+          ))}
+        </select>
+        <p class="quiet">{view.model?.title}</p>
+        {(view.model?.parameters ?? [])
+          .filter((one) => one.default !== null)
+          .map((one) => (
+            <Argument key={one.name} parameter={one} />
+          ))}
+      </section>
+      <Target handles={handles} setHandles={setHandles} />
+      <Search settings={view.settings} />
+    </aside>
+  );
+}
+
+function Argument({ parameter }: { parameter: Parameter }) {
+  const value = store.view.value!.arguments[parameter.name] ?? parameter.default;
+  const set = (given: unknown) => void store.tell({ kind: "set", arguments: { [parameter.name]: given } });
+  const isWhole = Number.isInteger(parameter.default);
+  if (typeof parameter.default === "boolean") {
+    return (
+      <label class="row">
+        <span>{parameter.name}</span>
+        <input type="checkbox" checked={value} onChange={(event) => set(event.currentTarget.checked)} />
+      </label>
+    );
+  }
+  if (typeof parameter.default === "string") {
+    return (
+      <label class="row">
+        <span>{parameter.name}</span>
+        <input type="text" value={value} onChange={(event) => set(event.currentTarget.value)} />
+      </label>
+    );
+  }
+  return (
+    <label class="row">
+      <span>{parameter.name}</span>
+      <input
+        type="number"
+        step={isWhole ? 1 : "any"}
+        value={value}
+        onChange={(event) => event.currentTarget.value !== "" && set(Number(event.currentTarget.value))}
+      />
+    </label>
+  );
+}
+
+function Target({ handles, setHandles }: { handles: string | null; setHandles: (mode: any) => void }) {
+  const view = store.view.value!;
+  const input = useRef<HTMLInputElement>(null);
+  const target = currentTarget();
+  const place = (source: string) => void store.tell({ kind: "ask", ask: { target: { source } } });
+  const isSketched = view.ask.sketch != null;
+  const own = target?.source.startsWith("upload:") ? [target.source] : [];
+  return (
+    <section>
+      <h2>Grow into</h2>
+      {isSketched ? (
+        <div class="row">
+          <span>what you drew</span>
+          <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+            clear
+          </button>
+        </div>
+      ) : view.model?.draws && target === null ? (
+        <p class="quiet">A drawing of its own. Draw with the pen to give it another.</p>
+      ) : (
+        <select aria-label="Target" value={target?.source ?? ""} onChange={(event) => place(event.currentTarget.value)}>
+          {target === null && <option value="">choose a target</option>}
+          {own.map((source) => (
+            <option key={source} value={source}>
+              your mesh
+            </option>
+          ))}
+          <optgroup label="Simple">
+            {["box", "ball", "column"].map((source) => (
+              <option key={source} value={source}>
+                {source}
+              </option>
+            ))}
+          </optgroup>
+          <optgroup label="Ours">
+            {view.targets.map((source) => (
+              <option key={source} value={source}>
+                {title(source)}
+              </option>
+            ))}
+          </optgroup>
+        </select>
+      )}
+      {target !== null && (
+        <div class="group" role="group" aria-label="Place the target">
+          {(
+            [
+              ["translate", "Move"],
+              ["scale", "Scale"],
+              ["rotate", "Turn"],
+            ] as const
+          ).map(([mode, name]) => (
+            <button
+              key={mode}
+              class="button small"
+              aria-pressed={handles === mode}
+              onClick={() => setHandles(handles === mode ? null : mode)}
+            >
+              {name}
+            </button>
+          ))}
+          {view.ask.target != null && (
+            <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+              reset
+            </button>
+          )}
+        </div>
+      )}
+      <button class="drop" onClick={() => input.current?.click()}>
+        Drop a mesh here <span>OBJ, STL, PLY, GLB</span>
+      </button>
+      <input
+        ref={input}
+        type="file"
+        hidden
+        accept=".obj,.stl,.ply,.glb,.gltf"
+        aria-label="A mesh to grow into"
+        onChange={(event) => {
+          const file = event.currentTarget.files?.[0];
+          if (file) void store.uploaded(file);
+          event.currentTarget.value = "";
+        }}
+      />
+    </section>
+  );
+}
+
+function Search({ settings }: { settings: Settings }) {
+  const view = store.view.value!;
+  const set = (changes: Settings) => void store.tell({ kind: "set", settings: { ...settings, ...changes } });
+  const running = view.searching;
+  const cannot = view.model === null || (view.model.draws === null && currentTarget() === null && !view.ask.sketch);
+  return (
+    <section>
+      <h2>Search</h2>
+      <label class="row">
+        <span>results</span>
+        <input
+          type="range"
+          min={1}
+          max={16}
+          value={settings.count}
+          aria-valuetext={`${settings.count} results`}
+          onChange={(event) => set({ count: Number(event.currentTarget.value) })}
+        />
+        <output>{settings.count}</output>
+      </label>
+      <label class="row">
+        <span>effort</span>
+        <input
+          type="range"
+          min={-2}
+          max={3}
+          step={1}
+          value={Math.log2(settings.effort ?? 1)}
+          aria-valuetext={`${settings.effort} times`}
+          onChange={(event) => set({ effort: 2 ** Number(event.currentTarget.value) })}
+        />
+        <output>{settings.effort}×</output>
+      </label>
+      <label class="row">
+        <span>seed</span>
+        <input
+          type="number"
+          min={0}
+          placeholder="another each time"
+          value={settings.seed ?? ""}
+          onChange={(event) => {
+            const text = event.currentTarget.value;
+            set({ seed: text === "" ? null : Number(text) });
+          }}
+        />
+      </label>
+      {running === null ? (
+        <button class="primary" disabled={cannot} onClick={store.run} title="Grow (Enter)">
+          {view.pins.length > 0 ? "Grow the rest" : "Grow"}
+        </button>
+      ) : (
+        <button class="primary stop" onClick={store.stop} title="Stop and keep what is there (Esc)">
+          Stop
+          <small>
+            {running.seconds.toFixed(1)} s{running.best !== null && ` · best ${running.best.toFixed(1)}`}
+          </small>
+        </button>
+      )}
+      {view.pins.length > 0 && (
+        <ul class="pins" aria-label="Pinned parts">
+          {view.pins.map((pin) => (
+            <li key={pin.part}>
+              <Icon name="pin" filled />
+              <button class="address" onClick={() => (store.level.value = pin.part)}>
+                {pin.part}
+              </button>
+              <button
+                class="icon-button tiny"
+                title={`Free ${pin.part}`}
+                onClick={() => void store.tell({ kind: "free", parts: [pin.part] })}
+              >
+                <Icon name="close" />
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,159 @@
+"""Counts: each that a person gives is a whole number of 64 bits that fits into memory, or there is a message.
+
+Nothing is allocated before: the searches here ask for 10^9 of everything, with a free memory of 8 GB.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+import pytest
+from niwaki import draw, letters
+from niwaki import kernels as k
+from niwaki.color import Drawing
+from niwaki.errors import InputError, NiwakiError, memory
+from niwaki.shell.main import app
+from niwaki.words import box
+from typer.testing import CliRunner
+
+B = 10**9
+GB = 10**9
+
+
+@nw.model
+def stone() -> float:
+    x = nw.gaussian(0, 1)
+    nw.emit(box((0, 0, 0), (1, 1, 1)))
+    nw.factor(-x * x)
+    return x
+
+
+@pytest.fixture(autouse=True)
+def eight_gigabytes(monkeypatch: Any) -> None:
+    monkeypatch.setattr(memory, "free_memory", lambda: 8 * GB)
+
+
+MOVING = {"rejuvenate": k.prior()}
+
+METHODS: dict[str, Callable[[], Any]] = {
+    "n": lambda: nw.importance(B),
+    "n ": lambda: nw.forward(B),
+    "particles": lambda: nw.smc(B),
+    "particles ": lambda: nw.smc((20, 20, B)),
+    "particles  ": lambda: nw.particle_gibbs(B),
+    "particles   ": lambda: nw.improve(B, rounds=1),
+    "particles    ": lambda: nw.mh(10, kernel=k.cycle(k.prior(), k.regrow(B))),
+    "populations": lambda: nw.smc(20, populations=B),
+    "diverse": lambda: nw.smc(20, diverse=B),
+    "moves": lambda: nw.smc(20, **MOVING, moves=2 * B),
+    "draws": lambda: nw.smc(20, **MOVING, draws=B, chains=2),
+    "chains": lambda: nw.smc(20, **MOVING, draws=2, chains=B),
+    "chains ": lambda: nw.mh(10, chains=B),
+    "chains  ": lambda: nw.hmc(10, chains=B),
+    "draws ": lambda: nw.nuts(B),
+    "sweeps": lambda: nw.pimh(4, B),
+    "regrow": lambda: nw.improve(10, regrow=B, rounds=1),
+}
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_counts_are_held_against_free_memory(name: str) -> None:
+    with pytest.raises(InputError) as caught:
+        nw.run(stone, METHODS[name](), seed=1)
+    text = str(caught.value)
+    assert f"error[no-room]: `{name.strip()}` asks for " in text and "8.0 GB are free" in text
+
+
+def test_what_fits_is_searched() -> None:
+    assert len(nw.run(stone, nw.importance(100), seed=1)) == 100
+    assert len(nw.run(stone, nw.mh(10, chains=3, keep=B, thin=1), seed=1).bests) == 3
+
+
+NONSENSE = [1.5, True, float("nan"), 10**20, 10**30, 10**5000, -1, "5", None, [], object()]
+COUNTS: dict[str, Callable[[Any], Any]] = {
+    "importance": nw.importance,
+    "forward": nw.forward,
+    "rejection": nw.rejection,
+    "tries of rejection": lambda n: nw.rejection(max_tries=n),
+    "enumerate": nw.enumerate_all,
+    "particles": nw.smc,
+    "one of several": lambda n: nw.smc((20, n)),
+    "barriers": lambda n: nw.smc(**MOVING, at=n),
+    "moves": lambda n: nw.smc(**MOVING, moves=n),
+    "chains of particles": lambda n: nw.smc(**MOVING, draws=2, chains=n),
+    "sweeps": lambda n: nw.pimh(4, n),
+    "rounds": lambda n: nw.improve(rounds=-1 if n is None else n),
+    "improve": nw.improve,
+    "regrow": lambda n: nw.improve(regrow=n),
+    "steps": nw.mh,
+    "chains": lambda n: nw.mh(chains=n),
+    "warmup": lambda n: nw.mh(warmup=n),
+    "tries": lambda n: nw.mh(tries=n),
+    "hmc": nw.hmc,
+    "leapfrog": lambda n: nw.hmc(steps=n),
+    "climb": lambda n: nw.hmc(climb=n),
+    "depth": lambda n: nw.nuts(max_depth=n),
+    "reach": k.neighbour,
+    "levels": k.regenerate,
+    "repeat": lambda n: k.repeat(n, k.prior()),
+    "every": lambda n: k.tempering(k.prior(), every=n),
+    "runs": lambda n: nw.Search(stone, runs=n),
+    "seed": lambda n: nw.Search(stone, seed=n),
+    "threads": lambda n: nw.run(stone, threads=1025 if n is None else n),
+    "max_steps": lambda n: nw.run(stone, max_steps=n),
+    "max_memory": lambda n: nw.run(stone, max_memory=n),
+    "width": lambda n: nw.run(stone, seed=1).best.picture(size=(n, 10)),
+    "samples": lambda n: nw.run(stone, seed=1).best.picture(size=(10, 10), samples=n),
+    "frames": lambda n: draw.animation.growth(nw.run(stone, seed=1).scene, "x.gif", frames=n),
+    "size of a letter": lambda n: letters.Word("", "vines", 1, []).picture(n),
+    "pixels of an SVG": lambda n: Drawing.load("robot", n),
+}
+
+
+@pytest.mark.parametrize("name", COUNTS)
+def test_what_is_no_count_gives_a_message(name: str) -> None:
+    for value in NONSENSE:
+        with pytest.raises(NiwakiError) as caught:
+            COUNTS[name](value)
+        assert len(str(caught.value)) < 1000
+
+
+def test_powers_that_no_real_number_holds() -> None:
+    for ask in (lambda: nw.smc(power=10**400), lambda: nw.smc(ess=10**400), lambda: k.drift(10**400)):
+        with pytest.raises(InputError):
+            ask()
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "grow spaceship -n 1000000000",
+        "grow spaceship -n 99999999999999999999",
+        "grow spaceship --method smc --populations 1000000000",
+        "grow spaceship --method smc --rejuvenate prior() --moves 2000000000",
+        "sample coin --chains 1000000000",
+        "color robot --size 1000000",
+        "color robot --measure 1000000",
+        "color robot -n 1000000000",
+        "letters A --width 1000000",
+        "letters A -n 1000000000",
+    ],
+)
+def test_the_shell_refuses_the_same(line: str, tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, [*line.split(), "-o", str(tmp_path / "out")])
+    assert isinstance(done.exception, NiwakiError), done.output
+    assert done.exception.code in ("no-room", "bad-setting")
+
+
+def test_free_memory_is_the_least_of_all_limits(monkeypatch: Any, tmp_path: Path) -> None:
+    monkeypatch.undo()
+    (tmp_path / "max").write_text("5000\n")
+    (tmp_path / "current").write_text("3000\n")
+    (tmp_path / "memory.stat").write_text("anon 2000\ninactive_file 500\n")
+    monkeypatch.setattr(memory, "_GROUPS", ((str(tmp_path / "max"), str(tmp_path / "current")),))
+    assert memory.free_memory() == 2500
+    (tmp_path / "max").write_text("max\n")
+    assert memory.free_memory() > 10**6
