@@ -143,7 +143,7 @@ impl<'a> Population<'a> {
                 let run = |p: &mut Particle, machine: &mut Machine<'_>| {
                     advance(p, machine, &own, settings, &mut sight)
                 };
-                growth.add(counted(p, &mut machine, limit, run)?);
+                counted(p, &mut machine, limit, &mut growth, run)?;
                 if growth.up > room {
                     return Err(too_large(task));
                 }
@@ -173,8 +173,8 @@ impl<'a> Population<'a> {
                     let run = |p: &mut Particle, machine: &mut Machine<'_>| {
                         advance(p, machine, task, settings, &mut sight)
                     };
-                    match counted(particle, &mut machine, limit, run) {
-                        Ok(own) => growth.add(own),
+                    match counted(particle, &mut machine, limit, &mut growth, run) {
+                        Ok(()) => {}
                         Err(own) if failed.fetch_min(index, Ordering::Relaxed) > index => {
                             let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
                             if first.as_ref().is_none_or(|(before, _)| *before > index) {

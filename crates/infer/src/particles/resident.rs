@@ -93,13 +93,15 @@ fn of_share(failure: Failure, all: usize) -> Failure {
     }
 }
 
-/// Runs `advance` on a particle, and gives by how much it has grown; also by becoming a copy of another one before.
+/// Runs `advance` on a particle, and adds by how much it has grown; also by becoming a copy of another one before.
+#[inline]
 pub(super) fn counted(
     particle: &mut Particle,
     machine: &mut Machine<'_>,
     all: usize,
+    growth: &mut Growth,
     advance: impl FnOnce(&mut Particle, &mut Machine<'_>) -> Result<(), Failure>,
-) -> Result<Growth, Failure> {
+) -> Result<(), Failure> {
     let before = particle.state.value_bytes();
     advance(particle, machine).map_err(|failure| of_share(failure, all))?;
     if particle.state.value_bytes() > before + DROPPED + before / DROPPED_PART {
@@ -108,7 +110,10 @@ pub(super) fn counted(
     let own = particle.state.own_bytes() as isize;
     let grown = own - std::mem::replace(&mut particle.bytes, own);
     let values = particle.state.value_bytes().saturating_sub(before);
-    Ok(Growth { own: grown, values, up: values + usize::try_from(grown).unwrap_or(0) })
+    growth.own += grown;
+    growth.values += values;
+    growth.up += values + grown.max(0) as usize;
+    Ok(())
 }
 
 /// The fault of a population, at the function that the particles run: any of them may be the one that grows.

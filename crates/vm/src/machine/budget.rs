@@ -8,14 +8,14 @@
 //! Operations on many elements have their price before they are carried out: what does not fit is refused before it is
 //! allocated.
 
-use super::Machine;
 use super::keep::Keep;
 use super::registers::Registers;
 use super::state::State;
+use super::{Machine, operate};
 use crate::builtins::Builtin;
-use crate::code::{Args, Binary};
+use crate::code::{Args, Binary, Operand};
 use crate::fault::Fault;
-use crate::value::{Census, Value, index};
+use crate::value::{Census, Value, index, ops};
 use niwaki_math::{Family, Scalar};
 
 /// Elements that cost one step.
@@ -109,8 +109,7 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
     let all: usize = args.iter().map(length).sum();
     let each = |bytes: usize| Price::of(all, all.saturating_mul(bytes));
     match builtin.name {
-        "len" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => Price::default(),
-        "append" => Price { steps: 0, bytes: of_append(&args[0]) },
+        "append" | "len" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => Price::default(),
         "in" | "eq" | "ne" | "lt" | "le" | "gt" | "ge" => Price::of(all, 0),
         "add" => of_binary(Binary::Add, &args[0], &args[1]),
         "mul" => of_binary(Binary::Mul, &args[0], &args[1]),
@@ -274,6 +273,95 @@ impl<S: Scalar> Machine<'_, S> {
         self.charge(state, keep, price)?;
         state.charged -= price.bytes;
         Ok(())
+    }
+
+    /// An operation of two values, with its price where it has one.
+    ///
+    /// # Errors
+    /// Too many steps or bytes, and as for [`operate::values`].
+    #[inline(never)]
+    pub(super) fn operate<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        op: Binary,
+        (a, b): (Operand, Operand),
+    ) -> Result<Value<S>, Fault> {
+        let (x, y) = (r.get(state, &self.scratch, a), r.get(state, &self.scratch, b));
+        if x.is_plain() && y.is_plain() {
+            return operate::values(op, x, y);
+        }
+        let price = of_binary(op, x, y);
+        self.charge(state, keep, price)?;
+        operate::values(op, r.get(state, &self.scratch, a), r.get(state, &self.scratch, b))
+    }
+
+    /// A comparison of two values that are not plain, with its price.
+    ///
+    /// # Errors
+    /// As for [`Machine::operate`].
+    #[inline(never)]
+    pub(super) fn compare<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        op: Binary,
+        operands: (Operand, Operand),
+    ) -> Result<bool, Fault> {
+        match self.operate(state, keep, r, op, operands)? {
+            Value::Bool(holds) => Ok(holds),
+            other => ops::truth(&other),
+        }
+    }
+
+    /// Charges the price of a built-in function of one argument.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline(never)]
+    pub(super) fn charge_argument<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        builtin: &Builtin<S>,
+        a: Operand,
+    ) -> Result<(), Fault> {
+        let price = of_builtin(builtin, std::slice::from_ref(r.get(state, &self.scratch, a)));
+        self.charge_passing(state, keep, price)
+    }
+
+    /// Charges the price of a built-in function of the arguments in the buffer.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline(never)]
+    pub(super) fn charge_arguments<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        builtin: &Builtin<S>,
+    ) -> Result<(), Fault> {
+        self.charge_passing(state, keep, of_builtin(builtin, &self.buffer))
+    }
+
+    /// Charges what a built-in function has made.
+    ///
+    /// # Errors
+    /// Too many bytes.
+    #[inline(never)]
+    pub(super) fn charge_answer<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        builtin: &Builtin<S>,
+        value: &Value<S>,
+    ) -> Result<(), Fault> {
+        // A longer list shares all but its end with the list before.
+        let bytes = if builtin.name == "append" { of_append(value) } else { of_made(value) };
+        self.charge(state, keep, Price { steps: 0, bytes })
     }
 
     /// Charges the building of a distribution by a question, which finds most of them in the cache: fewer steps.

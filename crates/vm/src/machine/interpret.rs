@@ -145,17 +145,6 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
-        // An operation of values that are not both numbers has its price first.
-        macro_rules! operation {
-            ($op:expr, $a:expr, $b:expr) => {{
-                let (a, b) = (get!($a), get!($b));
-                if $op != Binary::Index && !(a.is_plain() && b.is_plain()) {
-                    let price = budget::of_binary($op, a, b);
-                    check!(self.charge(state, keep, price));
-                }
-                check!(operate::values($op, get!($a), get!($b)))
-            }};
-        }
         // A value that was made.
         macro_rules! made {
             ($value:expr) => {{
@@ -184,7 +173,7 @@ impl<S: Scalar> Machine<'_, S> {
                 {
                     slot!($to, store_int, Value::Int, z);
                 } else {
-                    put!($to, operation!($op, $a, $b));
+                    put!($to, check!(self.operate(state, keep, r!(), $op, ($a, $b))));
                 }
             }};
         }
@@ -223,12 +212,15 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Mul { to, a, b } => arithmetic!(Binary::Mul, to, a, b),
                 Op::Div { to, a, b } => arithmetic!(Binary::Div, to, a, b),
                 Op::Binary { op, to, a, b } => {
-                    if let (Value::Int(x), Value::Int(y)) = (get!(a), get!(b))
+                    let (x, y) = (get!(a), get!(b));
+                    if let (Value::Int(x), Value::Int(y)) = (x, y)
                         && let Some(z) = operate::ints(op, *x, *y)
                     {
                         slot!(to, store_int, Value::Int, z);
+                    } else if op == Binary::Index {
+                        put!(to, check!(operate::values(op, x, y)));
                     } else {
-                        put!(to, operation!(op, a, b));
+                        put!(to, check!(self.operate(state, keep, r!(), op, (a, b))));
                     }
                 }
                 Op::Neg { to, a } => {
@@ -252,11 +244,12 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::JumpUnlessCompare { op, a, b, target } => {
                     let (x, y) = (get!(a), get!(b));
-                    if !(x.is_plain() || y.is_plain()) {
-                        let price = budget::of_binary(op, x, y);
-                        check!(self.charge(state, keep, price));
-                    }
-                    if !check!(operate::holds(op, get!(a), get!(b))) {
+                    let holds = if x.is_plain() || y.is_plain() {
+                        check!(operate::holds(op, x, y))
+                    } else {
+                        check!(self.compare(state, keep, r!(), op, (a, b)))
+                    };
+                    if !holds {
                         goto!(target);
                     }
                 }
@@ -315,14 +308,14 @@ impl<S: Scalar> Machine<'_, S> {
                     let answer = if let [a] = f.operands[args.range()] {
                         // A single argument, as of `sqrt`, is read in place.
                         if !get!(a).is_plain() {
-                            let price = budget::of_builtin(builtin, std::slice::from_ref(get!(a)));
-                            check!(self.charge_passing(state, keep, price));
+                            check!(self.charge_argument(state, keep, r!(), builtin, a));
                         }
                         builtin.call(std::slice::from_ref(get!(a)))
                     } else {
                         gather!(args);
-                        let price = budget::of_builtin(builtin, &self.buffer);
-                        check!(self.charge_passing(state, keep, price));
+                        if !self.buffer.iter().all(Value::is_plain) {
+                            check!(self.charge_arguments(state, keep, builtin));
+                        }
                         builtin.call(&self.buffer)
                     };
                     let value = check!(answer);
@@ -331,7 +324,10 @@ impl<S: Scalar> Machine<'_, S> {
                         std::mem::forget(value);
                         slot!(to, store_real, Value::Real, x);
                     } else {
-                        put!(to, made!(value));
+                        if !value.is_plain() {
+                            check!(self.charge_answer(state, keep, builtin, &value));
+                        }
+                        put!(to, value);
                     }
                 }
                 Op::Host { to, constant, args } => {

@@ -220,8 +220,11 @@ impl<'p, S: Scalar> Machine<'p, S> {
         let node = *node;
         let (pc, before) = (state.nodes[node.0 as usize].pc as usize, state.steps);
         let stop = self.interpret(state, &mut Dropped, future, (node, pc), answers);
-        match stop.and_then(|stop| self.take_steps(state.steps - before).map(|()| stop)) {
+        match stop {
             Ok(stop) => {
+                if let Err(fault) = self.take_steps(state.steps - before) {
+                    return Err(Box::new(self.report(state, fault)));
+                }
                 if let Some(held) = self.held
                     && state.has_ended()
                     && let Some(number) = state.unmet.first()

@@ -186,16 +186,28 @@ impl<S: Scalar> Machine<'_, S> {
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
             Answer::Go(value) => {
                 if A::LOGS {
-                    state.logged += LOGGED + budget::of_result(&value);
-                } else {
-                    state.charged += budget::of_result(&value);
+                    state.logged += LOGGED;
                 }
-                let is_plain = value.is_plain();
+                if !value.is_plain() {
+                    self.charge_choice::<A>(state, &value)?;
+                }
                 state.registers[r.own + site.to.index()].store(value);
-                if is_plain { Ok(()) } else { Ok(self.afford(state, &Dropped)?) }
+                Ok(())
             }
             Answer::Pause => Err(Halt::Paused),
         }
+    }
+
+    /// Charges a chosen value that takes memory, with its entry in the log.
+    #[inline(never)]
+    fn charge_choice<A: Answers<S>>(&self, state: &mut State<S>, value: &Value<S>) -> Result<(), Fault> {
+        let bytes = budget::of_result(value);
+        if A::LOGS {
+            state.logged += bytes;
+        } else {
+            state.charged += bytes;
+        }
+        self.afford(state, &Dropped)
     }
 
     /// An activation is left: a held choice in it that was not met never will be.
