@@ -21,7 +21,7 @@ const LOGGED: usize = 36;
 
 #[cold]
 fn no_dist<S: Scalar>(value: &Value<S>) -> Fault {
-    Fault::new("type-mismatch", format!("expected a distribution, found {}", value.described()))
+    Fault::new("not-a-distribution", format!("expected a distribution, found {}", value.described()))
 }
 
 #[cold]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
+from niwaki.errors.texts.shell import SHELL
 
 SETTINGS = (
+    *SHELL,
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",
