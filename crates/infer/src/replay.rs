@@ -183,8 +183,8 @@ impl Answers<f64> for Replay<'_> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.task.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.task.hosts.call(constant, args, steps)
     }
 }
 
@@ -206,7 +206,9 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let mut answers = Replay { task, chooser, trace, record, written: HashMap::new() };
     if missing == Missing::Stop {
         let mut stuck = Vec::new();
-        while let Some(next) = state.runnable().iter().copied().find(|future| !stuck.contains(future)) {
+        loop {
+            let next = state.runnable().iter().find(|future| !stuck.contains(future));
+            let Some(next) = next else { break };
             if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {
                 stuck.push(next);
             }
