@@ -203,12 +203,22 @@ class Result(Sequence[Sample]):
     def more(self, steps: int) -> Result:
         """Go on with the chains of `mh` from where they are: the result itself, with more in it.
 
+        A checkpoint of the search goes on with them.
+
         Parameters
         ----------
         steps
             Proposals in each chain.
         """
         at_least_one("steps", steps)
+        self._more(steps)
+        stage = self.info.running.stage if isinstance(self.info, MhInfo) else None
+        if stage is not None:
+            stage.keeper.finish(self.interrupted)
+        return self
+
+    def _more(self, steps: int | None) -> Result:
+        """The same; without a number, the proposals that the method names or that an earlier process left."""
         if not isinstance(self.info, MhInfo):
             raise bad(
                 "method",
@@ -216,14 +226,17 @@ class Result(Sequence[Sample]):
                 "a result of `mh`, whose chains can go on",
                 "`mh(...)`, or call `polish` first",
             )
-        chains, counted, watch, threads = self.info.running
+        chains, counted, watch, threads, stage = self.info.running
+        kept = None if stage is None else stage.engine
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             with translated(self.model.name, f"seed={self.seed}"):
-                self.interrupted = chains.advance(steps, threads, watch)
+                self.interrupted = chains.advance(steps, threads, watch, kept)
         finally:
             self.seconds += time.perf_counter() - wall
             self.cpu_seconds += time.process_time() - cpu
+            if stage is not None:
+                stage.collect()
             by_chain = chains.samples()
             visits = [[run.visit for run in runs] for runs in by_chain]
             self.info = replace(self.info, visits=visits, seconds=(self.seconds, self.cpu_seconds))

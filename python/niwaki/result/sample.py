@@ -58,7 +58,6 @@ class Sample:
         cpu_seconds: float = 0.0,
     ) -> None:
         self._run = run
-        self._is_restored = False
         self.search = search
         self.log_score: float = run.log_score
         self.log_prior: float = run.log_prior
@@ -99,7 +98,7 @@ class Sample:
     def value(self) -> Any:
         """What the model returned; None for a run that did not end."""
         try:
-            return (self._trace.run if self._is_restored else self._run).value
+            return (self._trace.run if self._run.is_bare else self._run).value
         except TypeError as error:
             raise InputError("value-too-deep", found=str(error)) from None
 
@@ -259,9 +258,7 @@ class Sample:
 
 def _restored(search: Search, data: str, *rest: Any) -> Sample:
     """The sample of its pickled data; the returned value comes from another run, when it is read."""
-    sample = Sample(search.task.run_of_data(data), search, *rest)
-    sample._is_restored = True
-    return sample
+    return Sample(search.task.run_of_data(data), search, *rest)
 
 
 def log_density(sample: Sample) -> LogDensity:

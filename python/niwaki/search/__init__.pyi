@@ -1,3 +1,4 @@
+from .checkpoint import Checkpoint as Checkpoint
 from .checks import fresh as fresh
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
@@ -6,5 +7,6 @@ from .entry import explain as explain
 from .entry import grow as grow
 from .entry import run as run
 from .entry import usual as usual
+from .keeping import Stage as Stage
 from .request import Search as Search
 from .searching import SearchWarning as SearchWarning

@@ -18,6 +18,7 @@ from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.progress import Watch
+from niwaki.search.checkpoint import Checkpoint, begun_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.request import Search
 from niwaki.search.searching import given, starts
@@ -48,6 +49,7 @@ def run(
     max_memory: int = 1 << 30,
     threads: int | None = None,
     progress: Watch | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
     """Run a model on the engine.
@@ -80,6 +82,11 @@ def run(
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress
         Called now and then with a `Progress`; an exception that it raises ends the search.
+    checkpoint
+        A file, or a `Checkpoint`. What the search needs to go on is written there about every second. A search whose
+        file is there goes on from it, with the same result as if it had not ended; where no seed is given, with the
+        seed of the file. Chains and several runs go on from where they were; one population, an enumeration, or a
+        chain of `hmc` begins again.
 
     Returns
     -------
@@ -94,7 +101,7 @@ def run(
         tuple(arguments(model, args, kwargs)),
         score=Score() if score is None else score,
         method=Forward() if method is None else method,
-        seed=fresh(seed),
+        seed=fresh(begun_seed(seed, checkpoint)),
         choices=choices,
         lock=lock,
         max_steps=max_steps,
@@ -102,7 +109,7 @@ def run(
     )
     if choices is not None and seed is not None and not starts(search.method):
         return given(search, search.seed)
-    return search.run(threads=threads, progress=progress)
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def grow(
@@ -122,6 +129,7 @@ def grow(
     max_memory: int = 1 << 30,
     threads: int | None = None,
     progress: Watch | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
@@ -155,8 +163,8 @@ def grow(
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
-    seed, lock, max_steps, max_memory, threads, progress
-        As for `run`.
+    seed, lock, max_steps, max_memory, threads, progress, checkpoint
+        As for `run`. The usual search is written between two rounds.
 
     Returns
     -------
@@ -191,7 +199,7 @@ def grow(
         tuple(arguments(model, args, kwargs)),
         score=product,
         method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
-        seed=fresh(seed),
+        seed=fresh(begun_seed(seed, checkpoint)),
         lock=lock,
         runs=runs,
         keep="best",
@@ -199,7 +207,7 @@ def grow(
         max_steps=max_steps,
         max_memory=max_memory,
     )
-    return search.run(threads=threads, progress=progress)
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:

@@ -6,6 +6,7 @@ controls.py   what the shape should be like, as flags
 settings.py   how to search, as flags
 writing.py    which files a result becomes
 grow.py       `niwaki grow`: a search, written to a folder
+resuming.py   `--resume`: a search goes on that was stopped or killed
 replay.py     `niwaki replay`: a result once more, in any format
 sample.py     `niwaki sample`: Markov chains, written to a folder
 explain.py    `niwaki explain`: what each strategy does for one proposal, as a picture
@@ -13,6 +14,7 @@ guide.py      `niwaki guide`: trains a guide, shows what one sees
 letters.py    `niwaki letters`: a text in vines or lightning
 models.py     `niwaki models`: the gallery
 color.py      `niwaki color`: a drawing in colours that differ
+studio.py     `niwaki studio`: a page, served to this machine
 references.py a model by its name or its file
 run_files.py  a search and its runs as a file
 results.py    a folder of one run: that file, and those that show the run

@@ -16,7 +16,6 @@ from niwaki.errors import FileError
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
     "models": "List the gallery: name, target, title.",
-    "studio": "Open a page in the browser to grow models by hand.",
     "grow": "Grow a model into its target.",
     "replay": "Write the best result of a search again, in any format.",
     "check": "Compile a model and report what it is made of, with advice.",
@@ -24,6 +23,7 @@ COMMANDS = {
     "color": "Colour a drawing in ways that differ.",
     "letters": "Write a text in vines or lightning.",
     "guide": "Train guides, and show what they see.",
+    "studio": "Open a page to search, hold parts and grow the rest again.",
     "explain": "Draw what each strategy runs again for one proposal.",
 }
 

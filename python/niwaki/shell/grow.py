@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from contextlib import nullcontext
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,8 +15,8 @@ import niwaki as nw
 from niwaki import draw, gallery, search, shell, targets
 from niwaki import result as results
 from niwaki.errors.folders import held_folder
-from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell import controls, resuming, settings, writing
+from niwaki.shell.app import Folder, app
 from niwaki.shell.progress import progress_line
 
 
@@ -26,7 +27,8 @@ from niwaki.shell.progress import progress_line
     particles="the model's own, or 300; of improve a third",
 )
 def grow(
-    model: ModelName,
+    context: typer.Context,
+    model: resuming.Model = None,
     target: controls.TargetFile = None,
     avoid: controls.AvoidFiles = None,
     floor: controls.Floor = None,
@@ -53,6 +55,7 @@ def grow(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
+    resume: resuming.Resume = None,
     output: Folder = None,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
@@ -71,7 +74,15 @@ def grow(
     **given: Any,
 ) -> None:
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
-    found = shell.references.find(model)
+    if resume is not None:
+        search_left, found, flags, checkpoint = resuming.left(context, resume, "grow")
+        files = writing.Files.of_data(flags["files"])
+        with held_folder(resume) as folder:
+            with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
+                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            _end(result, found, folder, files, flags["picture"], as_json, checkpoint)
+        return
+    found = shell.references.find(resuming.required(context, model))
     style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
         target,
@@ -109,7 +120,10 @@ def grow(
     writes = output is not None or not as_json
     # Before the search: that a folder cannot be written to must not be the news at its end.
     with held_folder(output or Path("out")) if writes else nullcontext() as folder:
-        with progress_line(found.reference) as progress:
+        kept = None
+        if folder is not None:
+            kept = resuming.begun(folder, "grow", found, files=asdict(files), picture=picture)
+        with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
             result = nw.grow(
                 found.model,
                 aim,
@@ -125,14 +139,31 @@ def grow(
                 rule=rule,
                 runs=runs,
                 max_steps=max_steps,
+                checkpoint=kept,
             )
-        if folder is not None:
+        _end(result, found, folder, files, picture, as_json, kept)
+
+
+def _end(
+    result: nw.Result,
+    found: shell.references.ModelReference,
+    folder: Path | None,
+    files: writing.Files,
+    picture: bool,
+    as_json: bool,
+    checkpoint: nw.Checkpoint | None,
+) -> None:
+    """Write the files, where there is a folder for them, and say what was found."""
+    if folder is not None:
+        with resuming.ended(result, checkpoint):
             _write(folder, result, found, files, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
-    else:
-        _summary(result, output or Path("out"))
+    elif folder is not None:
+        _summary(result, folder)
     if result.interrupted:
+        if folder is not None:
+            print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
 
 

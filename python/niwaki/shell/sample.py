@@ -21,14 +21,15 @@ from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
-from niwaki.shell import settings
-from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell import resuming, settings
+from niwaki.shell.app import Folder, app
 
 
 @app.command()
 @settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
 def sample(
-    model: ModelName,
+    context: typer.Context,
+    model: resuming.Model = None,
     target: Annotated[
         str | None,
         typer.Option(
@@ -41,6 +42,7 @@ def sample(
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
+    resume: resuming.Resume = None,
     output: Folder = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
@@ -51,26 +53,58 @@ def sample(
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    found = shell.references.find(model)
+    if resume is not None:
+        search_left, found, flags, checkpoint = resuming.left(context, resume, "sample")
+        own = search_left.method
+        proposals = own.steps * own.chains if isinstance(own, Mh) else 0
+        with held_folder(resume) as folder:
+            with _shown(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
+                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            _end(result, found, folder, flags["picture"], as_json, checkpoint)
+        return
+    found = shell.references.find(resuming.required(context, model))
     score = nw.Score()
     if target is not None:
         score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
+    proposals = method.steps * method.chains
     writes = output is not None or not as_json
     with held_folder(output or Path("out")) if writes else nullcontext() as folder:
-        with _shown(found.reference, method.steps * method.chains) as progress:
+        kept = None if folder is None else resuming.begun(folder, "sample", found, picture=picture)
+        with _shown(found.reference, proposals) as progress, resuming.told(kept, "sample"):
             result = nw.run(
-                found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
+                found.model,
+                method=method,
+                score=score,
+                seed=seed,
+                threads=threads,
+                progress=progress,
+                checkpoint=kept,
             )
-        if folder is not None:
+        _end(result, found, folder, picture, as_json, kept)
+
+
+def _end(
+    result: nw.Result,
+    found: shell.references.ModelReference,
+    folder: Path | None,
+    picture: bool,
+    as_json: bool,
+    checkpoint: nw.Checkpoint | None,
+) -> None:
+    """Write the files, where there is a folder for them, and say what was found."""
+    if folder is not None:
+        with resuming.ended(result, checkpoint):
             _write(folder, result, found, picture)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
-    else:
-        _summary(result, output or Path("out"))
+    elif folder is not None:
+        _summary(result, folder)
     if result.interrupted:
+        if folder is not None:
+            print(resuming.interrupted(folder, "sample"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
 
 

@@ -6,6 +6,7 @@ the search starts.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -97,6 +98,12 @@ class Files:
         if set(SOLIDS) & set(chosen):
             draw.solid.kernel()
         return cls(chosen, scale, fuse, frames, _pixels(size), style)
+
+    @classmethod
+    def of_data(cls, data: Mapping[str, Any]) -> Files:
+        """The files of `dataclasses.asdict`, read from JSON."""
+        fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in data.items()}
+        return cls(**fields)
 
     @property
     def names(self) -> list[str]:
