@@ -1,7 +1,8 @@
 //! Searches for Python: a task and the algorithms that answer it.
 //!
-//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`],
-//! when the memory that is left is looked at too. If it raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and returns its results so far.
+//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`], and the
+//! memory that is left is looked at. If the callback raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search
+//! stops at its next barrier and returns its results so far.
 
 use crate::checkpoints::PyCheckpoint;
 use crate::faults;
