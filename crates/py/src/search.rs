@@ -30,7 +30,7 @@ use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -142,7 +142,7 @@ pub struct PyTask {
 
 #[pymethods]
 impl PyTask {
-    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run or a whole population.
+    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run, a whole population or several chains together.
     #[new]
     #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30))]
     fn new(
@@ -164,6 +164,7 @@ impl PyTask {
             sketches: sketches.into_iter().map(|s| s.0).collect(),
             hosts: own.hosts(limits),
             limits,
+            together: None,
             invalid: Arc::default(),
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
@@ -238,7 +239,9 @@ impl PyTask {
         let inner = read.unwrap_or_else(|| Err(unknown())).map_err(|fault| faults::setting(py, &fault))?;
         let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
-        let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;
+        let together = Arc::new(Together::new(self.task.limits.steps));
+        let value =
+            self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;
         self.object(py, &value)
     }
 
