@@ -2,8 +2,8 @@
 
 Written here rather than by a library, so that the same scene gives the same bytes (glTF 2.0, section 4 for the
 container, 3.6 for buffers, 3.5.3 for nodes). The node of a part carries its address as an extra. Parts of equal
-geometry (`niwaki.draw.instances`) share its buffers; where their paints are equal too they share the whole mesh, so that
-a modelling program opens them as linked copies.
+geometry (`niwaki.draw.instances`) share its buffers; where their paints are equal too they share the whole mesh, so
+that a modelling program opens them as linked copies.
 
 Lengths are scene units, y is up, as glTF requires. The origin of a part's node is the middle of the part; the nodes of
 calls stay at the scene's origin.

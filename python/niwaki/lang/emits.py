@@ -84,13 +84,13 @@ def _makers(body: Body, node: ast.expr) -> Iterator[ast.Call]:
         yield from _makers(body, node.orelse)
     elif isinstance(node, (ast.ListComp, ast.GeneratorExp)):
         yield from _makers(body, node.elt)
-    elif makes_a_shape(body, node):
+    elif makes_a_shape(node, body):
         yield node
     else:
         body.refuse("emit-color", node)
 
 
-def makes_a_shape(body: Body, node: ast.expr) -> TypeGuard[ast.Call]:
+def makes_a_shape(node: ast.expr, body: Body) -> TypeGuard[ast.Call]:
     """Whether an expression is a call of `box` or another word for a shape."""
     return isinstance(node, ast.Call) and any(_word(body, node) is word for word in SHAPES)
 

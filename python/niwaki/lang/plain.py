@@ -407,7 +407,7 @@ class PlainRun:
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
         replay = f"seed={self.seed}" if self.seed is not None else ""
-        return ModelFault(code, text, stack=self.stack(error), replay=replay)
+        return ModelFault(code, text, vocabulary.shape_help(text), stack=self.stack(error), replay=replay)
 
 
 CODES: tuple[tuple[type[BaseException], str], ...] = (

@@ -193,8 +193,8 @@ class _Namer:
 def part_name(node: ast.Call) -> str | None:
     """The name that an `emit` gives to its part, where it is one that an address can hold."""
     given = next((keyword.value for keyword in node.keywords if keyword.arg == "name"), None)
-    is_text = isinstance(given, ast.Constant) and isinstance(given.value, str)
-    return given.value if is_text and re.fullmatch(r"[\w-]+", given.value) else None
+    text = given.value if isinstance(given, ast.Constant) else None
+    return text if isinstance(text, str) and re.fullmatch(r"[\w-]+", text) else None
 
 
 def first_name(target: ast.AST) -> str:

@@ -58,7 +58,7 @@ def effect(body: Body, node: ast.Expr) -> None:
     """An expression for its effect; a docstring is nothing. `look` lasts: it assigns a variable of its own."""
     if isinstance(node.value, ast.Constant):
         return
-    if makes_a_shape(body, node.value):
+    if makes_a_shape(node.value, body):
         body.refuse("not-emitted", node.value)
     value = expression(body, node.value)
     if isinstance(node.value, ast.Call) and static(body, node.value.func) is words.look:

@@ -166,6 +166,8 @@ def grow(
         than the empty scene is a warning, too.
     """
     model = as_model(model)
+    if "(emit " not in model.core().text:
+        raise InputError("no-emit", name=model.name)
     settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
     if settings.get("guide", True) is None:
         del settings["guide"]

@@ -15,7 +15,7 @@ from niwaki import draw, gallery, search, shell, targets
 from niwaki import result as results
 from niwaki.errors.folders import held_folder
 from niwaki.shell import controls, settings, writing
-from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell.app import Folder, Megabytes, ModelName, app
 from niwaki.shell.progress import progress_line
 
 
@@ -53,6 +53,7 @@ def grow(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
+    max_memory: Megabytes = 1024,
     output: Folder = None,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
@@ -125,6 +126,7 @@ def grow(
                 rule=rule,
                 runs=runs,
                 max_steps=max_steps,
+                max_memory=max_memory << 20,
             )
         if folder is not None:
             _write(folder, result, found, files, picture)

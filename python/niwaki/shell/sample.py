@@ -5,15 +5,12 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
 import niwaki as nw
 from niwaki import draw, kernels, shell
@@ -22,7 +19,8 @@ from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
 from niwaki.shell import settings
-from niwaki.shell.app import Folder, ModelName, app
+from niwaki.shell.app import Folder, Megabytes, ModelName, app
+from niwaki.shell.progress import sampling_line
 
 
 @app.command()
@@ -41,6 +39,7 @@ def sample(
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
+    max_memory: Megabytes = 1024,
     output: Folder = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
@@ -60,9 +59,15 @@ def sample(
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
     writes = output is not None or not as_json
     with held_folder(output or Path("out")) if writes else nullcontext() as folder:
-        with _shown(found.reference, method.steps * method.chains) as progress:
+        with sampling_line(found.reference, method.steps * method.chains) as progress:
             result = nw.run(
-                found.model, method=method, score=score, seed=seed, threads=threads, progress=progress
+                found.model,
+                method=method,
+                score=score,
+                seed=seed,
+                max_memory=max_memory << 20,
+                threads=threads,
+                progress=progress,
             )
         if folder is not None:
             _write(folder, result, found, picture)
@@ -124,21 +129,3 @@ def _summary(result: nw.Result, folder: Path) -> None:
     rate = counters["proposals"] / max(result.cpu_seconds, 1e-9)
     print(f"{counters['proposals']} proposals, {rate:,.0f} a second of processor time; seed {result.seed}")
     print(f"best: log score {result.best.log_score:.2f}; {len(result)} samples; files in {folder}")
-
-
-@contextmanager
-def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.result.Progress], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda _: None
-        return
-    with console.status(f"sampling {name}") as status:
-
-        def show(now: nw.result.Progress) -> None:
-            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
-            status.update(
-                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"
-            )
-
-        yield show
