@@ -15,6 +15,7 @@
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
+#   make fuzz     the fuzzers, each for MINUTES (10; ONLY="core_text sources": those); needs cargo-fuzz
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
 #                 rustup; skipped with a line where there is none)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
@@ -40,13 +41,15 @@ export PYO3_PYTHON := $(CURDIR)/$(PY)
 export PYO3_BUILD_EXTENSION_MODULE := 1
 CARGO_FLAGS := --release --locked
 LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/limit
+FUZZERS := --manifest-path fuzz/Cargo.toml --target-dir fuzz/target/lint
 
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
 PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
+MINUTES := 10
 
-.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -88,8 +91,10 @@ test-studio: $(STAMPS)/engine $(STAMPS)/test
 lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --all --check
 	cargo fmt --manifest-path benches/limit/Cargo.toml --check
+	cargo fmt --manifest-path fuzz/Cargo.toml --check
 	cargo clippy $(CARGO_FLAGS) --workspace --all-targets -- -D warnings
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
+	cargo clippy $(CARGO_FLAGS) $(FUZZERS) -- -D warnings
 	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
 	$(VENV)/bin/lint-imports --no-cache
@@ -127,6 +132,11 @@ bench-searches: $(STAMPS)/engine
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
+	$(PY) tests/fuzz/fuzzers.py --minutes 1
+
+# Builds the engine once more, with counters of what a run reaches.
+fuzz: $(STAMPS)/engine $(STAMPS)/test
+	$(PY) tests/fuzz/fuzzers.py --minutes $(MINUTES) $(if $(ONLY),--only $(ONLY))
 
 # Machine code and slices of one memory are in `grad`; the unsafe code of `infer` and `vm` only calls instructions of the
 # processor. A folder of its own, because the flags of the compiler differ.
@@ -149,6 +159,7 @@ docs: $(STAMPS)/engine $(STAMPS)/docs
 format: $(STAMPS)/lint
 	cargo fmt --all
 	cargo fmt --manifest-path benches/limit/Cargo.toml
+	cargo fmt --manifest-path fuzz/Cargo.toml
 	$(VENV)/bin/ruff format $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check --fix $(PYTHON_SOURCES)
 
@@ -162,5 +173,5 @@ locks: $(STAMPS)/venv
 	done
 
 clean:
-	rm -rf $(VENV) target out docs/_build benches/.cache
+	rm -rf $(VENV) target out docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
 	find python tests benches \( -name __pycache__ -o -name '*.so' \) -prune -exec rm -rf {} +

@@ -15,6 +15,7 @@ Searching a model:
     mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
     kernels                                     the kernels of Markov chains
     train_guide, Guide                          a network that has learnt which choices lead where
+    Checkpoint                                  where a search keeps what it needs to go on after a kill
     Search                                      what `grow` and `run` run, as a value: JSON, a hash
 
 What a scene should be like:

@@ -35,6 +35,7 @@ from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics
 from .result.sample import log_density as log_density
+from .search import Checkpoint as Checkpoint
 from .search import Search as Search
 from .search import grow as grow
 from .search import run as run

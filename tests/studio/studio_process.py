@@ -47,6 +47,11 @@ class Served:
         self.url, self.key = (folder / "key").read_text().split()
         os.set_blocking(self.process.stdout.fileno(), False)
 
+    def link(self) -> str:
+        """A token that was not used."""
+        found, self.token = self.token or self.next_token(), ""
+        return found
+
     def next_token(self) -> str:
         """The token that is printed after one was used."""
         assert self.process.stdout is not None

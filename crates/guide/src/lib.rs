@@ -18,7 +18,13 @@ pub mod heads;
 pub mod learn;
 pub mod net;
 
-pub use filtered::{Filtered, FilteredForm, FilteredTraining, read_filtered, train_filtered, write_filtered};
+pub use filtered::{
+    Filtered, FilteredForm, FilteredTraining, read_filtered, train_filtered, train_filtered_along,
+    write_filtered,
+};
 pub use heads::{Drawn, Head, Lesson};
-pub use learn::{Adam, Diverged, Progress, Rows, State, Trained, Training, loss_and_slope, resume, train};
+pub use learn::{
+    Adam, Diverged, Progress, Rows, State, Stored, Trained, Training, Unfit, Way, loss_and_slope, resume,
+    train, train_along,
+};
 pub use net::{BadFile, Net, NetForm, Real, Scratch, read, write};

@@ -1,7 +1,9 @@
 //! Training finds what can be known, with the same bits on any number of threads, and stops where numbers are not finite.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
-use niwaki_guide::{Diverged, Head, Lesson, Net, NetForm, Rows, Scratch, Trained, Training, train};
+use niwaki_guide::{
+    Diverged, Head, Lesson, Net, NetForm, Rows, Scratch, Stored, Trained, Training, Way, train, train_along,
+};
 use niwaki_math::{Dist, Draw, Stream};
 
 const SHARE: f64 = 0.02;
@@ -126,6 +128,37 @@ fn training_in_two_parts_is_training_in_one() {
     let with = Training { every: 20, ..settings(60) };
     let both = niwaki_guide::resume(half.state, &rows, &held_out, &with, &mut |_| true).unwrap();
     assert!(both.net == whole.net && both.state == whole.state);
+}
+
+/// A training that is stored in any step and goes on from its data has the same bits, and has seen the same.
+#[test]
+fn a_stored_training_goes_on() {
+    let toy = Toy::new();
+    let (rows, held_out) = (toy.rows(20_000, 1), toy.rows(4_000, 2));
+    let with = Training { every: 20, ..settings(60) };
+    let along = |left: Option<Stored>, until: usize| {
+        let (mut borders, mut stored) = (0, None);
+        let mut border = |content: &dyn Fn() -> Stored| {
+            borders += 1;
+            if borders == until {
+                stored = Some(serde_json::to_string(&content()).unwrap());
+            }
+        };
+        let way = Way { left, border: &mut border };
+        let start: Net = Net::start(toy.form.clone(), 3);
+        let trained = train_along(start, &rows, &held_out, &with, &mut |_| true, way).unwrap().unwrap();
+        (trained, stored)
+    };
+    let whole = along(None, 0).0;
+    for until in [1, 20, 21, 47] {
+        let text = along(None, until).1.unwrap();
+        let again = along(Some(serde_json::from_str(&text).unwrap()), 0).0;
+        assert!(again == whole, "from step {until}");
+    }
+    let small: Stored = serde_json::from_str(&along(None, 1).1.unwrap().replacen(',', ",0,", 1)).unwrap();
+    let way = Way { left: Some(small), border: &mut |_| {} };
+    let start: Net = Net::start(toy.form.clone(), 3);
+    assert!(train_along(start, &rows, &held_out, &with, &mut |_| true, way).is_err());
 }
 
 /// Going on from a trained network keeps what it knows, whatever the new rows' means and deviations are.

@@ -10,6 +10,7 @@
 //! * `streams`: the random streams that belong to no run;
 //! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values; parts of a run grown again by particles;
+//! * [`checkpoint`]: what a search needs to go on after it was killed;
 //! * [`hold`]: a task with choices held;
 //! * [`proposal`]: a user's proposals for a run that begins;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
@@ -22,6 +23,7 @@
 
 pub mod blame;
 pub mod chain;
+pub mod checkpoint;
 pub mod chooser;
 pub mod enumeration;
 pub mod failure;

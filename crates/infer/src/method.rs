@@ -8,7 +8,7 @@ use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
 use crate::hamiltonian::{self, Shape};
 use crate::importance::importance;
-use crate::improve::{Improve, Improved};
+use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
 use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
@@ -16,7 +16,7 @@ use crate::particles::{
 };
 use crate::proposal::Proposal;
 use crate::rejection::rejection;
-use crate::run::{Run, Shown};
+use crate::run::Run;
 use crate::{Failure, Task, chain};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Strategy;
@@ -171,8 +171,8 @@ pub struct Given<'a> {
     pub attached: &'a [Attached],
     /// The run that a chain of whole runs starts from.
     pub start: Option<&'a [Entry]>,
-    /// Where a search for the best shows its best run so far.
-    pub shown: Option<&'a Shown>,
+    /// Where a search for the best shows what it has.
+    pub seen: Seen<'a>,
 }
 
 /// The result of a search.
@@ -299,7 +299,7 @@ impl Method {
             }
             Method::Improve(own) => {
                 let proposal = proposed(own.proposal.as_ref(), given)?;
-                let (runs, result) = own.search(task, seed, proposal, given.shown, &mut progress)?;
+                let (runs, result) = own.search(task, seed, proposal, given.seen, &mut progress)?;
                 Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {

@@ -37,6 +37,14 @@ pub struct Run {
     pub invalid: Option<Arc<RunFault>>,
     /// Of a chain's state: the number of proposals before it.
     pub visit: u64,
+    /// Whether it comes from its serialised form, so that its value is to be taken from a replay.
+    #[serde(skip_serializing, default = "is_read")]
+    pub is_bare: bool,
+}
+
+/// A run that is read has no value.
+fn is_read() -> bool {
+    true
 }
 
 /// The best run so far of a search that goes on, for those who watch it.
@@ -76,12 +84,13 @@ impl Run {
             invalid: record.invalid,
             log: record.log,
             visit: 0,
+            is_bare: false,
         }
     }
 }
 
 /// Reals as the numbers of their bits: JSON has no infinity.
-mod bits {
+pub(crate) mod bits {
     use serde::{Deserialize, Deserializer, Serializer};
 
     pub fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
@@ -113,6 +122,8 @@ mod tests {
             Run { log, log_prior: 0.1, log_score: score, similarity, visit: u64::MAX, ..Run::default() };
         let text = serde_json::to_string(&run).expect("data");
         let back: Run = serde_json::from_str(&text).expect("a run");
+        assert!(back.is_bare && !run.is_bare);
+        let back = Run { is_bare: false, ..back };
         assert_eq!(format!("{run:?}"), format!("{back:?}"));
         assert_eq!((back.log_prior, back.log_score, back.similarity), (0.1, score, similarity));
         let values: Vec<_> = back.log.entries().into_iter().map(|entry| entry.value).collect();

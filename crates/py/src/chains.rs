@@ -1,5 +1,6 @@
 //! Markov chains for Python. They are kept between two calls, so that a search can go on.
 
+use crate::checkpoints::PyCheckpoint;
 use crate::faults;
 use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
@@ -49,9 +50,9 @@ pub struct PyChains {
 impl PyChains {
     /// Chains in their first states, by the text of a method; ``start`` has values for their choices.
     /// ``attached`` are the users' proposals and guides that the kernel names by number; ``room`` is the most choices that the
-    /// samples of one chain hold together.
+    /// samples of one chain hold together. Chains that the ``checkpoint`` has go on from there.
     #[new]
-    #[pyo3(signature = (task, method, seed, *, attached=Vec::new(), room=1 << 22, start=None, threads=None))]
+    #[pyo3(signature = (task, method, seed, *, attached=Vec::new(), room=1 << 22, start=None, threads=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of chains")]
     fn new(
         py: Python<'_>,
@@ -62,34 +63,44 @@ impl PyChains {
         room: usize,
         start: Option<&PyRun>,
         threads: Option<usize>,
+        checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<PyChains> {
         let own = task.get();
         let (method, settings, kept) = settings(py, own, method, seed, &attached)?;
         let settings = Settings { room, ..settings };
         let known = start.map(PyRun::by_address);
+        let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let (chains, _) = detached(py, &kept.program, threads, None, |_| {
-            Chains::start(&kept, &settings, method.chains, known.as_ref())
+            let mut chains = Chains::start_from(&kept, &settings, method.chains, known.as_ref(), checkpoint)?;
+            chains.aim_anew(method.steps);
+            Ok(chains)
         })?;
         let task = Py::new(py, PyTask { task: kept, model: own.model.clone_ref(py) })?;
         Ok(PyChains { task, chains: Shared::new(chains) })
     }
 
-    /// Makes ``steps`` proposals in each chain; whether it was interrupted.
-    #[pyo3(signature = (steps, threads=None, watch=None))]
+    /// Makes ``steps`` proposals in each chain; without a number those that the method names, or that were left when a checkpoint
+    /// was written. Whether it was interrupted.
+    #[pyo3(signature = (steps=None, threads=None, watch=None, checkpoint=None))]
     fn advance(
         &self,
         py: Python<'_>,
-        steps: u64,
+        steps: Option<u64>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
+        checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<bool> {
         let own = self.task.get();
         let (task, classes) = (&own.task, &own.model.get().classes);
         let caller = watch.as_ref().map(|callable| (callable, classes));
+        let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let mut using = self.chains.lock(py)?;
         let chains: &mut Chains = &mut using;
         let (stopped, pressed) = detached(py, &task.program, threads, caller, |watch| {
-            chains.advance(task, steps, &|done, best| watch.look(done, 0, best))
+            if let Some(steps) = steps {
+                chains.aim(steps);
+            }
+            chains.go_on(task, &|done, best| watch.look(done, 0, best), checkpoint)
         })?;
         Ok(stopped || pressed)
     }

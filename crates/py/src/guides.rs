@@ -1,5 +1,6 @@
 //! Guides for Python: files, and training on the traces of searches.
 
+use crate::checkpoints::PyCheckpoint;
 use crate::faults;
 use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
@@ -90,7 +91,8 @@ impl PyLessons {
     }
 
     /// Trains a guide, or goes on with one: the guide, and a dict of what happened. ``settings`` is JSON.
-    #[pyo3(signature = (task, settings, start=None, threads=None, watch=None))]
+    #[pyo3(signature = (task, settings, start=None, threads=None, watch=None, checkpoint=None))]
+    #[expect(clippy::too_many_arguments, reason = "the settings of a training")]
     fn train<'py>(
         &self,
         py: Python<'py>,
@@ -99,6 +101,7 @@ impl PyLessons {
         start: Option<&PyGuide>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
+        checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
         let making: Making = serde_json::from_str(settings)
             .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
@@ -107,9 +110,10 @@ impl PyLessons {
         let start = start.map(|own| own.guide.clone());
         let using = self.examples.lock(py)?;
         let examples: &[Example] = &using;
+        let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
             let mut seen = |now: Progress| watch.look(now.step, now.steps as usize, -now.held_out);
-            train(examples, &making, start.as_deref(), &mut seen)
+            train(examples, &making, start.as_deref(), &mut seen, checkpoint)
         })?;
         let told = PyDict::new(py);
         let losses = result.history.iter().map(|now| (now.step, now.loss, now.held_out));

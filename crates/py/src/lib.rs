@@ -7,9 +7,11 @@
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
 //!   `networks`: networks of guides, for a comparison with other software;
 //! * `threads`: the pools of threads; `shared`: values that several threads of Python use;
+//! * `checkpoints`: what a search needs to go on after it was killed;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
 mod chains;
+mod checkpoints;
 mod distributions;
 mod faults;
 mod geometry;
@@ -49,5 +51,6 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     runs::register(module)?;
     search::register(module)?;
     chains::register(module)?;
+    checkpoints::register(module)?;
     trajectories::register(module)
 }

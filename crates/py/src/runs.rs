@@ -98,6 +98,12 @@ impl PyRun {
         self.run.cause.as_deref()
     }
 
+    /// Whether it was read from data, so that its value is that of a replay.
+    #[getter]
+    fn is_bare(&self) -> bool {
+        self.run.is_bare
+    }
+
     /// Of a chain's state: the number of proposals before it.
     #[getter]
     fn visit(&self) -> u64 {

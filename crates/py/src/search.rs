@@ -3,6 +3,7 @@
 //! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`]. If it
 //! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and returns its results so far.
 
+use crate::checkpoints::PyCheckpoint;
 use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
@@ -19,7 +20,7 @@ use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
 use niwaki_infer::guide::bound::BoundGuide;
 use niwaki_infer::hold::hold;
-use niwaki_infer::improve::Round;
+use niwaki_infer::improve::{Round, Seen};
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
 use niwaki_infer::record::Record;
@@ -190,8 +191,8 @@ impl PyTask {
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
     /// further results of the method. ``attached`` are the users' proposals and guides that kernels name by number; ``start`` is the
-    /// run that a chain of whole runs starts from.
-    #[pyo3(signature = (method, seed, *, attached=Vec::new(), start=None, threads=None, watch=None))]
+    /// run that a chain of whole runs starts from; a search for the best goes on from its ``checkpoint``.
+    #[pyo3(signature = (method, seed, *, attached=Vec::new(), start=None, threads=None, watch=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a search")]
     fn search<'py>(
         &self,
@@ -202,13 +203,15 @@ impl PyTask {
         start: Option<&PyRun>,
         threads: Option<usize>,
         watch: Option<Py<PyAny>>,
+        checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<(Vec<PyRun>, bool, Bound<'py, PyDict>)> {
         let method = self.read(py, method)?;
         let (task, attached) = self.attach(py, &attached)?;
         let classes = self.model.get().classes.clone();
         let start = start.map(PyRun::entries);
         let find = |shown: &Shown, watch: &mut method::Watch<'_>| {
-            let given = Given { seed, attached: &attached, start: start.as_deref(), shown: Some(shown) };
+            let seen = Seen { shown: Some(shown), checkpoint: checkpoint.map(|own| &own.checkpoint) };
+            let given = Given { seed, attached: &attached, start: start.as_deref(), seen };
             method.search(&task, &given, watch)
         };
         let (result, pressed) = if let Method::Forward { n: 1 } = method {

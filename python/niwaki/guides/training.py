@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
 from math import inf
-from os import cpu_count
+from os import PathLike, cpu_count
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.guides.memory import Memory
 from niwaki.guides.report import Round
 from niwaki.guides.traces import best_of
 from niwaki.lang.compiled import translated
@@ -24,8 +25,11 @@ from niwaki.methods import Guide, Method, at_least_one, kernels, smc
 from niwaki.methods.checks import one_of
 from niwaki.result import Sample
 from niwaki.search import Search
+from niwaki.search.checkpoint import Checkpoint, begun_seed
 from niwaki.search.checks import check_seed, check_threads, fresh
-from niwaki.search.searching import SearchWarning
+from niwaki.search.data import source_hash, text_hash
+from niwaki.search.keeping import Keeper, Stage
+from niwaki.search.worth import SearchWarning
 from niwaki.targets.sketches import Score
 
 #: Of the targets, one in so many judges where none is named.
@@ -154,6 +158,7 @@ def train_guide(
     seed: int | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
 ) -> Guide:
     """Train a guide for a model on targets of a kind.
 
@@ -192,6 +197,9 @@ def train_guide(
         How many to use; the result does not depend on it.
     progress
         Called with a `Round` as it goes on.
+    checkpoint
+        A file, or a `niwaki.Checkpoint`. What the training needs to go on is written there about every second; a
+        training whose file is there goes on from it, and gives the same bytes as if it had not ended.
 
     Returns
     -------
@@ -204,6 +212,8 @@ def train_guide(
         No targets, or none that the model reached.
     ModelFault
         Every search ended by a fault, or gave no trace and some ended so.
+    InputError
+        The checkpoint is damaged, or of another training or version.
 
     Examples
     --------
@@ -217,7 +227,8 @@ def train_guide(
     >>> guide.report["rounds"][0]["wanted"]
     8
     """
-    model, seed, training = as_model(model), fresh(seed), training or Training()
+    model, seed = as_model(model), fresh(begun_seed(seed, checkpoint))
+    training = training or Training()
     check_seed(seed)
     everything = list(targets)
     judged = everything[::EVERY] if held_out is None else list(held_out)
@@ -231,7 +242,13 @@ def train_guide(
     if start is not None and not isinstance(start, Guide):
         raise bad("start", start, "a guide", '`Guide.load("vines.guide")`')
     school = _School(model, score, args, judge, judged, check_threads(threads) or cpu_count() or 1)
-    draw, told = np.random.default_rng(seed), []
+    draw, told = np.random.default_rng(seed), list[Round]()
+    memory = Memory(None)
+    if checkpoint is not None:
+        decisive = school.about([*learned, *judged], [*searches, judge], start, keep)
+        settings = {"rounds": list(rounds), "seed": seed, "training": asdict(training)}
+        named = {f"its `{name}`": value for name, value in (decisive | settings).items()}
+        memory = Memory(Keeper(Checkpoint.of(checkpoint), "training", named))
     best, highest, guide = start, -inf, start
     about = {
         "seed": seed,
@@ -242,7 +259,10 @@ def train_guide(
     pressed = False
     try:
         if start is not None and judged:
-            told.append(replace(school.judged(start, Round(-1)), rounds=len(rounds)))
+            known = memory.done(-1)
+            told.append(known[1] if known else replace(school.judged(start, Round(-1)), rounds=len(rounds)))
+            if not known:
+                memory.leave(-1, None, told[-1])
             highest = float(np.mean(told[-1].scores)) if told[-1].scores else -inf
         for number, wanted in enumerate(rounds):
             guided = number + (start is not None)
@@ -250,20 +270,28 @@ def train_guide(
             now = Round(number, len(rounds), wanted=wanted)
             picks = [learned[i] for i in draw.integers(len(learned), size=wanted)]
             seeds = draw.integers(2**63, size=wanted)
-            jobs = [
-                school.search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)
-            ]
-            lessons, now = _traces(jobs, school.workers, keep or _gains, now, progress)
-            if now.traces < 2:
-                raise InputError("guide-traces", detail=f"{now.traces} of {wanted} searches gave a trace")
-            first = start if number == 0 else None
-            guide, now, pressed = _fit(lessons, jobs[0], training, first, seed, threads, now, progress)
-            if pressed:
-                if best is None and now.losses[-1][0] > 0:
-                    told.append(now)
-                    best = guide
-                break
-            now = school.judged(guide, now)
+            known = memory.done(number)
+            if known is not None:
+                guide, now = known
+            else:
+                jobs = [
+                    school.search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)
+                ]
+                lessons, now = _traces(jobs, school.workers, keep or _gains, now, progress, memory)
+                if now.traces < 2:
+                    raise InputError("guide-traces", detail=f"{now.traces} of {wanted} searches gave a trace")
+                first = start if number == 0 else None
+                stage = memory.stage(number)
+                guide, now, pressed = _fit(
+                    lessons, jobs[0], training, first, seed, threads, now, progress, stage
+                )
+                if pressed:
+                    if best is None and now.losses[-1][0] > 0:
+                        told.append(now)
+                        best = guide
+                    break
+                now = school.judged(guide, now)
+                memory.leave(number, guide, now)
             told.append(now)
             mean = float(np.mean(now.scores)) if now.scores else inf
             if best is None or mean >= highest:
@@ -272,6 +300,7 @@ def train_guide(
                 progress(now)
     except KeyboardInterrupt:
         pressed = True
+    memory.finish(pressed)
     if best is None:
         raise KeyboardInterrupt
     if best is start and not told:
@@ -302,6 +331,23 @@ class _School:
         own = method if guide is None else with_guide(method, guide)
         return Search(self.model, given, score=score, method=own, seed=seed)
 
+    def about(
+        self,
+        targets: Sequence[Any],
+        methods: Sequence[Method],
+        start: Guide | None,
+        keep: Callable[[Sample], bool] | None,
+    ) -> dict[str, Any]:
+        """What decides a training beside its settings, by name: hashes."""
+        goals = [self.search(one, method, None, 0).hash for one in targets for method in methods[-1:]]
+        ways = [self.search(targets[0], method, None, 0).hash for method in methods]
+        return {
+            "targets": text_hash(" ".join(goals)),
+            "searches": text_hash(" ".join(ways)),
+            "start": None if start is None else start.hash,
+            "keep": None if keep is None else source_hash(keep),
+        }
+
     def judged(self, guide: Guide, now: Round) -> Round:
         """The round, with the scores of the held-out targets."""
         tries = [self.search(one, self.judge, guide, i) for i, one in enumerate(self.held_out)]
@@ -327,18 +373,29 @@ def _traces(
     keep: Callable[[Sample], bool],
     now: Round,
     progress: Progress | None,
+    memory: Memory,
 ) -> tuple[_engine.Lessons, Round]:
-    """The best runs of searches, those that are kept."""
+    """The best runs of searches, those that are kept; without searching again for those that are remembered."""
     lessons, faults = _engine.Lessons(), list[ModelFault]()
-    with closing(best_of(jobs, workers, faults)) as samples:
-        for job, sample in zip(jobs, samples, strict=True):
-            if sample is None or not keep(sample):
-                now = replace(now, failed=now.failed + 1)
-            else:
-                lessons.add(job.task, sample._run, now.traces < max(1, len(jobs) // APART))
-                now = replace(now, traces=now.traces + 1)
+
+    def learn(job: Search, run: _engine.Run | None, now: Round) -> Round:
+        if run is None:
+            return replace(now, failed=now.failed + 1)
+        lessons.add(job.task, run, now.traces < max(1, len(jobs) // APART))
+        return replace(now, traces=now.traces + 1)
+
+    known = memory.traces(now.number)
+    for job, data in zip(jobs, known, strict=False):
+        now = learn(job, None if data is None else job.task.run_of_data(data), now)
+    left = jobs[len(known) :]
+    with closing(best_of(left, workers, faults)) as samples:
+        for job, sample in zip(left, samples, strict=True):
+            run = None if sample is None or not keep(sample) else sample._run
+            now = learn(job, run, now)
+            memory.add(now.number, run)
             if progress is not None:
                 progress(now)
+    memory.keep(now.number)
     if now.traces == 0 and faults:
         raise faults[0]
     return lessons, now
@@ -353,6 +410,7 @@ def _fit(
     threads: int | None,
     now: Round,
     progress: Progress | None,
+    stage: Stage | None,
 ) -> tuple[Guide, Round, bool]:
     """Train a network on traces; and whether Ctrl-C ended it."""
 
@@ -364,7 +422,9 @@ def _fit(
     first = None if start is None or start._engine.lost(search.task) else start._engine
     settings = asdict(training) | {"model": search.model.name, "seed": seed}
     with translated(search.model.name, f"seed={seed}"):
-        engine, told = lessons.train(search.task, json.dumps(settings), first, threads, watch)
+        seen = watch if stage is None else stage.watched(watch)
+        kept = None if stage is None else stage.engine
+        engine, told = lessons.train(search.task, json.dumps(settings), first, threads, seen, kept)
     if told["diverged"] is not None:
         step, label = told["diverged"]
         where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")

@@ -22,7 +22,7 @@ from niwaki.lang import densities, futures, inference, vocabulary
 from niwaki.lang.compiled import Compiled, task
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
-from niwaki.lang.marks import Marked, underlying
+from niwaki.lang.marks import Host, Marked, underlying
 from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
@@ -400,14 +400,31 @@ class PlainRun:
     def fault(self, error: Exception) -> ModelFault:
         """A Python exception as a fault with a code."""
         code = next((code for kind, code in CODES if isinstance(error, kind)), "model-failed")
-        code = next(
-            (finer for words, finer in FINER if isinstance(error, ValueError) and words in str(error)), code
-        )
         text = str(error)
+        found = (finer for kind, words, finer in FINER if isinstance(error, kind) and words in text)
+        code = next(found, code)
+        # What the engine makes of a shape's numbers carries its own code.
+        code = getattr(error, "code", code) if isinstance(error, ValueError) else code
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
+        if (host := failed_host(error)) is not None:
+            code, text = (
+                "host-function",
+                f"the host function `{host.name}` failed: {type(error).__name__}: {error}",
+            )
         replay = f"seed={self.seed}" if self.seed is not None else ""
         return ModelFault(code, text, vocabulary.shape_help(text), stack=self.stack(error), replay=replay)
+
+
+def failed_host(error: BaseException) -> Host[Any, Any] | None:
+    """The host function in which an exception was raised."""
+    trace = error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code is Host.__call__.__code__:
+            found: Host[Any, Any] = trace.tb_frame.f_locals["self"]
+            return found
+        trace = trace.tb_next
+    return None
 
 
 CODES: tuple[tuple[type[BaseException], str], ...] = (
@@ -424,11 +441,12 @@ CODES: tuple[tuple[type[BaseException], str], ...] = (
     (ValueError, "bad-argument"),
 )
 
-FINER: tuple[tuple[str, str], ...] = (
-    ("unpack", "unpack-length"),
-    ("math domain", "math-domain"),
-    ("invalid literal", "bad-text"),
-    ("could not convert", "bad-text"),
-    ("ormat", "bad-format"),
-    ("is not in", "missing-element"),
+FINER: tuple[tuple[type[BaseException], str, str], ...] = (
+    (ValueError, "unpack", "unpack-length"),
+    (ValueError, "math domain", "math-domain"),
+    (ValueError, "invalid literal", "bad-text"),
+    (ValueError, "could not convert", "bad-text"),
+    (ValueError, "ormat", "bad-format"),
+    (ValueError, "is not in", "missing-element"),
+    (TypeError, "is not callable", "not-callable"),
 )

@@ -20,7 +20,7 @@ from niwaki.result.progress import EngineWatch
 from niwaki.result.sample import Sample
 
 if TYPE_CHECKING:
-    from niwaki.search import Search
+    from niwaki.search import Search, Stage
 
 
 @dataclass(frozen=True)
@@ -98,12 +98,13 @@ class Trajectories:
 
 
 class Running(NamedTuple):
-    """Chains on the engine, and what they need to continue."""
+    """Chains on the engine, what they need to continue, and what keeps their checkpoint."""
 
     chains: _engine.Chains
     counted: _engine.Task
     watch: EngineWatch
     threads: int | None
+    stage: Stage | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, NamedTuple
 
 
@@ -209,3 +209,24 @@ INFOS: dict[str, type[Info]] = {
     "pimh": SweepInfo,
     "improve": ImproveInfo,
 }
+
+
+def stored_info(info: Info) -> dict[str, Any] | None:
+    """Statistics as plain data; None for those of chains, which runs do not share."""
+    kinds = {type(info): name for name, kind in INFOS.items() if type(info) is kind}
+    if type(info) is not Info and not kinds:
+        return None
+    return {"method": kinds.get(type(info), ""), "fields": asdict(info)}
+
+
+def restored_info(data: dict[str, Any] | None) -> Info:
+    """Statistics of what `stored_info` gave."""
+    if data is None:
+        return Info()
+    fields = {name: _tuples(value) for name, value in data["fields"].items()}
+    return INFOS.get(data["method"], Info)(**fields)
+
+
+def _tuples(value: Any) -> Any:
+    """Lists as tuples, at any depth."""
+    return tuple(_tuples(one) for one in value) if isinstance(value, list) else value

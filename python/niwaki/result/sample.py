@@ -13,6 +13,7 @@ from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
 from niwaki.result import parts
 from niwaki.result.gradient import LogDensity
+from niwaki.targets.fit import Fit, fit
 from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ class Sample:
     log_weight : float
         The weight in its population; 0 where all weigh the same.
     similarity : float or None
-        Share of cells that are equal in the scene and its target.
+        Share of cells that are equal in the scene and its target, which the score looks at; `fit` is for people.
     primitives : int
         How many primitives the scene has.
     has_ended : bool
@@ -58,7 +59,6 @@ class Sample:
         cpu_seconds: float = 0.0,
     ) -> None:
         self._run = run
-        self._is_restored = False
         self.search = search
         self.log_score: float = run.log_score
         self.log_prior: float = run.log_prior
@@ -99,7 +99,7 @@ class Sample:
     def value(self) -> Any:
         """What the model returned; None for a run that did not end."""
         try:
-            return (self._trace.run if self._is_restored else self._run).value
+            return (self._trace.run if self._run.is_bare else self._run).value
         except TypeError as error:
             raise InputError("value-too-deep", found=str(error)) from None
 
@@ -196,6 +196,11 @@ class Sample:
         """The primitives, by the addresses of their `emit`."""
         return Scene(self._trace.parts)
 
+    @cached_property
+    def fit(self) -> Fit | None:
+        """How much of the target the scene covers, and how much of the scene is outside; None without a target."""
+        return fit(self.search.score, self.scene)
+
     def export(
         self,
         path: str | PathLike[str],
@@ -248,8 +253,8 @@ class Sample:
 
     def __repr__(self) -> str:
         parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]
-        if self.similarity is not None:
-            parts.append(f"similarity {self.similarity:.3f}")
+        if self.fit is not None:
+            parts.append(str(self.fit))
         if self.primitives:
             parts.append(f"{self.primitives} primitives")
         if not self.has_ended:
@@ -259,9 +264,7 @@ class Sample:
 
 def _restored(search: Search, data: str, *rest: Any) -> Sample:
     """The sample of its pickled data; the returned value comes from another run, when it is read."""
-    sample = Sample(search.task.run_of_data(data), search, *rest)
-    sample._is_restored = True
-    return sample
+    return Sample(search.task.run_of_data(data), search, *rest)
 
 
 def log_density(sample: Sample) -> LogDensity:

@@ -4,7 +4,10 @@ entry       `run` and `grow`, which create a search and run it
 request     `Search`: all that decides a result, as JSON, with a hash
 data        values as plain data, and back
 checks      checks before a search starts
+checkpoint  the file from which a search goes on after it was killed
+keeping     when it is written, and what is in it
 searching   running a search: run by run, each by its method
+worth       what is said of a result that is worth less than its search promised
 """
 
 import lazy_loader

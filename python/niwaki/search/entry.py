@@ -18,6 +18,7 @@ from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.progress import Watch
+from niwaki.search.checkpoint import Checkpoint, begun_seed
 from niwaki.search.checks import check_seed, fresh
 from niwaki.search.request import Search
 from niwaki.search.searching import given, starts
@@ -48,6 +49,7 @@ def run(
     max_memory: int = 1 << 30,
     threads: int | None = None,
     progress: Watch | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
     """Run a model on the engine.
@@ -80,6 +82,11 @@ def run(
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress
         Called now and then with a `Progress`; an exception that it raises ends the search.
+    checkpoint
+        A file, or a `Checkpoint`. What the search needs to go on is written there about every second. A search whose
+        file is there goes on from it, with the same result as if it had not ended; where no seed is given, with the
+        seed of the file. Chains and several runs go on from where they were; one population, an enumeration, or a
+        chain of `hmc` begins again.
 
     Returns
     -------
@@ -94,7 +101,7 @@ def run(
         tuple(arguments(model, args, kwargs)),
         score=Score() if score is None else score,
         method=Forward() if method is None else method,
-        seed=fresh(seed),
+        seed=fresh(begun_seed(seed, checkpoint)),
         choices=choices,
         lock=lock,
         max_steps=max_steps,
@@ -102,7 +109,7 @@ def run(
     )
     if choices is not None and seed is not None and not starts(search.method):
         return given(search, search.seed)
-    return search.run(threads=threads, progress=progress)
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def grow(
@@ -122,6 +129,7 @@ def grow(
     max_memory: int = 1 << 30,
     threads: int | None = None,
     progress: Watch | None = None,
+    checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
     """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
@@ -155,8 +163,8 @@ def grow(
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
-    seed, lock, max_steps, max_memory, threads, progress
-        As for `run`.
+    seed, lock, max_steps, max_memory, threads, progress, checkpoint
+        As for `run`. The usual search is written between two rounds.
 
     Returns
     -------
@@ -165,6 +173,44 @@ def grow(
         became impossible are left out with a warning, and are an error when there is no other. A best that is worse
         than the empty scene is a warning, too.
     """
+    search = asked(
+        model,
+        target,
+        *args,
+        score=score,
+        method=method,
+        voxel=voxel,
+        sigma=sigma,
+        rule=rule,
+        polish=polish,
+        runs=runs,
+        seed=begun_seed(seed, checkpoint),
+        lock=lock,
+        max_steps=max_steps,
+        max_memory=max_memory,
+        **kwargs,
+    )
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
+
+
+def asked(
+    model: Model[..., Any] | Callable[..., Any],
+    target: Target | str | PathLike[str] | None = None,
+    *args: Any,
+    score: Score | None = None,
+    method: Method | None = None,
+    voxel: float | None = None,
+    sigma: float = 0.02,
+    rule: str = "solid",
+    polish: Mh | None = None,
+    runs: int = 1,
+    seed: int | None = None,
+    lock: Mapping[str, Any] | None = None,
+    max_steps: int = 20_000_000,
+    max_memory: int = 1 << 30,
+    **kwargs: Any,
+) -> Search:
+    """The search that `grow` makes of its arguments, which it then runs."""
     model = as_model(model)
     if "(emit " not in model.core().text:
         raise InputError("no-emit", name=model.name)
@@ -188,7 +234,7 @@ def grow(
         product *= match_volume(aim, voxel, sigma)
     elif len(product.asks) == (0 if drawn else 1):
         raise InputError("no-target", name=model.name)
-    search = Search(
+    return Search(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
@@ -201,7 +247,6 @@ def grow(
         max_steps=max_steps,
         max_memory=max_memory,
     )
-    return search.run(threads=threads, progress=progress)
 
 
 def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:

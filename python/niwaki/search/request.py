@@ -21,6 +21,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,7 @@ from niwaki.once import cached_property
 from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import searching
+from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_lock, check_polish, check_seed, check_threads, fresh
 from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
 from niwaki.search.schema import ModelData, SearchData
@@ -137,7 +139,13 @@ class Search:
         """The model with its arguments and sketches, ready to be searched."""
         return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory, self.lock)
 
-    def run(self, *, threads: int | None = None, progress: Watch | None = None) -> Result:
+    def run(
+        self,
+        *,
+        threads: int | None = None,
+        progress: Watch | None = None,
+        checkpoint: Checkpoint | str | PathLike[str] | None = None,
+    ) -> Result:
         """Carry it out.
 
         Parameters
@@ -146,8 +154,16 @@ class Search:
             How many to use; all of the machine's when left out. The result does not depend on it.
         progress
             Called now and then with a `Progress`; an exception that it raises ends the search.
+        checkpoint
+            A file, or a `Checkpoint`, from which the search goes on after it was killed.
+
+        Raises
+        ------
+        InputError
+            The checkpoint is damaged, or of another search or version.
         """
-        return searching.carried_out(self, check_threads(threads), progress)
+        keeper = None if checkpoint is None else searching.keeper(self, Checkpoint.of(checkpoint))
+        return searching.carried_out(self, check_threads(threads), progress, keeper)
 
     def polished(
         self,
@@ -264,9 +280,22 @@ class Search:
         It changes with the model's source, an argument, the bytes of a target, an image or a mesh, and any setting; not
         with a comment, a line's place, or where a file lies.
         """
-        data = self.data("hashed")
-        data["model"] = model_hash(self.model)
-        return text_hash(json.dumps(data, sort_keys=True))
+        return text_hash(json.dumps(self._decisive(), sort_keys=True))
+
+    def _decisive(self) -> dict[str, Any]:
+        """What decides the result, by name; the model and what is long by their hashes."""
+        return self.data("hashed") | {"model": model_hash(self.model)}
+
+    @cached_property
+    def about(self) -> dict[str, Any]:
+        """What decides the result, by name: short values as they are, and the hashes of others."""
+
+        def short(value: Any) -> Any:
+            return (
+                value if isinstance(value, int | str | None) else text_hash(json.dumps(value, sort_keys=True))
+            )
+
+        return {f"its `{name}`": short(value) for name, value in self._decisive().items()}
 
     @cached_property
     def key(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from math import exp
 from typing import TYPE_CHECKING
@@ -20,9 +21,12 @@ from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
-from niwaki.result.info import INFOS, ImproveInfo, Info, PopulationInfo
+from niwaki.result.info import INFOS, ImproveInfo, Info, PopulationInfo, restored_info, stored_info
 from niwaki.result.progress import EngineWatch, Watch, watcher
+from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads
+from niwaki.search.keeping import Keeper, Stage
+from niwaki.search.worth import SearchWarning, check_worth
 
 if TYPE_CHECKING:
     from niwaki.search.request import Search
@@ -35,12 +39,18 @@ SHOWN = 6
 MANY, COLLAPSED = 20, 2.0
 
 
-class SearchWarning(UserWarning):
-    """A search gave a result, but one that is worth less than its settings promise."""
+def keeper(search: Search, checkpoint: Checkpoint) -> Keeper:
+    """What keeps the checkpoint of a search; an error where the file is of another one."""
+    return Keeper(checkpoint, "search", search.about, search.data())
 
 
-def carried_out(search: Search, threads: int | None, progress: Watch | None) -> Result:
+def carried_out(
+    search: Search, threads: int | None, progress: Watch | None, keeper: Keeper | None = None
+) -> Result:
     """Run a search, run by run.
+
+    With a `keeper` it goes on from its checkpoint, which has a stage for each run and each polishing, and what a run
+    gave that is done.
 
     Runs in which every particle became impossible are left out with a warning, and are an error when there is no other.
     """
@@ -50,9 +60,11 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     for guide in guides:
         _check_guide(search, guide)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
-        result = once(search, search.seed, threads, watcher(progress, search))
+        result = once(search, search.seed, threads, watcher(progress, search), _stage(keeper, "0/search"))
         if guides:
             _check_weights(result)
+        if keeper is not None:
+            keeper.finish(result.interrupted)
         return result
     found: list[Sample] = []
     failed: list[InputError | ModelFault] = []
@@ -61,8 +73,13 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
     info = Info()
     for number in range(search.runs):
         watch = watcher(progress, search, number, search.runs)
+        seed = (search.seed + number) % 2**64
         try:
-            one = once(search, (search.seed + number) % 2**64, threads, watch)
+            done = _left(keeper, f"{number}/done", search, seed)
+            begun = None if done is not None else _left(keeper, f"{number}/begun", search, seed)
+            one = begun if done is None else done
+            if one is None:
+                one = once(search, seed, threads, watch, _stage(keeper, f"{number}/search"))
         except (InputError, ModelFault) as error:
             if error.code != "everything-impossible" and not error.values.get("invalid"):
                 raise
@@ -82,15 +99,23 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
         if interrupted and found and not any(sample.has_ended for sample in one):
             spent += one.seconds
             break
-        if search.polish is not None and not interrupted:
-            one = polished(one, search.polish, one.seed, threads, watch)
+        if search.polish is not None and not interrupted and done is None:
+            if begun is None:
+                begun = one
+                _leave(keeper, f"{number}/begun", one, [one.best])
+            stage = _stage(keeper, f"{number}/polish")
+            one = polished(begun, search.polish, one.seed, threads, watch, stage)
             invalid.update(one.invalid)
+            one.invalid = dict(Counter(begun.invalid) + Counter(one.invalid))
             interrupted = one.interrupted
         spent += one.seconds
         is_diverse = getattr(search.method, "diverse", None) is not None
-        found.extend(one.samples if is_diverse or search.keep == "all" else [one.best])
+        samples = list(one.samples) if is_diverse or search.keep == "all" else [one.best]
+        found.extend(samples)
         if interrupted:
             break
+        if done is None:
+            _leave(keeper, f"{number}/done", one, samples, info)
     if failed and not found:
         raise failed[0]
     if failed:
@@ -100,10 +125,51 @@ def carried_out(search: Search, threads: int | None, progress: Watch | None) -> 
             stacklevel=4,
         )
     if search.score.asks and search.keep == "best":
-        _check_gain(search, max(found, key=lambda sample: sample.log_score))
+        check_worth(search.task, search.score, max(found, key=lambda sample: sample.log_score))
     seconds = spent, sum(sample.cpu_seconds for sample in found)
+    if keeper is not None:
+        keeper.finish(interrupted)
     return Result(
         search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds
+    )
+
+
+def _stage(keeper: Keeper | None, name: str) -> Stage | None:
+    return None if keeper is None else keeper.stage(name)
+
+
+def _leave(
+    keeper: Keeper | None, name: str, result: Result, samples: Sequence[Sample], info: Info | None = None
+) -> None:
+    """Keep what a run gave in its checkpoint, in place of what it needed to go on."""
+    if keeper is None:
+        return
+    keeper.drop(f"{name.partition('/')[0]}/")
+    keeper.put(
+        name,
+        {
+            "samples": [(one._run.data(), one.seconds, one.cpu_seconds) for one in samples],
+            "info": stored_info(result.info if info is None else info),
+            "invalid": result.invalid,
+            "seconds": (result.seconds, result.cpu_seconds),
+        },
+    )
+    keeper.write_if_due()
+
+
+def _left(keeper: Keeper | None, name: str, search: Search, seed: int) -> Result | None:
+    """What a run gave, in the checkpoint; None where it is not there."""
+    data = None if keeper is None else keeper.get(name)
+    if data is None:
+        return None
+    samples = [Sample(search.task.run_of_data(run), search, seed, *spent) for run, *spent in data["samples"]]
+    return Result(
+        search,
+        samples,
+        seed,
+        info=restored_info(data["info"]),
+        invalid=data["invalid"],
+        seconds=tuple(data["seconds"]),
     )
 
 
@@ -141,18 +207,6 @@ def _check_weights(result: Result) -> None:
         )
 
 
-def _check_gain(search: Search, best: Sample) -> None:
-    """Warn where the best scene is worse than an empty one."""
-    gain = search.task.gain(best._run)
-    if gain < 0.0:
-        warnings.warn(
-            f"the best result scores {-gain:.1f} nats less than an empty scene: give more `seconds` or `rounds`, or "
-            "look whether the model can reach its target at all (`niwaki.run(model).best.save('scene.png')`)",
-            SearchWarning,
-            stacklevel=5,
-        )
-
-
 def starts(method: Method) -> bool:
     """Whether a method starts from a run whose choices are given."""
     return isinstance(method, Mh | Hmc | Nuts | ParticleGibbs)
@@ -173,25 +227,38 @@ def _start(search: Search, seed: int) -> _engine.Run | None:
         return search.task.replay(dict(search.choices), seed).run
 
 
-def once(search: Search, seed: int, threads: int | None, watch: EngineWatch) -> Result:
+def once(
+    search: Search, seed: int, threads: int | None, watch: EngineWatch, stage: Stage | None = None
+) -> Result:
     """One run of a search, with one seed."""
     check_method(search.method)
+    if stage is not None:
+        watch = stage.watched(watch)
     start = _start(search, seed)
     if isinstance(search.method, Mh):
-        return chains_of(search, search.method, seed, threads, watch, start)
+        return chains_of(search, search.method, seed, threads, watch, start, stage=stage)
     if isinstance(search.method, Hmc | Nuts):
         return trajectories(search, search.method, seed, threads, watch, start)
     method, attached = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         runs, interrupted, counters = counted.search(
-            method, seed, attached=attached, start=start, threads=threads, watch=watch
+            method,
+            seed,
+            attached=attached,
+            start=start,
+            threads=threads,
+            watch=watch,
+            checkpoint=None if stage is None else stage.engine,
         )
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
     if diverse is not None:
         runs = _different(runs, diverse, info)
     seconds = clock.read()
+    if stage is not None:
+        stage.collect()
+        seconds = seconds[0] + stage.before[0], seconds[1] + stage.before[1]
     samples = [Sample(run, search, seed, *seconds) for run in runs]
     invalid = counted.invalid()
     return Result(search, samples, seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds)
@@ -245,15 +312,24 @@ def chains_of(
     watch: EngineWatch,
     start: _engine.Run | None,
     spent: tuple[float, float] = (0.0, 0.0),
+    stage: Stage | None = None,
 ) -> Result:
-    """Chains in their first states, and their first proposals; `spent` are the seconds of the search before."""
+    """Chains in their first states, and their first proposals; `spent` are the seconds of the search before.
+
+    Chains of a stage that was begun go on from where they were.
+    """
     text, attached = _written(method)
     counted = search.task.uncounted()
+    kept = None if stage is None else stage.engine
     with translated(search.model.name, f"seed={seed}"):
-        chains = _engine.Chains(counted, text, seed, attached=attached, start=start, threads=threads)
-    running = Running(chains, counted, watch, threads)
+        chains = _engine.Chains(
+            counted, text, seed, attached=attached, start=start, threads=threads, checkpoint=kept
+        )
+    running = Running(chains, counted, watch, threads, stage)
     info = MhInfo(search=search, method=method, seed=seed, _running=running)
-    return Result(search, [], seed, method=method, info=info, seconds=spent).more(method.steps)
+    if stage is not None:
+        spent = spent[0] + stage.before[0], spent[1] + stage.before[1]
+    return Result(search, [], seed, method=method, info=info, seconds=spent)._more(None)
 
 
 def trajectories(
@@ -312,7 +388,14 @@ def regrown(
     return Result(own, [Sample(run, own, seed, *seconds) for run in runs], seed, seconds=seconds)
 
 
-def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: EngineWatch) -> Result:
+def polished(
+    result: Result,
+    method: Mh,
+    seed: int,
+    threads: int | None,
+    watch: EngineWatch,
+    stage: Stage | None = None,
+) -> Result:
     """Chains from the best sample of a result; their time is added to that of the search.
 
     A population compares many runs, each built once. A proposal of a chain changes one choice of one run, and costs
@@ -327,4 +410,5 @@ def polished(result: Result, method: Mh, seed: int, threads: int | None, watch: 
         expected = "a search with a run that has ended, for the chain to start from"
         raise bad("polish", best, expected, "more time or particles")
     spent = result.seconds, result.cpu_seconds
-    return chains_of(result.search, method, seed, threads, watch, best._run, spent)
+    watch = watch if stage is None else stage.watched(watch)
+    return chains_of(result.search, method, seed, threads, watch, best._run, spent, stage)

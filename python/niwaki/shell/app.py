@@ -16,7 +16,7 @@ from niwaki.errors import FileError
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
     "models": "List the gallery: name, how to run it, target, title.",
-    "studio": "Open a page in the browser to grow models by hand.",
+    "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
     "replay": "Write the best result of a search again, in any format.",
     "check": "Compile a model and report what it is made of, with advice.",
@@ -24,6 +24,7 @@ COMMANDS = {
     "color": "Colour a drawing in ways that differ.",
     "letters": "Write a text in vines or lightning.",
     "guide": "Train guides, and show what they see.",
+    "studio": "Open a page to search, hold parts and grow the rest again.",
     "explain": "Draw what each strategy runs again for one proposal.",
 }
 
@@ -66,9 +67,12 @@ ModelName = Annotated[
 Folder = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
 ]
+
 Megabytes = Annotated[
     int,
-    typer.Option("--max-memory", metavar="MB", min=1, help="Most memory of a run or a population, megabytes."),
+    typer.Option(
+        "--max-memory", metavar="MB", min=1, help="Most memory of a run or a population, megabytes."
+    ),
 ]
 
 
@@ -79,3 +83,8 @@ def ensure_folder(place: Path) -> Path:
     except OSError as error:
         raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
     return place
+
+
+def counted(number: int, what: str) -> str:
+    """A number of things, as a sentence has it."""
+    return f"{number} {what}{'' if number == 1 else 's'}"

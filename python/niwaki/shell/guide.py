@@ -17,6 +17,7 @@ from niwaki import guides, search, shell, targets
 from niwaki.errors import InputError
 from niwaki.guides.report import sentence
 from niwaki.methods import Guide
+from niwaki.search.checkpoint import begun_seed
 from niwaki.shell import controls, settings
 from niwaki.shell.app import ModelName, app, ensure_folder
 from niwaki.shell.progress import said
@@ -44,9 +45,15 @@ def train(
     rounds: Annotated[
         str, typer.Option("--rounds", metavar="LIST", help="Searches of each round, with commas.")
     ] = "150,400",
-    resume: Annotated[
-        str | None, typer.Option("--resume", metavar="FILE", help="A guide to go on with.")
+    start: Annotated[
+        str | None, typer.Option("--start", metavar="FILE", help="A guide to go on with.")
     ] = None,
+    resume: Annotated[
+        bool,
+        typer.Option(
+            "--resume", help="Go on with a training of the same command that was stopped or killed."
+        ),
+    ] = False,
     mirror: Annotated[
         bool, typer.Option("--mirror/--no-mirror", help="Learn from mirrored drawings, too.")
     ] = True,
@@ -63,8 +70,13 @@ def train(
     """Train a guide for MODEL: rounds of searches, each of which learns from the best runs of the last."""
     found = shell.references.find(model)
     counts = settings.numbers("rounds", rounds, int)
-    seed = search.fresh(seed)
-    start = None if resume is None else Guide.load(resume)
+    place = output.with_name(f"{output.name}.checkpoint")
+    if resume and not place.is_file():
+        raise InputError("no-checkpoint", path=place)
+    if not resume and place.exists():
+        place.unlink()
+        print(f"warning: {place}, of a training that did not end, is replaced", file=sys.stderr)
+    seed = search.fresh(begun_seed(seed, place))
     goals = _goals(found, places, window, pixels, voxel, mirror)
     ensure_folder(output.parent)
     began = time.perf_counter()
@@ -76,16 +88,19 @@ def train(
             goals.args,
             held_out=goals.held_out,
             rounds=counts,
-            start=start,
+            start=None if start is None else Guide.load(start),
             seed=seed,
             threads=threads,
             progress=progress,
+            checkpoint=place,
         )
     guide.save(output)
     seconds = time.perf_counter() - began
     print(f"{output}: {guide!r}, {len(guide.data) / 1000:.0f} kB, {seconds:.0f} s, seed {seed}")
     if guide.report.get("interrupted"):
+        print("interrupted; go on with the same command and --resume")
         raise typer.Exit(130)
+    place.unlink(missing_ok=True)
 
 
 @group.command()

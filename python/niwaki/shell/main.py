@@ -12,12 +12,14 @@ from typing import Any, NoReturn
 
 from niwaki.errors import NiwakiError
 from niwaki.shell.app import app
+from niwaki.shell.clock import Clock
 
 __all__ = ["app", "main"]
 
 
 def main() -> NoReturn:
     """Run the command line; errors that we raise on purpose have no traceback."""
+    Clock.of_process = True
     warnings.showwarning = _warned  # type: ignore[assignment]
     try:
         app(standalone_mode=True)

@@ -13,20 +13,23 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
-from niwaki import draw, kernels, shell
+from niwaki import kernels, shell
 from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
-from niwaki.shell import settings
-from niwaki.shell.app import Folder, Megabytes, ModelName, app
+from niwaki.shell import arguments, folders, pictures, resuming, settings
+from niwaki.shell.app import Folder, Megabytes, app
 from niwaki.shell.progress import sampling_line
 
 
 @app.command()
 @settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
 def sample(
-    model: ModelName,
+    context: typer.Context,
+    model: resuming.Model = None,
+    values: arguments.Arguments = None,
+    preset: arguments.Preset = None,
     target: Annotated[
         str | None,
         typer.Option(
@@ -40,58 +43,91 @@ def sample(
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
     max_memory: Megabytes = 1024,
+    resume: resuming.Resume = None,
     output: Folder = None,
+    force: folders.Force = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
     ] = True,
+    quick: pictures.Quick = False,
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    found = shell.references.find(model)
+    if resume is not None:
+        search_left, found, flags, checkpoint = resuming.left(context, resume, "sample")
+        left = search_left.method
+        proposals = left.steps * left.chains if isinstance(left, Mh) else 0
+        with held_folder(resume) as folder:
+            with sampling_line(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
+                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            drawn = pictures.Pictures(flags["picture"], flags["quick"])
+            _end(result, found, folder, drawn, as_json, checkpoint)
+        return
+    found = shell.references.find(resuming.required(context, model))
+    own = arguments.read(found.model, values, preset)
     score = nw.Score()
     if target is not None:
         score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
+    proposals = method.steps * method.chains
     writes = output is not None or not as_json
-    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
-        with sampling_line(found.reference, method.steps * method.chains) as progress:
-            result = nw.run(
-                found.model,
-                method=method,
-                score=score,
-                seed=seed,
-                max_memory=max_memory << 20,
-                threads=threads,
-                progress=progress,
-            )
+    with folders.own_folder(output, force) if writes else nullcontext() as folder:
+        kept = None
         if folder is not None:
-            _write(folder, result, found, picture)
+            kept = resuming.begun(folder, "sample", found, picture=picture, quick=quick)
+        search = nw.Search(
+            found.model,
+            tuple(arguments.bound(found.model, own)),
+            score=score,
+            method=method,
+            seed=nw.search.fresh(seed),
+            max_memory=max_memory << 20,
+        )
+        with sampling_line(found.reference, proposals) as progress, resuming.told(kept, "sample"):
+            result = search.run(threads=threads, progress=progress, checkpoint=kept)
+        _end(result, found, folder, pictures.Pictures(picture, quick), as_json, kept)
+
+
+def _end(
+    result: nw.Result,
+    found: shell.references.ModelReference,
+    folder: Path | None,
+    drawn: pictures.Pictures,
+    as_json: bool,
+    checkpoint: nw.Checkpoint | None,
+) -> None:
+    """Write the files, where there is a folder for them, and say what was found."""
+    if folder is not None:
+        with resuming.ended(result, checkpoint):
+            _write(folder, result, found, drawn)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
-    else:
-        _summary(result, output or Path("out"))
+    elif folder is not None:
+        _summary(result, folder)
     if result.interrupted:
+        if folder is not None:
+            print(resuming.interrupted(folder, "sample"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
 
 
-def _write(folder: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
+def _write(
+    folder: Path, result: nw.Result, found: shell.references.ModelReference, drawn: pictures.Pictures
+) -> None:
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
     best = bests.best
-    pictures = ["best.png", "sheet.png"] if picture else []
-    names = ["samples.csv", *(["best.glb", *pictures] if best.primitives else [])]
+    style = "ink" if result.score.window is not None else None
+    names = ["samples.csv", *(["best.glb", *drawn.names(bests, style)] if best.primitives else [])]
     with shell.results.written(folder, shell.run_files.written(bests, found), names):
         write_whole(folder / "samples.csv", _table(result).encode())
         if "best.glb" in names:
             best.export(folder / "best.glb")
-        if "best.png" in names:
-            best.save(folder / "best.png")
-            draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
+            drawn.write(bests, folder, style)
 
 
 def _table(result: nw.Result) -> str:

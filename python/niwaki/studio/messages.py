@@ -128,6 +128,8 @@ class Outcome(Struct, frozen=True):
     seed: int | None
     #: What it came from: "run", "regrow", "choose" or "reload".
     origin: str = "run"
+    #: The reference of its model; the gallery shows those of the present one.
+    model: str = ""
 
 
 class Pin(Struct, frozen=True):

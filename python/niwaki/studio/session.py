@@ -100,7 +100,7 @@ class Session:
             arguments=document.arguments,
             ask=document.ask,
             settings=document.settings,
-            results=document.results,
+            results=[one for one in document.results if one.model == document.model],
             picked=document.picked,
             pins=document.pins,
             stars=document.stars,
@@ -328,9 +328,10 @@ class Session:
         answer = await self._searcher.do(job, self._reported)
         self._searching = None
         self.journal.ended()
-        if answer.problem is None and answer.outcomes:
-            results = [*self.document.starred(), *answer.outcomes]
-            self._step("run", {"results": results, "picked": answer.outcomes[0].key})
+        found = _of_model(answer.outcomes, job.question.model)
+        if found:
+            picked = found[0].key if found[0].model == self.document.model else self.document.picked
+            self._step("run", {"results": [*self.document.starred(), *found], "picked": picked})
         self._tell_all()
         self._answered(window, command, answer)
 
@@ -409,8 +410,8 @@ class Session:
             file=str(self.journal.runs_file(number)),
         )
         answer = await self._desk.do(job, self._reported)
-        if answer.problem is None and answer.outcomes:
-            self._placed("reroll", picked, answer.outcomes)
+        if answer.outcomes:
+            self._placed("reroll", picked, _of_model(answer.outcomes, job.question.model))
         self._answered(window, command.id, answer)
 
     def _placed(self, name: str, old: m.Key | None, found: list[m.Outcome]) -> None:
@@ -459,8 +460,8 @@ class Session:
             origin=origin,
         )
         answer = await self._desk.do(job, self._reported)
-        if answer.problem is None and answer.outcomes:
-            self._placed(origin, picked, answer.outcomes)
+        if answer.outcomes:
+            self._placed(origin, picked, _of_model(answer.outcomes, job.question.model))
         if window is not None:
             self._answered(window, command, answer)
         elif answer.problem is not None:
@@ -510,3 +511,8 @@ class Session:
                 (place / Path(answer.path).name).write_bytes(data)
             window.tell(m.File(command.id, name, Path(answer.path).name))
         self._answered(window, command.id, answer)
+
+
+def _of_model(outcomes: list[m.Outcome], model: str) -> list[m.Outcome]:
+    """Results with the reference of their model."""
+    return [msgspec.structs.replace(one, model=model) for one in outcomes]

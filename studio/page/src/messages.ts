@@ -199,6 +199,7 @@ export interface Outcome {
   primitives: number;
   seed: number | null;
   origin: string;
+  model: string;
 }
 
 /** A held part: its pattern, and the values of the choices that hold it. */

@@ -137,3 +137,35 @@ def test_break_and_early_stops_leave_the_path_clean() -> None:
     )
     run = run_python(load(text, "loops.py"), seed=1)
     assert list(run.choices) == ["i[0]/x", "i[1]/x", "i[2]/x", "y"]
+
+
+@pytest.mark.parametrize("body", ["TABLE[name]", "TABLE.gone", "1 / 0", "int(name)"])
+def test_a_host_function_fails_as_in_the_engine(body: str) -> None:
+    host = f"TABLE = {{}}\n\n@host\ndef look_up(name):\n    return {body}\n"
+    text = f"{host}\n@model\ndef m():\n    return look_up('x')\n"
+    model = load(text, f"host-{body[:9]}.py")
+    with pytest.raises(ModelFault) as plain:
+        run_python(model)
+    with pytest.raises(ModelFault) as engine:
+        nw.run(model, seed=0)
+    assert plain.value.code == "host-function"
+    assert [str(one.value).splitlines()[0] for one in (plain, engine)] == [
+        str(plain.value).splitlines()[0]
+    ] * 2
+
+
+@pytest.mark.parametrize(
+    ("statement", "code"),
+    [
+        ("emit(box((0, 0, 0), (1, 1, 0)))", "bad-shape"),
+        ("x = (1, 2)\n    x(1)", "not-callable"),
+        ("sample((0, 2))", "not-a-distribution"),
+    ],
+)
+def test_a_fault_has_the_code_of_the_engine(statement: str, code: str) -> None:
+    model = load(f"@model\ndef m():\n    {statement}\n", f"fails-{code}.py")
+    with pytest.raises(ModelFault) as plain:
+        run_python(model)
+    with pytest.raises(ModelFault) as engine:
+        nw.run(model, seed=0)
+    assert plain.value.code == engine.value.code == code

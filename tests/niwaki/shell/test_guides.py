@@ -80,7 +80,7 @@ def test_a_guide_is_shown_and_gone_on_with(trained: tuple[Path, Any], pictures: 
     assert "bolt/angle: gaussian, a mixture of 4" in shown.stdout
     assert re.search(r"round 2: \d traces; held out: mean 0\.\d+", shown.stdout)
     more = run(
-        *("guide", "train", "lightning", "--targets", pictures, "--resume", out),
+        *("guide", "train", "lightning", "--targets", pictures, "--start", out),
         *("--out", tmp_path / "more.guide", "--rounds", "4", "--no-mirror", "--seed", "1"),
     )
     assert more.exit_code == 0, more.output

@@ -171,6 +171,18 @@ def test_stars_stay_where_they_are_when_new_results_come(connected):
     connected.ask("set", settings={"count": 2, "seed": 9, "effort": 0.25})
     connected.ask("run")
     assert [one["key"] for one in connected.view["results"][:2]] == [one["key"] for one in results[:2]]
+    for one in results[:2]:
+        connected.ask("star", key=one["key"], on=False)
+
+
+def test_the_gallery_shows_results_of_the_present_model(connected):
+    key = grown(connected, count=2)[0]["key"]
+    connected.ask("star", key=key)
+    connected.ask("model", reference="building")
+    assert connected.view["results"] == [] and connected.view["picked"] is None
+    connected.ask("model", reference="spaceship")
+    assert [one["key"] for one in connected.view["results"]] == [key]
+    connected.ask("star", key=key, on=False)
 
 
 def test_two_windows_see_the_same_session(served, connected):

@@ -32,4 +32,4 @@ pub use form::FilteredForm;
 pub use levels::Levels;
 pub use pass::{Filtered, View};
 pub use slope::{Choice, Trace, trace_loss, trace_loss_and_slope};
-pub use train::{FilteredTraining, TrainedFiltered, train_filtered};
+pub use train::{FilteredTraining, TrainedFiltered, train_filtered, train_filtered_along};

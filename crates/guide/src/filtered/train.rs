@@ -3,7 +3,7 @@
 
 use super::pass::Filtered;
 use super::slope::{Trace, Work};
-use crate::learn::{Adam, Progress};
+use crate::learn::{Adam, Moving, Progress, Stored, Unfit, Way};
 use crate::net::Real;
 use niwaki_math::Stream;
 use niwaki_math::streams::RngCore;
@@ -80,12 +80,35 @@ fn judge<T: Real>(net: &Filtered<T>, traces: &[Trace], share: f64) -> f64 {
 ///
 /// If the share of the prior is not between 0 and 1, or the traces are of another form than the network.
 pub fn train_filtered<T: Real>(
-    mut net: Filtered<T>,
+    net: Filtered<T>,
     traces: &[Trace],
     held_out: &[Trace],
     with: &FilteredTraining,
     watch: &mut dyn FnMut(Progress) -> bool,
 ) -> TrainedFiltered<T> {
+    let anew = Way { left: None, border: &mut |_| {} };
+    match train_filtered_along(net, traces, held_out, with, watch, anew) {
+        Ok(trained) => trained,
+        Err(Unfit) => unreachable!("nothing was left"),
+    }
+}
+
+/// As [`train_filtered`], from the data of a training that began so, and seen at its borders.
+///
+/// # Errors
+/// The data is not of this training.
+///
+/// # Panics
+///
+/// As [`train_filtered`].
+pub fn train_filtered_along<T: Real>(
+    mut net: Filtered<T>,
+    traces: &[Trace],
+    held_out: &[Trace],
+    with: &FilteredTraining,
+    watch: &mut dyn FnMut(Progress) -> bool,
+    way: Way<'_>,
+) -> Result<TrainedFiltered<T>, Unfit> {
     assert!(with.share > 0.0 && with.share < 1.0, "the prior's share is {}", with.share);
     if net.fresh {
         set_ranges(&mut net, traces);
@@ -96,7 +119,16 @@ pub fn train_filtered<T: Real>(
         || Part { work: Work::default(), slope: vec![T::ZERO; net.weights.len()], loss: 0.0, fault: None };
     let mut parts: Vec<Part<T>> = (0..with.batch.max(1)).map(|_| part()).collect();
     let (mut history, mut diverged) = (Vec::new(), None);
-    let (mut sum, mut count, mut best) = (0.0, 0.0, (f64::INFINITY, 0));
+    // Its weights are not kept: the last ones are the result.
+    let (mut sums, mut best) = ((0.0, 0.0), (f64::INFINITY, 0, Vec::new()));
+    if let Some(left) = &way.left {
+        let (weights, adam) = (&mut net.weights, &mut adam);
+        let moving = Moving { weights, adam, best: &mut best, sums: &mut sums, history: &mut history };
+        if !left.put(moving) {
+            return Err(Unfit);
+        }
+    }
+    let (mut sum, mut count): (f64, f64) = sums;
     let averaged = |net: &Filtered<T>, adam: &Adam<T>| match adam.step() {
         0 => net.clone(),
         _ if with.averaging == 0.0 => net.clone(),
@@ -105,23 +137,25 @@ pub fn train_filtered<T: Real>(
     let last = if traces.is_empty() { 0 } else { with.steps };
     loop {
         let step = adam.step();
-        if step.is_multiple_of(with.every.max(1)) || step >= last {
+        let has_looked = history.last().is_some_and(|seen: &Progress| seen.step == step);
+        if !has_looked && (step.is_multiple_of(with.every.max(1)) || step >= last) {
             let seen = judge(
                 &averaged(&net, &adam),
                 if held_out.is_empty() { traces } else { held_out },
                 with.share,
             );
             if seen < best.0 {
-                best = (seen, step);
+                (best.0, best.1) = (seen, step);
             }
             let loss = if count > 0.0 { sum / count } else { seen };
-            let progress = Progress { step, steps: with.steps, loss, held_out: seen, best };
+            let progress = Progress { step, steps: with.steps, loss, held_out: seen, best: (best.0, best.1) };
             history.push(progress);
             (sum, count) = (0.0, 0.0);
             if !watch(progress) || step >= last {
                 break;
             }
         }
+        (way.border)(&|| Stored::of(&net.weights, &adam, &best, (sum, count), &history));
         let mut stream = Stream::new(with.seed, 1, u128::from(step), 0);
         let mut pick = || ((u128::from(stream.next_u64()) * traces.len() as u128) >> 64) as usize;
         let chosen: Vec<usize> = parts.iter().map(|_| pick()).collect();
@@ -149,7 +183,7 @@ pub fn train_filtered<T: Real>(
         count += chosen.iter().map(|pick| traces[*pick].choices.len()).sum::<usize>() as f64;
         adam.advance(&mut net.weights, slope, 1.0, with.rate, with.averaging);
     }
-    TrainedFiltered { net: averaged(&net, &adam), history, diverged }
+    Ok(TrainedFiltered { net: averaged(&net, &adam), history, diverged })
 }
 
 fn add<T: Real>(sum: &mut [T], more: &[T]) {

@@ -42,6 +42,16 @@ impl<T: Real> Adam<T> {
         Adam { moments: [zeros.clone(), zeros.clone()], average: zeros, decays, step: 0 }
     }
 
+    /// Moments, average and steps done.
+    pub(crate) fn parts(&self) -> (&[Vec<T>; 2], &[T], u64) {
+        (&self.moments, &self.average, self.step)
+    }
+
+    /// Goes on from these.
+    pub(crate) fn put(&mut self, moments: [Vec<T>; 2], average: Vec<T>, step: u64) {
+        (self.moments, self.average, self.step) = (moments, average, step);
+    }
+
     /// Steps done.
     pub fn step(&self) -> u64 {
         self.step

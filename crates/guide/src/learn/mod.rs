@@ -15,10 +15,13 @@ mod adam;
 mod rows;
 mod scaling;
 mod slope;
+mod stored;
 mod train;
 
 pub use adam::Adam;
 pub use rows::Rows;
 pub(crate) use slope::{add_scaled, back_through, dot};
 pub use slope::{loss, loss_and_slope};
-pub use train::{Diverged, Progress, State, Trained, Training, resume, train};
+pub(crate) use stored::Moving;
+pub use stored::{Stored, Unfit, Way};
+pub use train::{Diverged, Progress, State, Trained, Training, resume, train, train_along};

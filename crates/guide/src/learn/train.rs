@@ -8,10 +8,12 @@ use super::adam::Adam;
 use super::rows::Rows;
 use super::scaling;
 use super::slope::Work;
+use super::stored::{Moving, Stored, Unfit, Way};
 use crate::net::{Net, Real};
 use niwaki_math::Stream;
 use niwaki_math::streams::RngCore;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Choices of a step that one thread works through.
@@ -48,18 +50,47 @@ impl Training {
 }
 
 /// How training goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     /// Steps done.
     pub step: u64,
     /// Steps in all.
     pub steps: u64,
     /// Mean loss of the choices drawn since the last look, nats; of the start, as at the rows held out.
+    #[serde(with = "bits")]
     pub loss: f64,
     /// Mean loss of the averaged weights on the rows that are held out, nats; `loss` again, if there are none.
+    #[serde(with = "bits")]
     pub held_out: f64,
     /// The smallest of these so far, and its step.
+    #[serde(with = "best_bits")]
     pub best: (f64, u64),
+}
+
+/// Reals as the numbers of their bits: JSON has no infinity.
+mod bits {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_u64(x.to_bits())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+        u64::deserialize(from).map(f64::from_bits)
+    }
+}
+
+/// The same for a loss and its step.
+mod best_bits {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(x: &(f64, u64), to: S) -> Result<S::Ok, S::Error> {
+        (x.0.to_bits(), x.1).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<(f64, u64), D::Error> {
+        <(u64, u64)>::deserialize(from).map(|(bits, step)| (f64::from_bits(bits), step))
+    }
 }
 
 /// Training that can go on: weights, and what the optimiser keeps.
@@ -236,26 +267,68 @@ pub fn train<T: Real>(
     resume(State::new(start, rows), rows, held_out, with, watch)
 }
 
+/// As [`train`], from the data of a training that began so, and seen at its borders.
+///
+/// # Errors
+/// The data is not of this training.
+///
+/// # Panics
+///
+/// As [`train`].
+pub fn train_along<T: Real>(
+    start: Net<T>,
+    rows: &Rows,
+    held_out: &Rows,
+    with: &Training,
+    watch: &mut dyn FnMut(Progress) -> bool,
+    way: Way<'_>,
+) -> Result<Result<Trained<T>, Box<Diverged<T>>>, Unfit> {
+    let (mut state, mut history, mut sums) = (State::new(start, rows), Vec::new(), (0.0, 0.0));
+    if let Some(left) = &way.left {
+        let State { net, adam, best, .. } = &mut state;
+        let weights = &mut net.weights;
+        if !left.put(Moving { weights, adam, best, sums: &mut sums, history: &mut history }) {
+            return Err(Unfit);
+        }
+    }
+    Ok(steps(state, rows, held_out, with, watch, (history, sums), way.border))
+}
+
 /// Goes on with training until `with.steps` steps are done in all.
 ///
 /// # Panics
 ///
 /// As [`train`].
 pub fn resume<T: Real>(
-    mut state: State<T>,
+    state: State<T>,
     rows: &Rows,
     held_out: &Rows,
     with: &Training,
     watch: &mut dyn FnMut(Progress) -> bool,
 ) -> Result<Trained<T>, Box<Diverged<T>>> {
+    steps(state, rows, held_out, with, watch, (Vec::new(), (0.0, 0.0)), &mut |_| {})
+}
+
+/// What the looks saw, and the sum and the number of the losses since the last.
+type Seen = (Vec<Progress>, (f64, f64));
+
+fn steps<T: Real>(
+    mut state: State<T>,
+    rows: &Rows,
+    held_out: &Rows,
+    with: &Training,
+    watch: &mut dyn FnMut(Progress) -> bool,
+    (mut history, (mut sum, mut count)): Seen,
+    border: &mut dyn FnMut(&dyn Fn() -> Stored),
+) -> Result<Trained<T>, Box<Diverged<T>>> {
     assert!(with.share > 0.0 && with.share < 1.0, "the prior's share is {}", with.share);
-    let mut history = Vec::new();
     let chunk = || Chunk { work: Work::default(), slope: vec![T::ZERO; state.net.weights.len()], loss: 0.0 };
     let mut chunks: Vec<Chunk<T>> = (0..with.batch.div_ceil(CHUNK).max(1)).map(|_| chunk()).collect();
-    let (mut sum, mut count) = (0.0, 0.0);
     let last = if rows.is_empty() { state.step() } else { with.steps };
     loop {
-        if state.step().is_multiple_of(with.every.max(1)) || state.step() >= last {
+        // Training that goes on has looked at its first step.
+        let has_looked = history.last().is_some_and(|seen| seen.step == state.step());
+        if !has_looked && (state.step().is_multiple_of(with.every.max(1)) || state.step() >= last) {
             let seen = if held_out.is_empty() { None } else { Some(state.look(held_out, with)) };
             let held_out = seen.unwrap_or(sum / f64::max(count, 1.0));
             if held_out < state.best.0 || seen.is_none() {
@@ -270,6 +343,7 @@ pub fn resume<T: Real>(
                 break;
             }
         }
+        border(&|| Stored::of(&state.net.weights, &state.adam, &state.best, (sum, count), &history));
         match state.advance(rows, with, &mut chunks) {
             Ok(loss) => {
                 sum += loss;

@@ -93,6 +93,23 @@ impl Best {
         choices
     }
 
+    /// Its scores and choices.
+    pub(super) fn stored(&self, state: &State, program: &Program) -> Run {
+        let choices = self.copied.clone().unwrap_or_else(|| self.choices(state, program));
+        Run { log: choices.into_iter().collect(), ..self.bare_scores() }
+    }
+
+    fn bare_scores(&self) -> Run {
+        let Run { log_prior, log_score, primitives, similarity, has_ended, visit, .. } = self.scores;
+        Run { log_prior, log_score, primitives, similarity, has_ended, visit, ..Run::default() }
+    }
+
+    /// The best state of what [`Best::stored`] gave.
+    pub(super) fn restored(run: Run) -> Best {
+        let copied = run.log.entries().into_iter().map(|entry| (entry.address(), entry.value)).collect();
+        Best { scores: run, copied: Some(copied), since: vec![] }
+    }
+
     /// A run from the start with its choices, so that its scores are those of its values.
     ///
     /// # Errors

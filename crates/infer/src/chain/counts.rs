@@ -1,9 +1,10 @@
 //! How often a chain proposed, and how often it accepted, by site of the program.
 
 use niwaki_vm::code::{FunctionId, Program, SiteKind};
+use serde::{Deserialize, Serialize};
 
 /// Proposals at one site.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// How many there were.
     pub proposed: u64,

@@ -30,6 +30,16 @@ pub struct Drift {
 }
 
 impl Drift {
+    /// What it has learnt: its steps, by number of the site.
+    pub(super) fn learnt(&self) -> Vec<Learnt> {
+        self.steps.iter().map(Step::learnt).collect()
+    }
+
+    /// Takes what it had learnt.
+    pub(super) fn know(&mut self, steps: &[Learnt]) {
+        self.steps = steps.iter().map(|step| Step::known(*step)).collect();
+    }
+
     /// The step at a site.
     fn step(&mut self, site: usize) -> f64 {
         if site >= self.steps.len() {
@@ -57,7 +67,21 @@ impl From<f64> for Step {
     }
 }
 
+/// What a step has learnt: its logarithm, as bits, and how often it was adapted.
+pub(crate) type Learnt = (u64, u32);
+
 impl Step {
+    /// What it has learnt.
+    pub fn learnt(&self) -> Learnt {
+        (self.log.to_bits(), self.adapted)
+    }
+
+    /// A step that had learnt this.
+    pub fn known((log, adapted): Learnt) -> Step {
+        let log = f64::from_bits(log);
+        Step { size: log.exp(), log, adapted }
+    }
+
     /// Robbins and Monro's step towards a share of accepted proposals.
     pub fn adapt(&mut self, decision: Decision, target: f64) {
         self.adapted += 1;

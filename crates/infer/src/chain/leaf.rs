@@ -5,7 +5,7 @@ use super::Proposing;
 use super::accept::Rules;
 use super::block::Block;
 use super::by_family::ByFamily;
-use super::drift::Drift;
+use super::drift::{Drift, Step};
 use super::guided::Guided;
 use super::kernel::Selection;
 use super::neighbour::Neighbour;
@@ -15,7 +15,7 @@ use super::regrow::Regrow;
 use super::trajectory::{self, Trajectory};
 use super::user::{User, UserMove};
 use crate::{Failure, Task};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// How a leaf proposes. As data it is a name, which is the variant's in small letters, with the settings.
@@ -71,6 +71,30 @@ impl Proposer {
         }
     }
 
+    /// What it has learnt from the proposals so far.
+    pub(crate) fn learnt(&self) -> Learnt {
+        match self {
+            Proposer::Drift(own) => Learnt::Steps(own.learnt()),
+            Proposer::Block(own) => Learnt::Steps(vec![own.step.learnt()]),
+            Proposer::HmcStep(own) | Proposer::NutsStep(own) => Learnt::Travels(Box::new(own.learnt())),
+            _ => Learnt::Nothing,
+        }
+    }
+
+    /// Takes what it had learnt; false where that is not of such a leaf.
+    pub(crate) fn know(&mut self, learnt: Learnt) -> bool {
+        match (self, learnt) {
+            (Proposer::Drift(own), Learnt::Steps(steps)) => own.know(&steps),
+            (Proposer::Block(own), Learnt::Steps(steps)) if steps.len() == 1 => {
+                own.step = Step::known(steps[0])
+            }
+            (Proposer::HmcStep(own) | Proposer::NutsStep(own), Learnt::Travels(learnt)) => own.know(*learnt),
+            (_, Learnt::Nothing) => {}
+            _ => return false,
+        }
+        true
+    }
+
     /// Whether it looks at the scene.
     pub(crate) fn looks(&self) -> bool {
         match self {
@@ -87,6 +111,17 @@ impl Proposer {
             _ => None,
         }
     }
+}
+
+/// What a leaf has learnt from its proposals, as data.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Learnt {
+    /// Leaves that do not learn.
+    Nothing,
+    /// Steps.
+    Steps(Vec<super::drift::Learnt>),
+    /// Of trajectories.
+    Travels(Box<trajectory::Learnt>),
 }
 
 /// The run to which proposals are applied.

@@ -9,7 +9,7 @@
 //! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
-//! * [`ladder`]: parallel tempering; [`many`]: several searches in parallel;
+//! * [`ladder`]: parallel tempering; [`many`]: several searches in parallel; `stored`: chains as data, to go on from;
 //! * [`agreement`]: the four strategies, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
 //! A chain's states depend on its seed and number only: not on the strategy, not on the number of threads.
@@ -38,6 +38,7 @@ pub mod regrow;
 pub mod samples;
 pub(crate) mod select;
 pub mod state;
+pub(crate) mod stored;
 pub mod streams;
 pub mod trajectory;
 pub mod user;

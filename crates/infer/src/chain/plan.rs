@@ -3,11 +3,12 @@
 //! The cursor is a stack of places in the tree, so a chain can stop between any two proposals.
 
 use super::kernel::{Kernel, Selection};
-use super::leaf::{Leaf, Proposer};
+use super::leaf::{Leaf, Learnt, Proposer};
 use super::trajectory::Trajectory;
 use crate::Failure;
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
+use serde::{Deserialize, Serialize};
 
 #[derive(Clone, Debug)]
 enum Branch {
@@ -23,6 +24,14 @@ enum Branch {
         done: u64,
         inner: usize,
     },
+}
+
+/// Where a plan is, as data: branches that are being applied, proposals of each annealing, what the leaves have learnt.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Stored {
+    cursor: Vec<(usize, u64)>,
+    annealed: Vec<u64>,
+    learnt: Vec<Learnt>,
 }
 
 /// A kernel ready to run.
@@ -106,6 +115,34 @@ impl Plan {
         };
         self.branches.push(branch);
         Ok(self.branches.len() - 1)
+    }
+
+    /// Where it is, and what its leaves have learnt.
+    pub fn stored(&self) -> Stored {
+        let begun = |branch: &Branch| match branch {
+            Branch::Anneal { done, .. } => *done,
+            _ => 0,
+        };
+        Stored {
+            cursor: self.cursor.clone(),
+            annealed: self.branches.iter().map(begun).collect(),
+            learnt: self.leaves.iter().map(|leaf| leaf.proposer.learnt()).collect(),
+        }
+    }
+
+    /// Goes on from there; false where that is not of this plan.
+    pub fn restore(&mut self, stored: Stored) -> bool {
+        let fits = stored.annealed.len() == self.branches.len() && stored.learnt.len() == self.leaves.len();
+        if !fits || stored.cursor.iter().any(|(branch, _)| *branch >= self.branches.len()) {
+            return false;
+        }
+        self.cursor = stored.cursor;
+        for (branch, before) in self.branches.iter_mut().zip(stored.annealed) {
+            if let Branch::Anneal { done, .. } = branch {
+                *done = before;
+            }
+        }
+        self.leaves.iter_mut().zip(stored.learnt).all(|(leaf, learnt)| leaf.proposer.know(learnt))
     }
 
     /// The leaves that follow the gradient.

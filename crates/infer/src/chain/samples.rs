@@ -22,6 +22,12 @@ impl Samples {
         Samples { all: vec![], thin, room: room.max(1), held: 0 }
     }
 
+    /// Takes the samples of a chain that goes on.
+    pub(super) fn restore(&mut self, all: Vec<Run>, thin: u64) {
+        self.held = all.iter().map(|sample| sample.log.len() + 1).sum();
+        (self.all, self.thin) = (all.into_iter().map(Arc::new).collect(), thin);
+    }
+
     /// Keeps the present state. When the samples hold too many choices, every other one is dropped; those left are the
     /// ones that twice the thinning would have kept; `warmup` is where the first interval began.
     pub fn keep(&mut self, state: &State, program: &Program, visit: u64, warmup: u64) {

@@ -2,6 +2,7 @@
 
 use super::drift::plain_spread;
 use super::streams::Streams;
+use crate::checkpoint::unfit;
 use crate::chooser::{Chooser, Known, Prior};
 use crate::record::{AllInvalid, score_of};
 use crate::run::Run;
@@ -169,6 +170,20 @@ impl State {
         let log_sketches = sketches.total();
         let primitives_before = primitives;
         Ok(State { trace, sketches, log_sketches, primitives, moved: 0, primitives_before, before: None })
+    }
+
+    /// A state with these choices, which have their numbers in that order.
+    ///
+    /// # Errors
+    /// A fault of the program; values with which a run is impossible, or that are not those of a run.
+    pub(crate) fn of_choices(task: &Task, choices: &[(u128, Value)]) -> Result<State, Failure> {
+        let known = choices.iter().cloned().collect();
+        let (mut state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
+        let order: Vec<u128> = choices.iter().map(|choice| choice.0).collect();
+        if !state.trace.arrange(&task.program, &order) {
+            return Err(unfit("its choices are not those of a run of this model"));
+        }
+        Ok(state)
     }
 
     /// Its choices.

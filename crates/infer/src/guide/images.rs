@@ -6,14 +6,14 @@
 
 use super::bound::{BoundGuide, Sight};
 use super::form::{GuideForm, ImageForm};
-use super::lessons::{Example, Making, Taught, follow};
+use super::lessons::{Example, Making, Taught, follow, of_another};
 use super::{Guide, Network, bad};
 use crate::{Failure, Task};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Page, Place};
 use niwaki_guide::filtered::{Choice, Levels, Trace};
 use niwaki_guide::heads::natural;
-use niwaki_guide::{Filtered, FilteredForm, FilteredTraining, Progress, train_filtered};
+use niwaki_guide::{Filtered, FilteredForm, FilteredTraining, Progress, Way, train_filtered_along};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
@@ -158,6 +158,7 @@ pub(super) fn train(
     form: GuideForm,
     net: Filtered,
     watch: &mut dyn FnMut(Progress) -> bool,
+    way: Way<'_>,
 ) -> Result<Taught, Failure> {
     let blank = Arc::new(Guide { form, net: Network::Filtered(net.clone()) });
     let (judging, learning): (Vec<&Example>, Vec<&Example>) = examples.iter().partition(|one| one.held_out);
@@ -173,7 +174,7 @@ pub(super) fn train(
         share: making.share,
         seed: making.seed,
     };
-    let trained = train_filtered(net, &learned, &held_out, &with, watch);
+    let trained = train_filtered_along(net, &learned, &held_out, &with, watch, way).map_err(of_another)?;
     let form = GuideForm { share: making.share, ..blank.form.clone() };
     let label = |site: usize| form.sites[site].label.clone();
     let diverged = trained.diverged.map(|(step, site)| (step, site.map(label)));

@@ -7,6 +7,7 @@ use super::bound::{BoundGuide, Sight};
 use super::form::GuideForm;
 use super::survey::Survey;
 use super::{Guide, Network, images};
+use crate::checkpoint::{Checkpoint, unfit};
 use crate::chooser::{Chooser, Chosen, Context, Refuse};
 use crate::log::Entry;
 use crate::particle::Particle;
@@ -14,7 +15,7 @@ use crate::record::Record;
 use crate::replay::by_address;
 use crate::{Failure, Task};
 use niwaki_geom::WindowForm;
-use niwaki_guide::{Net, NetForm, Progress, Rows, Training, train as train_net};
+use niwaki_guide::{Net, NetForm, Progress, Rows, Stored, Training, Unfit, Way, train_along};
 use niwaki_math::Dist;
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
@@ -262,6 +263,7 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Row
 }
 
 /// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
+/// The training is part 0 of the `checkpoint`, stored between two steps; its rows are made again.
 ///
 /// # Errors
 /// No traces; a trace that cannot be followed.
@@ -270,18 +272,23 @@ pub fn train(
     making: &Making,
     start: Option<&Guide>,
     watch: &mut dyn FnMut(Progress) -> bool,
+    checkpoint: Option<&Checkpoint>,
 ) -> Result<Taught, Failure> {
+    let mut border = |content: &dyn Fn() -> Stored| {
+        checkpoint.inspect(|own| own.at_border(0, content));
+    };
+    let way = Way { left: checkpoint.map_or(Ok(None), |own| own.left(0))?, border: &mut border };
     let mut form = match start {
         Some(start) => start.form.clone(),
         None => survey(examples, making)?,
     };
     let net = match (start.map(|start| &start.net), examples) {
         (Some(Network::Filtered(net)), _) => {
-            return images::train(examples, making, form, net.clone(), watch);
+            return images::train(examples, making, form, net.clone(), watch, way);
         }
         (None, [first, ..]) if making.architecture == Architecture::Dissertation => {
             let net = images::network(&mut form, making, &first.task)?;
-            return images::train(examples, making, form, net, watch);
+            return images::train(examples, making, form, net, watch, way);
         }
         (Some(Network::Shared(net)), _) => net.clone(),
         (None, _) => {
@@ -299,12 +306,14 @@ pub fn train(
     let held_out = rows(&judging, &blank, net.form())?;
     let mut form = blank.form.clone();
     let rows = learned.len();
-    let mut history = Vec::new();
+    // What was seen before the data was stored is told, too.
+    let mut history = way.left.as_ref().map_or_else(Vec::new, |left| left.history().to_vec());
     let mut seen = |now: Progress| {
         history.push(now);
         watch(now)
     };
-    let (net, diverged) = match train_net(net, &learned, &held_out, &making.training(rows), &mut seen) {
+    let trained = train_along(net, &learned, &held_out, &making.training(rows), &mut seen, way);
+    let (net, diverged) = match trained.map_err(of_another)? {
         Ok(trained) => (trained.net, None),
         // What was learned before is kept, and told.
         Err(diverged) => {
@@ -320,6 +329,11 @@ pub fn train(
         history,
         diverged,
     })
+}
+
+/// The failure of a training that cannot go on.
+pub(super) fn of_another(_: Unfit) -> Failure {
+    unfit("it is of a network of another size")
 }
 
 /// What training gave.

@@ -7,7 +7,9 @@ use super::leapfrog::{Phase, leapfrog};
 use super::metric::Metric;
 use super::potential::Potential;
 use super::transition::acceptance;
+use crate::run::bits;
 use niwaki_math::Stream;
+use serde::{Deserialize, Serialize};
 
 /// How strongly the log step is drawn to `mu` (Hoffman & Gelman 2014, section 3.2.1: gamma).
 const SHRINKAGE: f64 = 0.05;
@@ -17,14 +19,20 @@ const OFFSET: f64 = 10.0;
 const FORGETTING: f64 = 0.75;
 
 /// A step size that is being adapted.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct DualAveraging {
     /// The acceptance that is wanted.
+    #[serde(with = "bits")]
     pub target: f64,
+    #[serde(with = "bits")]
     mu: f64,
+    #[serde(with = "bits")]
     log_step: f64,
+    #[serde(with = "bits")]
     log_mean: f64,
+    #[serde(with = "bits")]
     error: f64,
+    #[serde(with = "bits")]
     count: f64,
 }
 

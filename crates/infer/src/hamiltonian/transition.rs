@@ -40,7 +40,7 @@ pub struct Divergence {
 }
 
 /// Trajectories that broke off.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct BrokenOff {
     /// How many after the warm-up the target refused, by [`Cause`].
     pub refused: [u64; Cause::COUNT],

@@ -10,14 +10,18 @@
 //! Work is counted, not timed: particle-steps of populations and of parts, proposals, and shapes that proposals place or remove.
 //! So a search with a number of rounds has the same bits on any machine; one with a time reports how many it made.
 //!
+//! A search is stored between two rounds (`stored`): its first population is begun again after a kill.
+//!
 //! Several results that differ are the ends of several smaller searches, side by side.
 
 mod rounds;
 mod start;
+mod stored;
 
 pub use rounds::{Kind, Round};
 
 use crate::chain::form::Form;
+use crate::checkpoint::Checkpoint;
 use crate::failure::Attempt;
 use crate::particles::distinct::Choices;
 use crate::particles::{Progress, Watch, side_by_side};
@@ -31,6 +35,7 @@ use rounds::Search;
 use serde::Deserialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use stored::Stored;
 
 /// Rounds where neither their number nor a time is given.
 const USUAL_ROUNDS: u64 = 15;
@@ -66,6 +71,15 @@ pub struct Improve {
     drawn_by: Option<Arc<Proposal>>,
 }
 
+/// Where others see what the search has.
+#[derive(Clone, Copy, Default)]
+pub struct Seen<'a> {
+    /// Its best run so far.
+    pub shown: Option<&'a Shown>,
+    /// What it needs to go on after it was killed.
+    pub checkpoint: Option<&'a Checkpoint>,
+}
+
 /// How a search for the best went; of several, the one with the best run.
 #[derive(Default)]
 pub struct Improved {
@@ -96,7 +110,7 @@ impl Improve {
 
     /// Searches for the best run, or for several that differ, best first. Populations, and parts that are grown again,
     /// draw their choices from the `proposal`, where there is one. `watch` is called with the number of rounds and the best log score, after the best run
-    /// is `shown`; when it returns false, the search ends with its best so far.
+    /// is `shown`; when it returns false, the search ends with its best so far. Each search is a part of the `checkpoint`.
     ///
     /// # Errors
     /// Settings that make no sense, a fault of the program, or first populations that all died.
@@ -105,14 +119,14 @@ impl Improve {
         task: &Task,
         seed: u64,
         proposal: Option<Arc<Proposal>>,
-        shown: Option<&Shown>,
+        seen: Seen<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         self.check()?;
         let own = Improve { drawn_by: proposal, ..self.clone() };
         match own.diverse {
-            None => own.one(task, seed, shown, watch).map(|(best, info)| (vec![best], info)),
-            Some(wanted) => own.several(task, seed, wanted, shown, watch),
+            None => own.one(task, seed, 0, seen, watch).map(|(best, info)| (vec![best], info)),
+            Some(wanted) => own.several(task, seed, wanted, seen, watch),
         }
     }
 
@@ -122,7 +136,7 @@ impl Improve {
         task: &Task,
         seed: u64,
         wanted: usize,
-        shown: Option<&Shown>,
+        seen: Seen<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         let particles = (SHARE * self.particles as f64).ceil() as usize;
@@ -132,7 +146,8 @@ impl Improve {
             let missing = wanted - chosen.len();
             let seeds = searches..searches + missing;
             let (results, is_stopped) = side_by_side(missing, watch, |number, watch| {
-                own.one(task, part_seed(seed, (seeds.start + number) as u64, 2), shown, watch)
+                let part = (seeds.start + number) as u64;
+                own.one(task, part_seed(seed, part, 2), part, seen, watch)
             });
             searches = seeds.end;
             for result in results {
@@ -164,31 +179,60 @@ impl Improve {
         }
     }
 
-    /// One search.
+    /// One search, which is a part of the checkpoint.
     fn one(
         &self,
         task: &Task,
         seed: u64,
-        shown: Option<&Shown>,
+        part: u64,
+        seen: Seen<'_>,
+        watch: &mut dyn FnMut(Progress) -> bool,
+    ) -> Result<(Run, Improved), Failure> {
+        // Counted apart, so that a part is stored with its own count.
+        let own = task.uncounted();
+        let result = self.counted(&own, seed, part, seen, watch);
+        task.invalid.add(own.invalid.counts());
+        result
+    }
+
+    fn counted(
+        &self,
+        task: &Task,
+        seed: u64,
+        part: u64,
+        seen: Seen<'_>,
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<(Run, Improved), Failure> {
         let began = Instant::now();
+        let left: Option<Stored<Run>> = seen.checkpoint.map_or(Ok(None), |own| own.left(part))?;
+        let before = left.as_ref().map_or(Duration::ZERO, |left| left.time);
         let time = self.seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::ZERO));
-        let is_late = || time.is_some_and(|time| began.elapsed() >= time);
+        let elapsed = || before + began.elapsed();
+        let is_late = || time.is_some_and(|time| elapsed() >= time);
         let most = self.rounds.unwrap_or(if time.is_some() { u64::MAX } else { USUAL_ROUNDS });
-        let mut info = Improved { searches: 1, ..Improved::default() };
-        let first = self.start(task, seed, &mut info.attempts, watch, &|| !is_late())?;
-        let (work, is_stopped) = (first.steps, first.interrupted);
-        let tried = info.attempts.last().map_or(self.particles, |attempt| attempt.particles);
-        let unit = (work * self.particles as u64 / tried as u64).max(1);
-        let mut search = Search::begin(self, task, seed, unit, info.attempts.len() as u64, first)?;
-        let round = |kind, work, parts, best| Round { kind, work, parts, best, time: began.elapsed() };
-        info.rounds.push(round(Kind::Population, work, 0, search.best.log_score));
-        info.interrupted = is_stopped;
-        let (mut number, mut idle) = (0, 0);
+        let round = |kind, work, parts, best| Round { kind, work, parts, best, time: elapsed() };
+        let (mut search, mut info, mut number, mut idle) = match left {
+            Some(left) => left.search(self, task, seed)?,
+            None => {
+                let mut info = Improved { searches: 1, ..Improved::default() };
+                let first = self.start(task, seed, &mut info.attempts, watch, &|| !is_late())?;
+                let (work, is_stopped) = (first.steps, first.interrupted);
+                let tried = info.attempts.last().map_or(self.particles, |attempt| attempt.particles);
+                let unit = (work * self.particles as u64 / tried as u64).max(1);
+                let search = Search::begin(self, task, seed, unit, info.attempts.len() as u64, first)?;
+                info.rounds.push(round(Kind::Population, work, 0, search.best.log_score));
+                info.interrupted = is_stopped;
+                (search, info, 0, 0)
+            }
+        };
+        let invalid = || task.invalid.counts();
         while number < most && idle < PATIENCE.max(number / 2) && !info.interrupted && !is_late() {
+            if let Some(checkpoint) = seen.checkpoint {
+                checkpoint
+                    .at_border(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
+            }
             let before = search.best.log_score;
-            shown.inspect(|shown| search.best.show(shown));
+            seen.shown.inspect(|shown| search.best.show(shown));
             let mut go_on = |best: f64| {
                 info.interrupted |= !watch(Progress { barriers: number as usize, ended: 1, best });
                 !info.interrupted
@@ -198,6 +242,10 @@ impl Improve {
             let gain = search.best.log_score - before;
             idle = if gain < LEAST_GAIN { idle + 1 } else { 0 };
             info.rounds.push(round(kind, work, parts, search.best.log_score));
+        }
+        // A round that was stopped is done again.
+        if let Some(checkpoint) = seen.checkpoint.filter(|_| !info.interrupted) {
+            checkpoint.store(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
         }
         Ok((search.best, info))
     }

@@ -4,16 +4,19 @@ use super::{Improve, population_seed};
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
 use crate::chain::state::State;
+use crate::chain::stored::StoredState;
+use crate::chain::streams::Streams;
 use crate::chain::{Chain, Settings as ChainSettings};
 use crate::particles::rejuvenation::spreads;
 use crate::particles::{Outcome, Result, Settings, smc};
 use crate::replay::by_address;
-use crate::run::Run;
+use crate::run::{Run, bits};
 use crate::streams::Reserved;
 use crate::weights::index;
 use crate::{Failure, Task};
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
+use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::collections::HashMap;
 use std::time::Duration;
@@ -30,7 +33,7 @@ const TURN: f64 = 0.7;
 const MORE: usize = 5;
 
 /// A kind of step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
     /// A population from the start.
     Population,
@@ -57,7 +60,7 @@ impl Kind {
 }
 
 /// What one round did.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Round {
     /// Its kind of step.
     pub kind: Kind,
@@ -66,9 +69,21 @@ pub struct Round {
     /// The parts that were grown again and kept.
     pub parts: u64,
     /// Best log score after it, nats.
+    #[serde(with = "bits")]
     pub best: f64,
     /// Since the search began, by the clock.
     pub time: Duration,
+}
+
+/// A search as data; its small steps' spreads are found again.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Stored<R> {
+    best: R,
+    state: StoredState,
+    slice: u64,
+    populations: u64,
+    gains: [Option<u64>; Kind::ALL.len()],
+    spent: [u64; Kind::ALL.len()],
 }
 
 /// The search while it runs.
@@ -115,6 +130,35 @@ impl<'a> Search<'a> {
         let population = Kind::ALL.len() - 1;
         (gains[population], spent[population]) = (Some(0.0), unit);
         Ok(Search { task, own, seed, slice, spreads, best, state, populations, gains, spent })
+    }
+
+    /// As data, between two rounds; `None` where the search was stopped before its first.
+    pub fn stored(&self) -> Option<Stored<&Run>> {
+        Some(Stored {
+            best: &self.best,
+            state: StoredState::of(self.state.as_ref()?, &self.task.program),
+            slice: self.slice,
+            populations: self.populations,
+            gains: self.gains.map(|gain| gain.map(f64::to_bits)),
+            spent: self.spent,
+        })
+    }
+
+    /// The search of its data.
+    ///
+    /// # Errors
+    /// As for [`StoredState::state`].
+    pub fn restored(
+        own: &'a Improve,
+        task: &'a Task,
+        seed: u64,
+        stored: Stored<Run>,
+    ) -> std::result::Result<Search<'a>, Failure> {
+        let Stored { best, state, slice, populations, gains, spent } = stored;
+        let state = Some(state.state(task)?);
+        let best = with_value(task, best)?;
+        let gains = gains.map(|gain| gain.map(f64::from_bits));
+        Ok(Search { task, own, seed, slice, spreads: HashMap::new(), best, state, populations, gains, spent })
     }
 
     /// One round of about the same work as any; returns its kind, what it cost, and how many parts were grown again and kept. `go_on`
@@ -230,6 +274,13 @@ impl<'a> Search<'a> {
             ])),
         }
     }
+}
+
+/// A run that was read, with the value that the program returns.
+fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
+    let known = by_address(&run.log.entries());
+    let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
+    Ok(Run { value: state.trace.result(), is_bare: false, ..run })
 }
 
 /// The best run of a population, and a chain's state there.

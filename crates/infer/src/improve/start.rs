@@ -43,6 +43,11 @@ const FORMS: [Form; 6] = [
     Form { name: "depth-first order", times: 6, power: 1.0 / 16.0, order: Order::DepthFirst, ..USUAL },
 ];
 
+/// The form of a name, as reports have it.
+pub(super) fn name_of(form: &str) -> &'static str {
+    FORMS.iter().find(|own| own.name == form).map_or(USUAL.name, |own| own.name)
+}
+
 impl Improve {
     /// A population that lived; `attempts` receives each that was tried. `goes_on` is asked before another one is.
     ///

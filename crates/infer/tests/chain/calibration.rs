@@ -86,7 +86,7 @@ pub const PROGRAMS: [(&str, &str); 6] = [
 ];
 
 /// The program that draws its data, with so many times the deviation, the one that observes them (`$y`, `$y2`, ...), and how many there are.
-fn both(text: &str, widened: f64) -> (Task, Task, usize) {
+pub fn both(text: &str, widened: f64) -> (Task, Task, usize) {
     let wide = |dist: &str| match dist.rsplit_once(' ') {
         Some((head, deviation)) if widened != 1.0 => format!("{head} (mul {widened} {deviation})"),
         _ => dist.to_string(),

@@ -9,6 +9,7 @@ mod invalid;
 mod mixed;
 mod programs;
 mod regrown;
+mod resumed;
 mod scoped;
 
 use niwaki_geom::{Aabb, no_overshoot, vec3};

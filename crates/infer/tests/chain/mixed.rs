@@ -22,7 +22,7 @@ const REPLICATES: u64 = 2000;
 
 /// A mixture whose number of components, labels and shares are random: births and deaths of a mean, and another graph
 /// for every labelling.
-const MIXTURE: &str = r#"
+pub const MIXTURE: &str = r#"
     (set $k (add 1 (sample (dist categorical (list 0.3 0.4 0.3)))))
     (set $s (sample (dist uniform 0.2 1.6)))
     (set $means (list))
@@ -36,7 +36,7 @@ const MIXTURE: &str = r#"
     (return (tuple $k $s (index $means 0) (index $means -1) $a (mul (index $means $a) $y) (mul $s (sub $y2 $y3))))"#;
 
 /// A branch on a real that moves bounds, one that changes the set of choices, and a held real whose bound moves.
-const BRANCHES: &str = r#"
+pub const BRANCHES: &str = r#"
     (set $side (sample (dist gaussian 0.3 1.0)))
     (set $low (cond (gt $side 0.0) 1.0 -2.0))
     (set $x (sample (dist uniform $low (add $low 2.0))))
@@ -46,11 +46,11 @@ const BRANCHES: &str = r#"
     DATA(gaussian (add (add $x $more) (mul 0.3 $held)) 0.7)
     (return (tuple $side $x $held $more (mul $x $y)))"#;
 
-fn hmc(step: f64) -> Kernel {
+pub fn hmc(step: f64) -> Kernel {
     leaf("hmc_step", json!({"steps": 5, "jitter": 0.4, "step": step, "target": 0.8}))
 }
 
-fn nuts(step: f64) -> Kernel {
+pub fn nuts(step: f64) -> Kernel {
     leaf("nuts_step", json!({"max_depth": 4, "step": step, "target": 0.8}))
 }
 

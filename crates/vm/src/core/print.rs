@@ -7,18 +7,18 @@ use std::fmt::Write;
 pub fn print(module: &Module) -> String {
     let mut out = String::from("(module");
     for (i, file) in module.files.iter().enumerate() {
-        let _ = write!(out, "\n  (file {i} {file:?})");
+        let _ = write!(out, "\n  (file {i} {})", quoted(file));
     }
     for (i, class) in module.classes.iter().enumerate() {
         let kind = if class.kind == ClassKind::NamedTuple { " namedtuple" } else { "" };
-        let fields: Vec<String> = class.fields.iter().map(|f| format!("{f:?}")).collect();
-        let _ = write!(out, "\n  (class {i} {:?} ({}){})", class.name, fields.join(" "), kind);
+        let fields: Vec<String> = class.fields.iter().map(|f| quoted(f)).collect();
+        let _ = write!(out, "\n  (class {i} {} ({}){})", quoted(&class.name), fields.join(" "), kind);
     }
     for (i, value) in &module.constants {
         let _ = write!(out, "\n  (const {i} {})", expr(value));
     }
     for f in &module.functions {
-        let _ = write!(out, "\n  (fn {:?} (file {}) (params{})", f.name, f.file, vars(&f.params));
+        let _ = write!(out, "\n  (fn {} (file {}) (params{})", quoted(&f.name), f.file, vars(&f.params));
         if !f.defaults.is_empty() {
             let _ = write!(out, " (defaults{})", tail(&f.defaults));
         }
@@ -28,7 +28,7 @@ pub fn print(module: &Module) -> String {
         block(&mut out, &f.body, 4);
         out.push(')');
     }
-    let _ = write!(out, "\n  (entry {:?}))", module.entry);
+    let _ = write!(out, "\n  (entry {}))", quoted(&module.entry));
     out
 }
 
@@ -93,8 +93,8 @@ fn expr(e: &Expr) -> String {
         And(items) => format!("(and{})", tail(items)),
         Or(items) => format!("(or{})", tail(items)),
         Cond(c, a, b) => format!("(cond {} {} {})", expr(c), expr(a), expr(b)),
-        Call(f, args) => format!("(call {f:?}{})", tail(args)),
-        Closure(f, args) => format!("(closure {f:?}{})", tail(args)),
+        Call(f, args) => format!("(call {}{})", quoted(f), tail(args)),
+        Closure(f, args) => format!("(closure {}{})", quoted(f), tail(args)),
         Apply(f, args) => format!("(apply {}{})", expr(f), tail(args)),
         Sample(d) => format!("(sample {})", expr(d)),
         Observe(d, v) => two("observe", d, v),
@@ -103,16 +103,19 @@ fn expr(e: &Expr) -> String {
         Query(k, v) => two("query", k, v),
         Emit(args) => format!("(emit{})", tail(args)),
         Force(x) => format!("(force {})", expr(x)),
-        Future(f, args) => format!("(future {f:?}{})", tail(args)),
+        Future(f, args) => format!("(future {}{})", quoted(f), tail(args)),
         FutureApply(f, args) => format!("(future_apply {}{})", expr(f), tail(args)),
-        Dist(f, args) => format!("(dist {f}{})", tail(args)),
+        Dist(f, args) => match is_word(f) {
+            true => format!("(dist {f}{})", tail(args)),
+            false => format!("(dist {}{})", quoted(f), tail(args)),
+        },
         Host(k, args) => format!("(host {k}{})", tail(args)),
         Record(k, args) => format!("(record {k}{})", tail(args)),
-        Field(x, f) => format!("(field {} {f:?})", expr(x)),
+        Field(x, f) => format!("(field {} {})", expr(x), quoted(f)),
         List(args) => format!("(list{})", tail(args)),
         Tuple(args) => format!("(tuple{})", tail(args)),
         Dict(keys, args) => format!("(dict ({}){})", tail(keys).trim_start(), tail(args)),
-        Method(x, f, args) => format!("(method {} {f:?}{})", expr(x), tail(args)),
+        Method(x, f, args) => format!("(method {} {}{})", expr(x), quoted(f), tail(args)),
         Op(f, args) => format!("({f}{})", tail(args)),
     }
 }
@@ -125,20 +128,27 @@ fn literal(l: &Literal) -> String {
         Literal::Real(x) if x.is_nan() => "nan".into(),
         Literal::Real(x) if x.is_infinite() => if *x > 0.0 { "inf" } else { "-inf" }.into(),
         Literal::Real(x) => format!("{x:?}"),
-        Literal::Str(s) => {
-            let mut out = String::from("\"");
-            for c in s.chars() {
-                match c {
-                    '"' => out.push_str("\\\""),
-                    '\\' => out.push_str("\\\\"),
-                    c if (c as u32) < 0x20 => _ = write!(out, "\\u{:04x}", c as u32),
-                    c => out.push(c),
-                }
-            }
-            out.push('"');
-            out
+        Literal::Str(s) => quoted(s),
+    }
+}
+
+fn is_word(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// A string with the escapes that [`super::read`] resolves.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            c if (c as u32) < 0x20 => _ = write!(out, "\\u{:04x}", c as u32),
+            c => out.push(c),
         }
     }
+    out.push('"');
+    out
 }
 
 #[cfg(test)]
@@ -162,5 +172,15 @@ mod tests {
         let once = print(&parse(text).unwrap());
         assert_eq!(once, print(&parse(&once).unwrap()));
         assert!(once.contains("(set $x (cond $x 1 \"a\\u000a\\\"b\\\"\"))"));
+    }
+    #[test]
+    fn names_of_any_characters_are_read_again() {
+        let text = "(module (class 0 \"a\\u0000b\" (\"\u{200b}\")) (fn \"m\\\\\" (params) (return (dist \"g h\" (call \"m\\\\\"))))\
+                    (entry \"m\\\\\"))";
+        let once = print(&parse(text).unwrap());
+        assert_eq!(once, print(&parse(&once).unwrap()));
+        assert!(
+            once.contains("\"a\\u0000b\" (\"\u{200b}\")") && once.contains("(dist \"g h\" (call \"m\\\\\"))")
+        );
     }
 }

@@ -20,6 +20,12 @@ impl Invalid {
         Some(site)
     }
 
+    /// Counts runs of another search, or of an earlier part of this one.
+    pub fn add(&self, counts: impl IntoIterator<Item = (String, u64)>) {
+        let mut own = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        counts.into_iter().for_each(|(site, n)| *own.entry(site).or_insert(0) += n);
+    }
+
     /// The number of invalid runs by site, in the order of the sites' names.
     pub fn counts(&self) -> Vec<(String, u64)> {
         let counts = self.0.lock().unwrap_or_else(PoisonError::into_inner);

@@ -16,7 +16,7 @@ use niwaki_math::{Dist, Family, Scalar};
 
 #[cold]
 fn no_dist<S: Scalar>(value: &Value<S>) -> Fault {
-    Fault::new("type-mismatch", format!("expected a distribution, found {}", value.described()))
+    Fault::new("not-a-distribution", format!("expected a distribution, found {}", value.described()))
 }
 
 #[cold]

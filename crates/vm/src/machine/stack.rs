@@ -44,7 +44,7 @@ impl std::fmt::Display for RunFault {
 }
 
 /// Faults that a value of another kind may be the cause of.
-const OF_KIND: [&str; 9] = [
+const OF_KIND: [&str; 10] = [
     "type-mismatch",
     "bad-argument",
     "bad-parameter",
@@ -54,6 +54,7 @@ const OF_KIND: [&str; 9] = [
     "missing-field",
     "missing-method",
     "not-callable",
+    "not-a-distribution",
 ];
 
 /// Calls kept at each end of a deep stack.

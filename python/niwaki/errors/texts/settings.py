@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
+from niwaki.errors.texts.shell import SHELL
 
 SETTINGS = (
+    *SHELL,
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",
@@ -92,6 +94,30 @@ SETTINGS = (
         help="give the run.json that `niwaki grow` wrote",
         example="niwaki replay best.glb",
         cure="niwaki replay out/run.json",
+    ),
+    Message(
+        "bad-checkpoint",
+        "this checkpoint cannot be gone on with",
+        why="a search goes on from the whole file that this version of Niwaki wrote",
+        help="delete the file to begin anew, or name another one",
+        example='niwaki.run(model, mh(10_000), checkpoint="picture.png")',
+        cure='niwaki.run(model, mh(10_000), checkpoint="run.checkpoint")',
+    ),
+    Message(
+        "no-checkpoint",
+        "there is nothing to go on with: no file `{path}`",
+        why="a search or a training that is over removes its checkpoint, and one that was killed in its first second has none",
+        help="begin anew: the same command without `--resume`",
+        example="niwaki grow --resume out",
+        cure="niwaki grow spaceship -o out",
+    ),
+    Message(
+        "other-checkpoint",
+        "`{path}` is the checkpoint of another {kind}",
+        why="{differences}",
+        help="give what it was begun with, or another file; delete it to begin anew",
+        example='niwaki.run(model, mh(10_000), seed=2, checkpoint="seed-1.checkpoint")',
+        cure='niwaki.run(model, mh(10_000), seed=2, checkpoint="seed-2.checkpoint")',
     ),
     Message(
         "chains-gone",

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import niwaki as nw
+from niwaki.errors.files import write_whole
 from niwaki.result import Result, Sample
 from niwaki.search.data import Reader, Writer
 from niwaki.shell import run_files
@@ -54,7 +55,7 @@ def store(result: Result, found: ModelReference, run: int, file: str, origin: st
     data = run_files.written(result, found)
     for number, one in enumerate(result.samples):
         _samples[file, number] = one
-    run_files.save(file, data)
+    _saved(Path(file), data)
     return [outcome(one, Key(run, number), origin) for number, one in enumerate(result.samples)]
 
 
@@ -136,7 +137,7 @@ def write(job: WriteFile) -> Answer:
     data: dict[str, Any] = run_files.load(job.source)
     data["best"] = job.number
     if job.format == "json":
-        return Answer(path=str(run_files.save(folder / "run.json", data)))
+        return Answer(path=str(_saved(folder / "run.json", data)))
     one: nw.Sample = sample(job.source, job.number)
     style = run_files.style(data, one)
     path = folder / f"best.{job.format}"
@@ -146,5 +147,10 @@ def write(job: WriteFile) -> Answer:
     else:
         one.export(path, scale=job.scale, style=style if job.format == "svg" else None)
     # The recipe lies beside it, so that the folder explains itself.
-    (folder / "run.json").write_text(json.dumps(data, indent=1, allow_nan=False) + "\n")
+    _saved(folder / "run.json", data)
     return Answer(path=str(path))
+
+
+def _saved(path: Path, data: dict[str, Any]) -> Path:
+    """Write a run, completely or not at all."""
+    return write_whole(path, (json.dumps(data, indent=1, allow_nan=False) + "\n").encode())

@@ -32,6 +32,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Eye, Shape, TargetAsk } from "../messages";
+import { frame } from "./framing";
 import { subset, unpacked } from "./meshes";
 import type { Piece } from "./meshes";
 
@@ -47,7 +48,7 @@ export class Stage {
   private readonly renderer: WebGLRenderer;
   private readonly orbit: OrbitControls;
   private readonly handles: TransformControls;
-  private readonly sun = new DirectionalLight(0xfff4e2, 2.4);
+  private readonly sun = new DirectionalLight(0xfff9ef, 2.3);
   private readonly ground: Mesh;
   private readonly shape = new Group();
   private readonly marks = new Group();
@@ -73,11 +74,10 @@ export class Stage {
     this.ground.receiveShadow = true;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.radius = 6;
+    this.sun.shadow.radius = 7;
     this.sun.shadow.bias = -0.0004;
-    this.sun.shadow.normalBias = 0.02;
     this.scene.add(
-      new HemisphereLight(0xffffff, 0xd8d2c6, 1.5),
+      new HemisphereLight(0xffffff, 0xdedad2, 1.75),
       new AmbientLight(0xffffff, 0.25),
       this.sun,
       this.sun.target,
@@ -151,7 +151,7 @@ export class Stage {
       mesh.castShadow = mesh.receiveShadow = !header.is_flat;
       this.shape.add(mesh);
     }
-    this.frame();
+    this.settle();
     this.draw();
   }
 
@@ -175,7 +175,7 @@ export class Stage {
       this.ghost.add(new Mesh(geometry, fill), new LineSegments(new EdgesGeometry(geometry, 24), line));
       this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
-    this.frame();
+    this.settle();
     this.draw();
   }
 
@@ -216,7 +216,7 @@ export class Stage {
   }
 
   /** Put light and ground around what is there; look at it if nothing was looked at before. */
-  private frame(): void {
+  private settle(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
     const middle = box.getCenter(new Vector3());
@@ -227,6 +227,8 @@ export class Stage {
     this.sun.target.position.copy(middle);
     const side = 1.9 * radius;
     Object.assign(this.sun.shadow.camera, { left: -side, right: side, top: side, bottom: -side });
+    // A little more than a pixel of the shadow map.
+    this.sun.shadow.normalBias = 0.006 * radius;
     this.sun.shadow.camera.near = radius;
     this.sun.shadow.camera.far = 8 * radius;
     this.sun.shadow.camera.updateProjectionMatrix();
@@ -237,18 +239,7 @@ export class Stage {
   fit(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
-    const isFlat = this.piece?.header.is_flat ?? false;
-    const middle = box.getCenter(new Vector3());
-    const size = box.getSize(new Vector3());
-    const radius = 0.5 * size.length();
-    const narrow = Math.min(1, this.camera.aspect);
-    const away = isFlat ? new Vector3(0, 0, 1) : new Vector3(0.62, 0.44, 0.78);
-    const distance = (1.06 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
-    this.camera.position.copy(middle).addScaledVector(away.normalize(), distance);
-    this.camera.near = distance / 100;
-    this.camera.far = distance * 40;
-    this.camera.updateProjectionMatrix();
-    this.orbit.target.copy(middle);
+    this.orbit.target.copy(frame(this.camera, box.min, box.max, this.piece?.header.is_flat ?? false));
     this.orbit.update();
     this.isFramed = true;
     this.draw();

@@ -13,6 +13,7 @@ import {
   WebGLRenderer,
 } from "three";
 import type { Shape } from "../messages";
+import { frame } from "./framing";
 import { COLORS } from "./stage";
 import { unpacked } from "./meshes";
 
@@ -43,17 +44,13 @@ export function thumbnail(
   const material = header.is_flat
     ? new MeshBasicMaterial({ vertexColors: true })
     : new MeshStandardMaterial({ vertexColors: true, roughness: 0.75, flatShading: header.detail !== "fine" });
-  const sun = new DirectionalLight(0xfff4e2, 2.4);
+  const sun = new DirectionalLight(0xfff9ef, 2.3);
   sun.position.set(0.55, 1, 0.5);
-  scene.add(new Mesh(geometry, material), new HemisphereLight(0xffffff, 0xd8d2c6, 1.7), sun);
+  scene.add(new Mesh(geometry, material), new HemisphereLight(0xffffff, 0xdedad2, 1.85), sun);
   const from = new Vector3(...(low as [number, number, number]));
   const to = new Vector3(...(high as [number, number, number]));
-  const middle = from.clone().add(to).multiplyScalar(0.5);
-  const radius = Math.max(0.5 * to.clone().sub(from).length(), 1e-3);
-  const camera = new PerspectiveCamera(28, WIDTH / HEIGHT, radius / 50, radius * 50);
-  const away = header.is_flat ? new Vector3(0, 0, 1) : new Vector3(0.62, 0.44, 0.78);
-  camera.position.copy(middle).addScaledVector(away.normalize(), (0.9 * radius) / Math.sin((14 * Math.PI) / 180));
-  camera.lookAt(middle);
+  const camera = new PerspectiveCamera(28, WIDTH / HEIGHT, 0.1, 1000);
+  frame(camera, from, to, header.is_flat, 0.02);
   renderer.render(scene, camera);
   pen.drawImage(renderer.domElement, 0, 0, WIDTH, HEIGHT);
   geometry.dispose();

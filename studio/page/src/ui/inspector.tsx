@@ -5,7 +5,7 @@ import type { ChoiceInfo, Place } from "../messages";
 import * as store from "../store";
 import { Icon } from "./icons";
 
-const SHOWN = 60;
+const SHOWN = 150;
 
 export function Inspector() {
   const view = store.view.value;
@@ -41,7 +41,7 @@ export function Inspector() {
               <Icon name="dice" /> Re-roll
             </button>
             <button class="button" onClick={() => store.reroll(here, 12)} title="Twelve other forms of this part">
-              12 variants
+              Variants
             </button>
             <button
               class="button"
@@ -55,8 +55,23 @@ export function Inspector() {
         )}
       </section>
       <section class="choices" aria-label="Choices">
-        {choices.slice(0, SHOWN).map((one) => (
-          <Choice key={one.address} choice={one} here={here} />
+        {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
+          <div key={call} role="group" aria-label={call || "its own choices"}>
+            {call !== "" && (
+              <button
+                class="call"
+                title={`Select ${call}`}
+                onClick={() => (store.level.value = here === "" ? call : `${here}/${call}`)}
+                onMouseEnter={() => (store.hovered.value = here === "" ? call : `${here}/${call}`)}
+                onMouseLeave={() => (store.hovered.value = null)}
+              >
+                {call}
+              </button>
+            )}
+            {members.map((one) => (
+              <Choice key={one.address} choice={one} />
+            ))}
+          </div>
         ))}
         {choices.length > SHOWN && <p class="quiet">{choices.length - SHOWN} more; select a smaller part.</p>}
       </section>
@@ -100,8 +115,18 @@ function Source({ place }: { place: Place }) {
   );
 }
 
-function Choice({ choice, here }: { choice: ChoiceInfo; here: string }) {
-  const name = here === "" ? choice.address : choice.address.slice(here.length + 1);
+/** Choices by the call that makes them, named from the selection on; the selection's own first. */
+function grouped(choices: ChoiceInfo[], here: string): [string, ChoiceInfo[]][] {
+  const found = new Map<string, ChoiceInfo[]>([["", []]]);
+  for (const one of choices) {
+    const call = one.address.slice(here === "" ? 0 : here.length + 1).split("/").slice(0, -1).join("/");
+    found.set(call, [...(found.get(call) ?? []), one]);
+  }
+  return [...found].filter(([, members]) => members.length > 0);
+}
+
+function Choice({ choice }: { choice: ChoiceInfo }) {
+  const name = choice.address.split("/").pop()!;
   const isBoolean = typeof choice.value === "boolean";
   const isPinned = store.pinned.value.has(choice.address);
   const set = (value: number | boolean, phase: "move" | "end") =>

@@ -92,8 +92,8 @@ function Target({ handles, setHandles }: { handles: string | null; setHandles: (
     <section>
       <h2>Grow into</h2>
       {isSketched ? (
-        <div class="row">
-          <span>what you drew</span>
+        <div class="group">
+          <span>What you drew</span>
           <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
             clear
           </button>

@@ -2,9 +2,10 @@
 
 use crate::hamiltonian::{BrokenOff, Cause, Stop, Transition};
 use niwaki_vm::machine::stack::RunFault;
+use serde::{Deserialize, Serialize};
 
 /// Counts over the transitions of one leaf.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct TrajectoryCounts {
     /// Transitions, those of the warm-up included.
     pub transitions: u64,
@@ -15,12 +16,14 @@ pub struct TrajectoryCounts {
     /// Transitions after the warm-up.
     pub settled: u64,
     /// Sum over them of the mean acceptance of the trajectory's points.
+    #[serde(with = "crate::run::bits")]
     pub accept: f64,
     /// Gradients, without those of first guesses of a step.
     pub gradients: u64,
     /// Those that broke off.
     pub broken: BrokenOff,
-    /// The fault of the first one that reached a point without a finite gradient.
+    /// The fault of the first one that reached a point without a finite gradient; not stored.
+    #[serde(skip)]
     pub fault: Option<Box<RunFault>>,
 }
 

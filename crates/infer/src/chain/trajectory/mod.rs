@@ -32,7 +32,7 @@ use counts::TrajectoryCounts;
 use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use scales::Scales;
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use structures::{Moving, Structures};
 
 /// Trajectories of one leaf of a kernel.
@@ -43,6 +43,15 @@ pub struct Trajectory {
     model: Option<Model>,
     /// Their counts.
     pub(crate) counts: TrajectoryCounts,
+}
+
+/// What trajectories have learnt, as data.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Learnt {
+    scales: scales::Stored,
+    counts: TrajectoryCounts,
+    /// Structures met, and runs recorded.
+    recorded: (u64, u64),
 }
 
 /// One of fixed length, from its settings.
@@ -111,6 +120,19 @@ impl Trajectory {
             self.model = Some(gradient::model(task)?);
         }
         Ok(())
+    }
+
+    /// What it has learnt and counted.
+    pub(super) fn learnt(&self) -> Learnt {
+        let (counts, recorded) = (self.counts.clone(), self.recorded());
+        Learnt { scales: self.scales.stored(), counts, recorded }
+    }
+
+    /// Takes what it had learnt and counted. Graphs are recorded anew, and count again.
+    pub(super) fn know(&mut self, learnt: Learnt) {
+        self.scales = Scales::restored(learnt.scales);
+        self.counts = learnt.counts;
+        self.structures.count_from(learnt.recorded);
     }
 
     /// The step in use.

@@ -11,6 +11,8 @@
 
 use crate::hamiltonian::Metric;
 use crate::hamiltonian::step_size::DualAveraging;
+use crate::run::bits;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Transitions of the first window.
@@ -21,12 +23,15 @@ const PRIOR_SLOPES: f64 = 5.0;
 const SCALES_UNTIL: f64 = 0.75;
 
 /// The estimate for one label.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Label {
     /// The square of its scale.
+    #[serde(with = "bits")]
     variance: f64,
     /// Sum of squared slopes in this window, and their number.
+    #[serde(with = "bits")]
     squares: f64,
+    #[serde(with = "bits")]
     count: f64,
 }
 
@@ -38,8 +43,16 @@ pub(crate) type LabelId = u32;
 pub(crate) struct Scales {
     numbers: HashMap<(u32, u32), LabelId>,
     labels: Vec<Label>,
+    steps: Steps,
+}
+
+/// The step, and how far the warm-up is.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Steps {
     /// The step for one coordinate.
+    #[serde(with = "bits")]
     step: f64,
+    #[serde(with = "bits")]
     target: f64,
     average: Option<DualAveraging>,
     /// Transitions in this window, and how many it has.
@@ -49,19 +62,36 @@ pub(crate) struct Scales {
     unguessed: bool,
 }
 
+/// Step and scales, as data: sites and places with their labels, in the order of these.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Stored {
+    labels: Vec<((u32, u32), Label)>,
+    steps: Steps,
+}
+
 impl Scales {
     /// A first step, for one coordinate, and the acceptance that it is adapted to.
     pub fn new(step: f64, target: f64) -> Scales {
         Scales {
             numbers: HashMap::new(),
             labels: vec![],
-            step,
-            target,
-            average: None,
-            done: 0,
-            window: FIRST_WINDOW,
-            unguessed: true,
+            steps: Steps { step, target, average: None, done: 0, window: FIRST_WINDOW, unguessed: true },
         }
+    }
+
+    /// As data.
+    pub fn stored(&self) -> Stored {
+        let mut sites: Vec<((u32, u32), LabelId)> =
+            self.numbers.iter().map(|(site, label)| (*site, *label)).collect();
+        sites.sort_unstable_by_key(|(_, label)| *label);
+        let sites = sites.into_iter().map(|(site, _)| site);
+        Stored { labels: sites.zip(self.labels.iter().cloned()).collect(), steps: self.steps.clone() }
+    }
+
+    /// Of their data.
+    pub fn restored(Stored { labels, steps }: Stored) -> Scales {
+        let numbers = (0..).zip(&labels).map(|(number, (site, _))| (*site, number)).collect();
+        Scales { numbers, labels: labels.into_iter().map(|(_, label)| label).collect(), steps }
     }
 
     /// The number of a label, which starts with a scale.
@@ -80,37 +110,37 @@ impl Scales {
 
     /// The step of a structure with so many coordinates.
     pub fn step(&self, dim: usize) -> f64 {
-        self.step * (dim as f64).powf(-0.25)
+        self.steps.step * (dim as f64).powf(-0.25)
     }
 
     /// Whether a guess is wanted, in the warm-up.
     pub fn wants_a_guess(&self) -> bool {
-        self.unguessed
+        self.steps.unguessed
     }
 
     /// Starts from a step that suits so many coordinates.
     pub fn guessed(&mut self, step: f64, dim: usize) {
-        self.unguessed = false;
-        self.step = step * (dim as f64).powf(0.25);
-        self.average = Some(DualAveraging::new(self.step, self.target));
+        self.steps.unguessed = false;
+        self.steps.step = step * (dim as f64).powf(0.25);
+        self.steps.average = Some(DualAveraging::new(self.steps.step, self.steps.target));
     }
 
     /// Learns from a transition of the warm-up, of which a share is over.
     pub fn learn(&mut self, labels: &[LabelId], slopes: &[f64], accept: f64, share: f64) {
-        if let Some(average) = &mut self.average {
+        if let Some(average) = &mut self.steps.average {
             average.update(accept);
-            self.step = average.current();
+            self.steps.step = average.current();
         }
         for (label, slope) in labels.iter().zip(slopes) {
             let label = &mut self.labels[*label as usize];
             label.squares += slope * slope;
             label.count += 1.0;
         }
-        self.done += 1;
-        if self.done < self.window || share > SCALES_UNTIL {
+        self.steps.done += 1;
+        if self.steps.done < self.steps.window || share > SCALES_UNTIL {
             return;
         }
-        (self.done, self.window, self.unguessed) = (0, 2 * self.window, true);
+        (self.steps.done, self.steps.window, self.steps.unguessed) = (0, 2 * self.steps.window, true);
         for label in &mut self.labels {
             let known = PRIOR_SLOPES / label.variance;
             let variance = (PRIOR_SLOPES + label.count) / (known + label.squares);
@@ -123,8 +153,8 @@ impl Scales {
 
     /// From now on nothing changes.
     pub fn freeze(&mut self) {
-        if let Some(average) = self.average.take() {
-            self.step = average.settled();
+        if let Some(average) = self.steps.average.take() {
+            self.steps.step = average.settled();
         }
     }
 }

@@ -142,6 +142,11 @@ impl Structures {
         self.all.get(&self.now).is_some_and(|one| one.known.contains(&address))
     }
 
+    /// Counts on from what was recorded before.
+    pub fn count_from(&mut self, recorded: (u64, u64)) {
+        (self.met, self.dropped) = recorded;
+    }
+
     /// How many structures were recorded (a dropped one counts again), and how often the program was recorded.
     pub fn recorded(&self) -> (u64, u64) {
         let recordings: usize = self.all.values().map(|one| one.target.live.recordings()).sum();

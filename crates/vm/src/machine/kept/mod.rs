@@ -12,7 +12,7 @@
 //! * `slices`: activations that are entered for one change only, and run no more than what depends on it;
 //! * `cells`: elements of collections, and their readers;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
-//! * `ahead`: memory that the next proposal will need;
+//! * `ahead`: memory that the next proposal will need; `arrange`: numbers of choices, given back;
 //! * [`inspect`]: what a trace holds, in program order; [`part`]: parts of it that can be run apart; `scene`: which
 //!   primitives belong to a part.
 //!
@@ -22,6 +22,7 @@
 
 mod adapt;
 mod ahead;
+mod arrange;
 mod begin;
 mod calls;
 mod cells;

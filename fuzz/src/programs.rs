@@ -1,0 +1,117 @@
+//! Programs run: forwards, as chains by all four strategies, as particles; under small limits.
+
+use crate::core_text::on_stack_for;
+use niwaki_geom::{Aabb, Rule, no_overshoot, no_self_intersection, vec3};
+use niwaki_infer::Task;
+use niwaki_infer::chain::Settings;
+use niwaki_infer::chain::agreement::compare;
+use niwaki_infer::chain::kernel::Kernel;
+use niwaki_infer::forward::forward;
+use niwaki_infer::particles::{self, Moment, Rejuvenation, smc};
+use niwaki_vm::core::parse::parse;
+use niwaki_vm::machine::Limits;
+use niwaki_vm::passes::compile;
+use niwaki_vm::value::Value;
+use serde_json::json;
+use std::sync::Arc;
+
+/// Bytes before the text: how it is run.
+pub const HEAD: usize = 4;
+/// Proposals of a chain.
+const PROPOSALS: u64 = 12;
+/// What a run may use.
+const LIMITS: Limits = Limits { steps: 3000, bytes: 16 << 20 };
+
+/// Runs a program whose text follows [`HEAD`] bytes of settings.
+///
+/// # Panics
+/// When two strategies disagree, or a seed gives two results.
+pub fn check(bytes: &[u8]) {
+    let Some((head, text)) = bytes.split_at_checked(HEAD) else { return };
+    let Ok(text) = std::str::from_utf8(text) else { return };
+    on_stack_for(text, || {
+        if let Some(task) = task(text, head[0]) {
+            run(&task, head);
+        }
+    });
+}
+
+/// The task of a text, where that is a program; its parameters are whole numbers.
+fn task(text: &str, flags: u8) -> Option<Task> {
+    let module = parse(text).ok()?;
+    let entry = module.functions.iter().find(|function| function.name == module.entry)?;
+    let args = (0..entry.params.len()).map(|k| Value::Int(2 + k as i64)).collect();
+    let program = Arc::new(compile::<f64>(&module, vec![]).ok()?);
+    let mut sketches = vec![];
+    if flags & 1 == 1 {
+        let domain = Aabb { low: vec3(-1.0, -1.0, -1.0), high: vec3(1.0, 1.0, 1.0) };
+        sketches.push(no_overshoot(domain, 2.0).expect("a sketch"));
+    }
+    if flags & 2 == 2 {
+        sketches.push(no_self_intersection(Rule::Solid));
+    }
+    Some(Task { args, sketches, limits: LIMITS, ..Task::new(program) })
+}
+
+/// Runs a task.
+///
+/// # Panics
+/// As [`check`].
+pub fn run(task: &Task, head: &[u8]) {
+    let seed = u64::from(head[1]);
+    let once =
+        || format!("{:?}", forward(task, seed, 0, head[0] & 4 == 4).map_err(|failure| failure.to_string()));
+    assert_eq!(once(), once(), "a forward run");
+    let kernel = kernel(head[2]);
+    let settings = Settings {
+        seed,
+        kernel: kernel.clone(),
+        warmup: 4,
+        tries: 4,
+        thin: 0,
+        powers: if head[0] & 8 == 8 { vec![1.0, 0.3] } else { vec![1.0] },
+        every: 4,
+        ..Settings::default()
+    };
+    if let Ok((Some(difference), _)) = compare(task, &settings, PROPOSALS, 4) {
+        panic!("{difference}");
+    }
+    let moves =
+        || Rejuvenation { kernel: kernel.clone(), moves: 1, at: Moment::Resampled, final_chains: None };
+    let order = if head[3] & 1 == 1 { particles::Order::DepthFirst } else { particles::Order::Stochastic };
+    let settings = particles::Settings {
+        particles: 4,
+        order,
+        rejuvenate: (head[3] & 2 == 2).then(moves),
+        seed,
+        ..particles::Settings::default()
+    };
+    let found = || match smc(task, &settings, &mut |_| true) {
+        Err(failure) => failure.to_string(),
+        Ok(found) => {
+            let all = found.particles.iter().map(|p| {
+                format!("{:?} {:?} {:?} {:?}", p.value, p.record.log_prior, p.record.score(), p.log_weight)
+            });
+            format!("{:?} {:?}", all.collect::<Vec<_>>(), found.log_normaliser)
+        }
+    };
+    assert_eq!(found(), found(), "particles");
+}
+
+/// One kernel of each kind, and all together.
+fn kernel(number: u8) -> Kernel {
+    let leaf = |name: &str, settings| Kernel::leaf(name, settings).expect("a kernel");
+    let drift = || leaf("drift", json!({"step": 0.7, "target": 0.44}));
+    let neighbour = || leaf("neighbour", json!({"reach": 2}));
+    let block = || leaf("block", json!({"step": 0.3, "share": 0.4, "target": 0.23}));
+    let regenerate = || leaf("regenerate", json!({"levels": number >> 3 & 1}));
+    match number % 7 {
+        0 => Kernel::PRIOR,
+        1 => drift(),
+        2 => neighbour(),
+        3 => block(),
+        4 => regenerate(),
+        5 => leaf("regrow", json!({"particles": 3, "turn": 0.5, "pick": "size"})),
+        _ => Kernel::Cycle(vec![Kernel::PRIOR, drift(), block(), neighbour(), regenerate()]),
+    }
+}

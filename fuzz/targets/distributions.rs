@@ -1,0 +1,6 @@
+//! Distributions and their parameters.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| niwaki_fuzz::distributions::check(bytes));

@@ -1,0 +1,6 @@
+//! Programs grown by a grammar.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| niwaki_fuzz::grown::check(bytes));

@@ -1,0 +1,72 @@
+"""What a training keeps to go on after it was killed: what its rounds gave; traces and network of the last round."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import asdict
+
+from niwaki import _engine
+from niwaki.guides.report import Round
+from niwaki.methods import Guide
+from niwaki.search.keeping import Keeper, Stage
+
+
+class Memory:
+    """The checkpoint of a training; one without a keeper remembers nothing.
+
+    Parameters
+    ----------
+    keeper
+        What keeps the file.
+    """
+
+    def __init__(self, keeper: Keeper | None) -> None:
+        self.keeper = keeper
+        self._texts: dict[int, list[str | None]] = {}
+
+    def done(self, number: int) -> tuple[Guide | None, Round] | None:
+        """The guide of a round that is done, and the round; the guide that was given has the number -1."""
+        data = None if self.keeper is None else self.keeper.get(f"{number}/done")
+        if data is None:
+            return None
+        now = Round(**{**data["round"], "losses": [tuple(one) for one in data["round"]["losses"]]})
+        return None if data["guide"] is None else Guide(base64.b85decode(data["guide"])), now
+
+    def leave(self, number: int, guide: Guide | None, now: Round) -> None:
+        """Keep what a round gave, in place of what it needed to go on."""
+        if self.keeper is None:
+            return
+        self.keeper.drop(f"{number}/")
+        packed = None if guide is None else base64.b85encode(guide.data).decode()
+        self.keeper.put(f"{number}/done", {"guide": packed, "round": asdict(now)})
+        self.keeper.write_if_due()
+
+    def traces(self, number: int) -> Sequence[str | None]:
+        """The runs of the searches of a round that are done, as data; None for those that gave no trace."""
+        if self.keeper is not None and number not in self._texts:
+            self._texts[number] = self.keeper.get(f"{number}/traces") or []
+        return tuple(self._texts.get(number, ()))
+
+    def add(self, number: int, run: _engine.Run | None) -> None:
+        """Keep what one more search gave."""
+        if self.keeper is None:
+            return
+        self._texts.setdefault(number, []).append(None if run is None else run.data())
+        if self.keeper.is_due:
+            self.keep(number)
+            self.keeper.write()
+
+    def keep(self, number: int) -> None:
+        """Put the traces of a round into the checkpoint."""
+        if self.keeper is not None:
+            self.keeper.put(f"{number}/traces", self._texts.get(number, []))
+
+    def stage(self, number: int) -> Stage | None:
+        """The training of a round's network."""
+        return None if self.keeper is None else self.keeper.stage(f"{number}/network")
+
+    def finish(self, interrupted: bool) -> None:
+        """The training has ended."""
+        if self.keeper is not None:
+            self.keeper.finish(interrupted)

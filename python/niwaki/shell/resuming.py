@@ -1,0 +1,138 @@
+"""`--resume DIR`: a search goes on that was stopped or killed.
+
+While a search runs, its folder holds a checkpoint with the search itself: going on runs no file of Python. It is
+removed when all files of the result are written.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from niwaki import Checkpoint, Result, Search, gallery
+from niwaki.errors import InputError
+from niwaki.search.checkpoint import Stored
+from niwaki.shell.references import ModelReference
+
+#: The checkpoint's name in the folder.
+NAME = "search.checkpoint"
+
+#: The flags that `--resume` takes beside it: they do not change the result.
+BESIDE = ("resume", "threads", "as_json")
+
+Resume = Annotated[
+    Path | None,
+    typer.Option(
+        "--resume",
+        metavar="DIR",
+        help="Go on with the search in this folder that was stopped or killed; in place of MODEL and its flags.",
+    ),
+]
+Model = Annotated[
+    str | None,
+    typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.", show_default=False),
+]
+
+
+def required(context: typer.Context, model: str | None) -> str:
+    """The model's name, which is there unless a search is resumed."""
+    if model is None:
+        context.fail("Missing argument 'MODEL'.")
+    return model
+
+
+def begun(folder: Path, command: str, found: ModelReference, **flags: Any) -> Checkpoint:
+    """The checkpoint of a search that begins; one of an earlier search is removed, with a warning.
+
+    Parameters
+    ----------
+    folder
+        Where the result will be.
+    command
+        The command that searches.
+    found
+        Its model.
+    flags
+        Those that say which files to write, as plain data.
+    """
+    place = folder / NAME
+    if place.exists():
+        place.unlink()
+        print(f"warning: {place}, of a search that did not end, is replaced", file=sys.stderr)
+    own = {
+        "command": command,
+        "model": found.reference,
+        "file_hash": found.file_hash,
+        "flags": flags,
+    }
+    return Checkpoint(place, note=own)
+
+
+def left(
+    context: typer.Context, folder: Path, command: str
+) -> tuple[Search, ModelReference, dict[str, Any], Checkpoint]:
+    """The search that a folder holds, its model, the flags about files, and the checkpoint to go on from.
+
+    Raises
+    ------
+    InputError
+        Other flags beside `--resume`; no checkpoint in the folder, a damaged one, or one of another command.
+    """
+    for parameter in context.command.params:
+        source = context.get_parameter_source(parameter.name or "")
+        if parameter.name not in BESIDE and source is not None and source.name == "COMMANDLINE":
+            raise InputError(
+                "flags-exclude",
+                flag="--resume",
+                other="MODEL" if parameter.name == "model" else parameter.opts[-1],
+                reason="the search in the folder has its settings, and goes on with them",
+                cure=f"`niwaki {command} --resume {folder}`, or begin anew without `--resume`",
+            )
+    place = folder / NAME
+    if not place.is_file():
+        raise InputError("no-checkpoint", path=place)
+    note = Stored.read(place).note
+    own = note["own"] or {}
+    if own.get("command") != command:
+        other = f"niwaki {own['command']}" if own else "Python"
+        raise InputError(
+            "bad-checkpoint", detail=f"`{place}` was written by {other}, not by niwaki {command}"
+        )
+    search = Search.of_data(note["search"])
+    known = ModelReference(own["model"], search.model, gallery.entry(own["model"]), own["file_hash"])
+    return search, known, own["flags"], Checkpoint(place, note=own)
+
+
+@contextmanager
+def told(checkpoint: Checkpoint | None, command: str) -> Iterator[None]:
+    """Where Ctrl-C comes before there is a result, the last line says how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if checkpoint is None or not Path(checkpoint.path).exists():
+            raise
+        print(interrupted(Path(checkpoint.path).parent, command), file=sys.stderr)
+        raise typer.Exit(130) from None
+
+
+def interrupted(folder: Path, command: str) -> str:
+    """The last line of a search that was stopped."""
+    return f"interrupted; go on with: niwaki {command} --resume {folder}"
+
+
+@contextmanager
+def ended(result: Result, checkpoint: Checkpoint | None) -> Iterator[None]:
+    """Around the writing of a result's files: when it is over, a search that is done has nothing left to go on from.
+
+    Also where a file cannot be written: run.json is the first, and gives the others again.
+    """
+    try:
+        yield
+    finally:
+        if checkpoint is not None and not result.interrupted:
+            Path(checkpoint.path).unlink(missing_ok=True)

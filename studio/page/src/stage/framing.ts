@@ -1,0 +1,32 @@
+// Where a camera stands to see a box, along the direction of our pictures.
+
+import { PerspectiveCamera, Vector3 } from "three";
+
+export const ALONG = new Vector3(0.62, 0.44, 0.78).normalize();
+const FRONT = new Vector3(0, 0, 1);
+
+/** Puts the camera where the box just fits, with a margin (a share of the view). */
+export function frame(camera: PerspectiveCamera, low: Vector3, high: Vector3, isFlat: boolean, margin = 0.06): Vector3 {
+  const middle = low.clone().add(high).multiplyScalar(0.5);
+  const away = isFlat ? FRONT : ALONG;
+  const right = new Vector3().crossVectors(new Vector3(0, 1, 0), away).normalize();
+  const up = new Vector3().crossVectors(away, right);
+  const tall = Math.tan((camera.fov * Math.PI) / 360) * (1 - margin);
+  const wide = tall * camera.aspect;
+  let distance = 1e-3;
+  for (let k = 0; k < 8; k++) {
+    const corner = new Vector3(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z).sub(middle);
+    const near = corner.dot(away);
+    distance = Math.max(
+      distance,
+      near + Math.abs(corner.dot(right)) / wide,
+      near + Math.abs(corner.dot(up)) / tall,
+    );
+  }
+  camera.position.copy(middle).addScaledVector(away, distance);
+  camera.near = distance / 100;
+  camera.far = distance * 40;
+  camera.lookAt(middle);
+  camera.updateProjectionMatrix();
+  return middle;
+}

@@ -1,0 +1,65 @@
+"""A browser at a studio: the system's Chromium, driven by Playwright; nothing is collected where there is none."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+from studio_process import PILE, Served, serving
+
+BROWSER = os.environ.get("NIWAKI_BROWSER") or shutil.which("chromium")
+# `make test-studio` installs Playwright, and says so where there is no browser.
+is_possible = BROWSER is not None and find_spec("playwright") is not None
+collect_ignore_glob = [] if is_possible else ["test_*.py"]
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[object]:
+    driving = pytest.importorskip("playwright.sync_api")
+    with driving.sync_playwright() as driver:
+        # Software GL: there is no graphics card in a build machine.
+        flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        found = driver.chromium.launch(executable_path=BROWSER, chromium_sandbox=False, args=flags)
+        yield found
+        found.close()
+
+
+@pytest.fixture(scope="session")
+def pile(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    place = tmp_path_factory.mktemp("models") / "pile.py"
+    place.write_text(PILE)
+    return place
+
+
+@pytest.fixture(scope="session")
+def served(tmp_path_factory: pytest.TempPathFactory, pile: Path) -> Iterator[Served]:
+    with serving(tmp_path_factory.mktemp("session"), pile) as one:
+        yield one
+
+
+@pytest.fixture
+def open_page(browser, request):
+    """A function that opens a window of a studio; no script of the page may have failed at the end."""
+    contexts = []
+
+    def opened(served: Served, token: str | None = None, **settings):
+        # Playwright's own waiting needs eval; the header is tested by itself.
+        context = browser.new_context(bypass_csp=True, viewport={"width": 1440, "height": 900}, **settings)
+        contexts.append(context)
+        page = context.new_page()
+        page.errors = []
+        page.on("pageerror", lambda one: page.errors.append(str(one)))
+        page.set_default_timeout(60_000)
+        page.goto(f"{served.url}/open?token={token or served.link()}")
+        page.wait_for_function("window.__studio?.view?.model")
+        return page
+
+    yield opened
+    for context in contexts:
+        for page in context.pages:
+            assert page.errors == []
+        context.close()

@@ -1,0 +1,30 @@
+"""The committed page is what its sources give: compared where node and the page's packages are found."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[3]
+SOURCES = REPOSITORY / "studio" / "page"
+BUILT = REPOSITORY / "python" / "niwaki" / "studio" / "page"
+
+
+def test_the_page_is_built_from_its_sources(tmp_path):
+    if shutil.which("node") is None or not (SOURCES / "node_modules" / "esbuild").is_dir():
+        pytest.skip("no node, or its packages are not installed: `make studio-page` installs them")
+    subprocess.run(["node", "build.mjs", str(tmp_path)], cwd=SOURCES, check=True, capture_output=True)
+    names = sorted(one.name for one in BUILT.iterdir())
+    assert names == sorted(one.name for one in tmp_path.iterdir())
+    for name in names:
+        assert (tmp_path / name).read_bytes() == (BUILT / name).read_bytes(), (
+            f"{name}: run `make studio-page`"
+        )
+
+
+def test_the_page_asks_for_nothing_from_elsewhere():
+    text = (BUILT / "index.html").read_text() + (BUILT / "app.css").read_text()
+    assert "http" not in text and "//" not in text.replace("/*", "").replace("*/", "")
