@@ -271,7 +271,7 @@ def painted(shape: Any, color: Color) -> Any:
     """A shape in this colour, where it has none of its own; what is no shape is given back."""
     if not isinstance(shape, _engine.Shape) or shape.color is not None:
         return shape
-    checked = _engine.Shape.disc((0.0, 0.0, 0.0), 1.0, tuple(color)).color  # type: ignore[arg-type]
+    checked = _engine.Shape.disc((0.0, 0.0, 0.0), 1.0, tuple(color)).color
     return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), "color": checked}))
 
 
