@@ -118,7 +118,7 @@ def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> 
 
 
 @cache
-def _hints(method: type[Method]) -> dict[str, Any]:
+def _hints(method: Any) -> dict[str, Any]:
     return get_type_hints(method)
 
 
