@@ -1,7 +1,8 @@
 //! Searches for Python: a task and the algorithms that answer it.
 //!
-//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`]. If it
-//! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and returns its results so far.
+//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`], and the
+//! memory that is left is looked at. If the callback raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search
+//! stops at its next barrier and returns its results so far.
 
 use crate::checkpoints::PyCheckpoint;
 use crate::faults;
@@ -82,6 +83,11 @@ impl Watch {
     }
 }
 
+/// Refuses to go on where nearly no memory is left: the system would end the process.
+fn check_left() -> PyResult<()> {
+    Python::attach(|py| py.import("niwaki.errors.memory")?.call_method0("check_left").map(|_| ()))
+}
+
 /// Runs `work` without the interpreter's lock on a pool of `threads` threads (`None`: as many as the machine has);
 /// meanwhile this thread watches. Also returns whether Ctrl-C was pressed, even if that was too late to stop anything.
 ///
@@ -105,7 +111,7 @@ pub(crate) fn detached<T: Send>(
         pool.beside(working, move || {
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if raised.is_none()
-                    && let Err(error) = watch.tell(caller)
+                    && let Err(error) = watch.tell(caller).and_then(|()| check_left())
                 {
                     *raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);

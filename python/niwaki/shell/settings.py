@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, replace
 from functools import cache
-from typing import Annotated, Any, cast, get_type_hints
+from typing import Annotated, Any, get_type_hints
 
 import typer
 
@@ -98,8 +98,8 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
 
 def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
     """The option of one setting; `shown` is the default in its help text."""
-    owners = [method for method in methods if name in {field.name for field in fields(method)}]
-    kinds = [_hints(cast(Any, owner))[name] for owner in owners]
+    owners: list[Any] = [method for method in methods if name in {field.name for field in fields(method)}]
+    kinds = [_hints(owner)[name] for owner in owners]
     plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in kinds)]
     typed = plain[0] if plain else str
     whose = (
@@ -126,13 +126,9 @@ def _short(name: str) -> list[str]:
     return [_SHORT[name]] if name in _SHORT else []
 
 
+@cache
 def described(method: type[Method]) -> dict[str, str]:
     """The first sentence of each setting in a method's docstring."""
-    return _described(cast(Any, method))
-
-
-@cache
-def _described(method: Any) -> dict[str, str]:
     found: dict[str, str] = {}
     body = inspect.cleandoc(method.__doc__ or "").partition("Parameters\n----------\n")[2]
     for names, text in re.findall(r"^(\w[\w, ]*)\n((?:    .*\n?|\n)+)", body + "\n", re.MULTILINE):

@@ -252,13 +252,13 @@ def test_what_is_dropped_is_given_back():
     @nw.model
     def drops():
         total = 0
-        for k in range(20_000):
+        for k in range(5000):
             total = total + len([k] * 10_000)
         return total
 
     assert (
         nw.run(drops, method=nw.forward(1), seed=1, max_memory=8 << 20, max_steps=10**9).best.value
-        == 200_000_000
+        == 50_000_000
     )
 
 
@@ -269,7 +269,7 @@ def test_a_long_chain_gives_back_what_its_moves_made():
         nw.factor(-x * x)
         return sum([x + k for k in range(2000)])
 
-    found = nw.run(rebuilt, method=nw.mh(steps=10_000), seed=1, max_memory=4 << 20, max_steps=10**9)
+    found = nw.run(rebuilt, method=nw.mh(steps=2000), seed=1, max_memory=4 << 20, max_steps=10**9)
     assert len(found) > 0
 
 
@@ -291,7 +291,7 @@ def test_the_runs_of_an_inner_search_take_steps_of_the_outer_one():
         with pytest.raises(nw.ModelFault, match="step-budget") as met:
             nw.run(outer, nw.forward(1), seed=1, max_steps=20_000, threads=threads)
         found.append(str(met.value))
-    assert found[0] == found[1] and "with the runs of `infer` of `inner`" in found[0]
+    assert found[0] == found[1] and "with the runs of `infer` of" in found[0]
 
 
 def test_a_value_that_does_not_fit_is_refused_before_it_is_made():
@@ -305,8 +305,8 @@ def test_operations_on_many_elements_take_steps():
     @nw.model
     def sums():
         total = 0
-        for _ in range(1000):
-            total = total + sum(range(100_000))
+        for k in range(1000):
+            total = total + sum(range(k, 100_000))
         return total
 
     with pytest.raises(nw.ModelFault, match="step-budget"):
