@@ -75,9 +75,10 @@ def run(
     lock
         Values of choices by address that every run has; see `Search`.
     max_steps
-        Most calls and loop steps of one run.
+        Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
+        one step for every eight of them.
     max_memory
-        Most bytes of a run or a population.
+        Most bytes of a run, or of a population or several chains together: calls, values and choices.
     threads
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -11,9 +10,9 @@ import typer
 from niwaki import letters as writing
 from niwaki import search
 from niwaki.draw.limits import LARGEST
-from niwaki.errors.folders import held_folder
 from niwaki.errors.settings import count
 from niwaki.letters.word import PARTICLES, STYLES, TRIES
+from niwaki.shell import folders
 from niwaki.shell.app import Folder, app
 from niwaki.shell.progress import said
 
@@ -22,6 +21,7 @@ from niwaki.shell.progress import said
 def letters(
     text: Annotated[str, typer.Argument(metavar="TEXT", help="What to write.")],
     output: Folder = None,
+    force: folders.Force = False,
     style: Annotated[str, typer.Option("--style", help=f"{' or '.join(STYLES)}.")] = STYLES[0],
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which is printed.")] = None,
     particles: Annotated[int, typer.Option("-n", "--particles", help="Of each search.")] = PARTICLES,
@@ -43,7 +43,7 @@ def letters(
     count("--width", width, most=LARGEST)
     seed = search.fresh(seed)
     start = time.perf_counter()
-    with held_folder(output or Path("out")) as folder:
+    with folders.own_folder(output, force) as folder:
         with said(f"writing {text}", keeps=False) as show:
             word = writing.write(
                 text,

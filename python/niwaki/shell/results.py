@@ -35,6 +35,9 @@ KNOWN = {
     "samples.csv",
 }
 
+#: Files by which a folder of `niwaki color` or `niwaki letters` is known; they have no run.json.
+OTHERS = {"colors.json", "word.png", "word.svg"}
+
 #: Those that show one run; the others show the search.
 OF_ONE_RUN = {name for name in KNOWN if name.startswith(("best.", "growth."))}
 
@@ -51,7 +54,7 @@ def present(folder: Path) -> str:
     """The names of results that are in a folder, for people; empty where it has none."""
     if not folder.is_dir():
         return ""
-    names = [place.name for place in folder.iterdir() if place.name == RUN or is_known(place.name)]
+    names = [place.name for place in folder.iterdir() if place.name in {RUN, *OTHERS} or is_known(place.name)]
     first = sorted(names, key=lambda name: (name != RUN, name))
     return ", ".join(first[:3]) + (f" and {len(first) - 3} more" if len(first) > 3 else "")
 

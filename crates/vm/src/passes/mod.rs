@@ -22,7 +22,9 @@ mod slices;
 mod statements;
 
 use crate::code::{Function, FunctionId, Mode, Program, verify};
-use crate::core::{ExprKind, Literal, Module, Name};
+use crate::core::deep::with_stack;
+use crate::core::visit::each_stmt;
+use crate::core::{Expr, ExprKind, Literal, Module, Name};
 use crate::fault::Fault;
 use crate::value::Value;
 use collections::Collections;
@@ -85,6 +87,16 @@ pub fn compile_keeping<S: Scalar>(
     data: Vec<Value<S>>,
     kept: Kept<'_>,
 ) -> Result<Program<S>, CompileError> {
+    with_stack(|| compile_here(module, data, kept))
+        .unwrap_or_else(|error| Err(CompileError(format!("no thread for the compiler: {error}"))))
+}
+
+fn compile_here<S: Scalar>(
+    module: &Module,
+    data: Vec<Value<S>>,
+    kept: Kept<'_>,
+) -> Result<Program<S>, CompileError> {
+    check_records(module)?;
     let effects = Effects::of(module);
     let collections = Collections::of(module, &effects);
     let mut unit =
@@ -111,15 +123,42 @@ pub fn compile_keeping<S: Scalar>(
         .ids
         .get(&module.entry)
         .ok_or_else(|| CompileError(format!("the entry `{}` is not defined", module.entry)))?;
+    let main = &module.functions[entry.0 as usize];
+    if !main.captures.is_empty() {
+        return Err(CompileError(format!("the entry `{}` captures variables", main.name)));
+    }
     let mut program = Program {
         files: module.files.clone(),
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
+        others: Vec::new(),
     };
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
     Ok(program)
+}
+
+/// Every record is of a known class and has all of its fields.
+fn check_records(module: &Module) -> Result<(), CompileError> {
+    let mut wrong = None;
+    let mut look = |e: &Expr| {
+        e.each(&mut |e| {
+            if let ExprKind::Record(class, fields) = &e.kind {
+                let found = module.classes.get(*class).map(|known| known.fields.len());
+                if found != Some(fields.len()) {
+                    wrong = Some((*class, fields.len()));
+                }
+            }
+        });
+    };
+    for f in &module.functions {
+        f.defaults.iter().for_each(&mut look);
+        each_stmt(&f.body, &mut |s| s.expressions().into_iter().for_each(&mut look));
+    }
+    wrong.map_or(Ok(()), |(class, fields)| {
+        Err(CompileError(format!("there is no class {class} of {fields} fields")))
+    })
 }
 
 /// The value of a literal.
@@ -134,8 +173,8 @@ pub(crate) fn literal<S: Scalar>(l: &Literal) -> Value<S> {
 }
 
 /// The value of a constant written in the text: literals, lists, tuples and distributions of them.
-fn constant<S: Scalar>(e: &crate::core::Expr) -> Result<Value<S>, CompileError> {
-    let all = |items: &[crate::core::Expr]| items.iter().map(constant).collect::<Result<Vec<_>, _>>();
+fn constant<S: Scalar>(e: &Expr) -> Result<Value<S>, CompileError> {
+    let all = |items: &[Expr]| items.iter().map(constant).collect::<Result<Vec<_>, _>>();
     Ok(match &e.kind {
         ExprKind::Literal(l) => literal(l),
         ExprKind::List(items) => Value::list(all(items)?),

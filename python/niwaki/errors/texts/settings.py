@@ -31,6 +31,14 @@ SETTINGS = (
         cure="run(model, method=importance(10**6))",
     ),
     Message(
+        "memory-full",
+        "the search was stopped, because only {free} of memory are free",
+        why="below {least} the system may end the process, and all that it has found would be lost",
+        help='keep fewer results (`keep="best"`, `thin`, a smaller count), lower `max_memory`, or end other programs',
+        example="run(model, method=importance(10**7))",
+        cure="run(model, method=smc(10**4))",
+    ),
+    Message(
         "machine-limit",
         "the model is too large for the machine",
         why="the compiler says: {found}",
