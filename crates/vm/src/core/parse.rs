@@ -22,7 +22,7 @@ pub fn parse(text: &str) -> Result<Module> {
                 module.files.push(text_of(arg(args, 1, head)?)?.to_string());
             }
             "class" => module.classes.push(Class {
-                id: number(arg(args, 0, head)?)? as u32,
+                id: small(arg(args, 0, head)?)?,
                 kind: match args.get(3) {
                     Some(Sexp::Atom("namedtuple")) => ClassKind::NamedTuple,
                     _ => ClassKind::Dataclass,
@@ -63,7 +63,7 @@ fn function(span: Span, args: &[Sexp<'_>]) -> Result<Function> {
     for item in items {
         let Form { head, items: rest, .. } = form(item)?;
         match head {
-            "file" => f.file = number(arg(rest, 0, head)?)? as u32,
+            "file" => f.file = small(arg(rest, 0, head)?)?,
             "params" => f.params = vars(rest)?,
             "captures" => f.captures = vars(rest)?,
             "defaults" => f.defaults = rest.iter().map(expr).collect::<Result<_>>()?,
@@ -155,7 +155,13 @@ fn compound(sexp: &Sexp<'_>) -> Result<Expr> {
         "field" => ExprKind::Field(boxed(0)?, name(at(1)?)?),
         "list" => ExprKind::List(tail(0)?),
         "tuple" => ExprKind::Tuple(tail(0)?),
-        "dict" => ExprKind::Dict(exprs(list(at(0)?)?)?, tail(1)?),
+        "dict" => {
+            let (keys, values) = (exprs(list(at(0)?)?)?, tail(1)?);
+            if keys.len() != values.len() {
+                return Err(CoreError::new(format!("{} keys of {} values", keys.len(), values.len())));
+            }
+            ExprKind::Dict(keys, values)
+        }
         "method" => {
             let mut rest = vec![expr(at(0)?)?];
             let method = name(at(1)?)?;
@@ -252,6 +258,12 @@ fn number(sexp: &Sexp<'_>) -> Result<usize> {
     text_of(sexp)?.parse().map_err(|_| CoreError::new(format!("expected a number, found {sexp:?}")))
 }
 
+/// The number of a file or class.
+fn small(sexp: &Sexp<'_>) -> Result<u32> {
+    let found = number(sexp)?;
+    u32::try_from(found).map_err(|_| CoreError::new(format!("the number {found} is too large")))
+}
+
 fn var(sexp: &Sexp<'_>) -> Result<Name> {
     match sexp {
         Sexp::Atom(a) if a.starts_with('$') => Ok(Name::from(&a[1..])),
@@ -261,4 +273,18 @@ fn var(sexp: &Sexp<'_>) -> Result<Name> {
 
 fn vars(items: &[Sexp<'_>]) -> Result<Vec<Name>> {
     items.iter().map(var).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_dictionaries_that_do_not_fit_are_errors() {
+        let module = |item: &str| format!("(module {item} (fn \"m\" (params) (return 1)) (entry \"m\"))");
+        assert!(parse(&module("(class 0 \"P\" (\"a\"))")).is_ok());
+        assert!(parse(&module("(class 4294967296 \"P\" (\"a\"))")).is_err());
+        assert!(parse(&module("(const 0 (dict (1 2) 3))")).is_err());
+        assert!(parse("(module (fn \"m\" (file 4294967296) (params) (return 1)) (entry \"m\"))").is_err());
+    }
 }

@@ -63,6 +63,8 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub moment: u32,
     /// The variable that the current statement assigns.
     pub target: Option<Name>,
+    /// More constants, or more operands at one place, than an instruction can number.
+    pub too_large: bool,
 }
 
 impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
@@ -98,6 +100,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             carried: vec![],
             moment: 0,
             target: None,
+            too_large: false,
         }
     }
 
@@ -144,6 +147,12 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         defaults: Vec<Operand>,
         span: Span,
     ) -> Result<Function<S>> {
+        if self.too_large {
+            return Err(CompileError(format!(
+                "`{}` is too large: give it long lists from outside, as constants",
+                self.name
+            )));
+        }
         for op in &mut self.code {
             if let Op::Jump { target }
             | Op::JumpIf { target, .. }
@@ -236,6 +245,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     }
 
     pub fn args(&mut self, operands: &[Operand]) -> Args {
+        self.too_large |= operands.len() > u16::MAX as usize;
         let start = self.operands.len() as u32;
         self.operands.extend_from_slice(operands);
         Args { start, len: operands.len() as u16 }
@@ -279,6 +289,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     }
 
     pub fn constant(&mut self, value: Value<S>) -> Operand {
+        self.too_large |= self.constants.len() > Operand::MAX_INDEX;
         self.constants.push(value);
         Operand::new(Place::Constant, (self.constants.len() - 1).min(Operand::MAX_INDEX))
     }

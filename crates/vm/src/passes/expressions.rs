@@ -89,13 +89,26 @@ impl<S: Scalar> Builder<'_, '_, S> {
             List(_) => crate::code::Op::List { to, args },
             Tuple(_) => crate::code::Op::Tuple { to, args },
             Dict(..) => crate::code::Op::Dict { to, args },
-            Record(class, _) => crate::code::Op::Record { to, class: *class as u16, args },
+            Record(class, fields) => {
+                let known = self.unit.module.classes.get(*class);
+                if known.is_none_or(|known| known.fields.len() != fields.len()) {
+                    return Err(CompileError(format!(
+                        "no class {class} with {} fields is defined",
+                        fields.len()
+                    )));
+                }
+                crate::code::Op::Record { to, class: *class as u16, args }
+            }
             Field(_, name) => crate::code::Op::Field { to, a: operands[0], name: self.name(name) },
             Method(..) => {
                 let id = builtin_id("method").ok_or_else(|| CompileError("methods are missing".into()))?;
                 crate::code::Op::Builtin { to, id, args }
             }
-            Host(k, _) => crate::code::Op::Host { to, constant: *k as u16, args },
+            Host(k, _) => {
+                let constant = u16::try_from(*k)
+                    .map_err(|_| CompileError(format!("the number {k} of a host function is too large")))?;
+                crate::code::Op::Host { to, constant, args }
+            }
             Closure(name, captures) => {
                 let id = self.function_id(name)?;
                 if captures.len() != self.definition(id).captures.len() {

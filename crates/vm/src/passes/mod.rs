@@ -34,6 +34,9 @@ use std::sync::Arc;
 
 pub use scope::Kept;
 
+/// Functions, and classes, of a program: instructions number them with 16 bits.
+const MOST: usize = 1 << 16;
+
 /// A model that cannot be compiled: a defect of the text or a limit of the machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CompileError(pub String);
@@ -69,7 +72,7 @@ pub(crate) struct Unit<'m, S: Scalar> {
 ///
 /// # Errors
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
-/// machine (more than 16,384 registers).
+/// machine (more than 16,384 registers or constants, or 65,535 arguments at one place).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
     compile_keeping(module, data, Kept::Names(&[]))
 }
@@ -89,8 +92,13 @@ pub fn compile_keeping<S: Scalar>(
     let collections = Collections::of(module, &effects);
     let mut unit =
         Unit { module, effects, collections, ids: HashMap::new(), data, kept, functions: Vec::new() };
+    // The table has no gaps that nothing can fill.
+    let most = unit.data.len() + module.constants.len();
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
+        if *k >= most {
+            return Err(CompileError(format!("constant {k} of {most}: they are numbered from 0")));
+        }
         if unit.data.len() <= *k {
             unit.data.resize(k + 1, Value::None);
         }
@@ -106,6 +114,9 @@ pub fn compile_keeping<S: Scalar>(
         let mode = if unit.effects.function(&f.name) { Mode::Node } else { Mode::Pure };
         let compiled = Builder::function(&mut unit, f, mode)?;
         unit.functions[i] = Some(compiled);
+    }
+    if unit.functions.len() > MOST || module.classes.len() > MOST {
+        return Err(CompileError(format!("more than {MOST} functions, loops or classes")));
     }
     let entry = *unit
         .ids
@@ -145,4 +156,50 @@ fn constant<S: Scalar>(e: &crate::core::Expr) -> Result<Value<S>, CompileError> 
         }
         _ => return Err(CompileError("a constant must be made of literals".into())),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::code::Operand;
+    use crate::core::parse::parse;
+
+    fn error(text: &str) -> String {
+        match compile::<f64>(&parse(text).expect("core form"), vec![]) {
+            Ok(_) => panic!("a program"),
+            Err(error) => error.0,
+        }
+    }
+
+    fn entry(body: &str) -> String {
+        format!("(module (class 0 \"P\" (\"a\" \"b\")) (fn \"m\" (params $x) (return {body})) (entry \"m\"))")
+    }
+
+    #[test]
+    fn a_number_of_a_constant_takes_no_memory() {
+        let text = "(module (const 99999999999 0) (fn \"m\" (params) (return 1)) (entry \"m\"))";
+        assert_eq!(error(text), "constant 99999999999 of 1: they are numbered from 0");
+        assert_eq!(error(&entry("(data 99999999999)")), "constant 99999999999 is missing");
+        // With 16 bits the first is the number 1.
+        assert_eq!(error(&entry("(host 65537 1)")), "the number 65537 of a host function is too large");
+    }
+
+    #[test]
+    fn a_record_has_a_class_and_its_fields() {
+        for body in ["(record 1 1 2)", "(record 65536 1 2)", "(record 0 1)", "(record 0 1 2 3)"] {
+            assert!(error(&entry(body)).starts_with("no class"), "{body}");
+        }
+    }
+
+    #[test]
+    fn what_an_instruction_cannot_number_is_too_large() {
+        let numbers: Vec<String> = (0..=Operand::MAX_INDEX + 1).map(|i| format!("{i}.5")).collect();
+        let fits = entry(&format!("(index (list {}) 0)", numbers[..16_000].join(" ")));
+        assert!(compile::<f64>(&parse(&fits).expect("core form"), vec![]).is_ok());
+        let constants = entry(&format!("(index (list {}) 0)", numbers.join(" ")));
+        let arguments = entry(&format!("(len (list $x {}))", "1 ".repeat(1 << 16)));
+        for text in [constants, arguments] {
+            assert!(error(&text).contains("is too large"));
+        }
+    }
 }
