@@ -129,6 +129,43 @@ def m():
                 return out, "early", i, j
     return out, [i * j for i in range(3) for j in range(i) if flip(0.5)], {"a": k}, i
 """,
+    "names": """
+def part(x, n=2):
+    x = gaussian(x, n)
+    for n, x in [(1, x), (n, x + 1)]:
+        x = x + uniform(0, n)
+    return [x * n for n in range(n)], x
+def m():
+    x, n = gaussian(), 3
+    if flip(0.5):
+        x = [x, n]
+        y = 1
+    elif n > x:
+        n, x = x, (n,)
+        y = (lambda x: x + gaussian(x, 1))(n)
+    else:
+        x, y = {"x": x}, None
+    for x, n in enumerate([x, n]):
+        n = [n, x]
+        while x < 2:
+            x = x + 1
+            n = (n, [n for n in range(x)], [x for x in (x, 1) if flip(0.5)])
+        if flip(0.3):
+            x = str(x)
+            continue
+        y = (y, x) if flip(0.8) else n
+    def near(n, x=2):
+        y = gaussian(n, x)
+        def x(y):
+            return part(y)[1] + n
+        return x(y)
+    z = near(1)
+    if z > 1:
+        z = near
+    else:
+        z = lambda n: near(n, 1)
+    return x, n, y, z(2), (lambda x, z=z: z(x))(1), [n for n in [near] for n in (n(1), 2)], part(1)
+""",
     "closures": """
 def m():
     a = gaussian()

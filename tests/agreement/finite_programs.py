@@ -3,7 +3,8 @@
 Every choice has few values, every program few runs. What can be forced (a future, or a value that is none) is chosen by
 branches, unpacked from tuples, and lies in lists, records, dictionaries and closures; it goes through calls, is forced
 twice, late, in loops and in comprehensions, and futures make futures. Names are shadowed by parameters, comprehensions
-and loops. A barrier may be anywhere, so that a force waits or does not.
+and loops, and assigned again in branches and loops, also a number after a future. A barrier may be anywhere, so that a
+force waits or does not.
 
 `text(seed)` is a whole module with the model `m`; the same seed gives the same text. `looking(seed)` is one whose every
 run looks at a future that is not forced. `reduced` makes a text that fails smaller, line by line.
@@ -239,6 +240,7 @@ class Maker:
             lambda: self.held("pairs", "t", f"({self.promise(1)}, {self.promise(1)})"),
             lambda: self.held("records", "r", f"Both({self.promise(1)}, {self.promise(1)})"),
             lambda: self.held("dicts", "d", f'{{"a": {self.promise(1)}, "b": {self.promise(1)}}}'),
+            self.rebound,
         ]
         if self.scope.lists:
             name = self.random.choice(self.scope.lists)
@@ -295,6 +297,40 @@ class Maker:
                 line for _ in range(self.random.randint(1, 2)) for line in self.statement(depth - 1, loop)
             ]
         return [f"    {line}" for line in lines]
+
+    def rebound(self) -> list[str]:
+        """A name that is assigned again, in a branch or in a loop, with another kind of value or as its variable."""
+        v = self.random.choice(["v", "w", self.fresh("v")])
+        kinds: list[Callable[[], list[str]]] = [
+            lambda: [f"{v} = {self.promise(1)}", f"if {self.truth(1)}:", f"    {v} = force({v}) % 3"],
+            lambda: [
+                f"if {self.truth(1)}:",
+                f"    {v} = {self.integer(1)}",
+                "else:",
+                f"    {v} = {self.future(1)}",
+            ],
+            lambda: [
+                f"{v} = {self.integer(0)}",
+                f"for {v} in ({v}, {self.promise(1)}):",
+                f"    {v} = force({v}) % 3",
+            ],
+            lambda: [
+                f"{v} = {self.integer(0)}",
+                f"while {v} < 2:",
+                f"    {v} = ({v} if {v} > 0 else 0) + max(1, [{v} for {v} in range(3)][{self.integer(0)} % 3])",
+            ],
+            lambda: [
+                f"for {v} in range(2):",
+                f"    {v} = future(late, {v}, {self.integer(0)})",
+                f"    late({v}, 1)",
+            ],
+            lambda: [
+                f"{v} = {self.integer(1)}",
+                f"n, {v} = {v} % 3, n",
+                f"{v} = sum([n + {v} for n in ({v}, 1)])",
+            ],
+        ]
+        return [*self.random.choice(kinds)(), f"n = (n + force({v})) % 3"]
 
     def branch(self, depth: int, loop: bool) -> list[str]:
         """`if`, perhaps with `else`; a future that one of its arms creates."""

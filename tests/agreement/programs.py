@@ -1,5 +1,9 @@
 """Random terminating model programs, as source text, to compare executors.
 
+Names are shadowed wherever Python has a scope: by parameters, by variables of loops and comprehensions, by functions
+in functions and in branches. Inner models are nested functions, functions of the module, lambdas, or any of these
+given as arguments.
+
 `program(seed, size)` is a whole module whose last function is the model `m`; the same seed gives the same text. A
 program consists of numbered fragments, so that `shrink` can leave fragments out: what fails is tried again with less.
 Loops have fixed bounds and recursion counts down, so every program ends.
@@ -12,7 +16,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 HEADER = (
-    "import math\nfrom niwaki import model; from niwaki.words import *\n\n"
+    "import math\nfrom niwaki import model; from niwaki.words import *\n"
+    "from niwaki import forward, importance, mh, smc\n\n"
     "WEIGHTS = [1.0, 2.0, 3.0]\nTABLE = {'a': 1, 'b': 2.5}\n\n"
 )
 
@@ -40,7 +45,8 @@ class Program:
 class Maker:
     """Makes fragments; integers are called n, reals x, truth values b, lists of reals xs, pairs t."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, inner: bool = True) -> None:
+        self.inner = inner
         self.random = random.Random(seed)
         self.count = 0
         self.helpers: list[str] = []
@@ -125,7 +131,36 @@ class Maker:
             options += [lambda: self.forced(depth)] * 2
         if self.locals:
             options += [lambda: f"{self.random.choice(self.locals)}({r()})"] * 2
+        options += [
+            lambda: f"sum([x * n + {small} for n, x in enumerate({self.sequence(depth - 1)})])",
+            lambda: f"max([x for x in [x, {r()}] for n in (x, 1)])",
+            lambda: f"(lambda x, n={self.integer(depth - 1)}: x + n)({r()})",
+            lambda: f"(lambda n: (lambda n: n * 2)(n) - n)({r()})",
+        ]
+        if self.inner and self.callables():
+            options += [lambda: self.inferred(depth)]
         return self.random.choice(options)()
+
+    def callables(self) -> list[str]:
+        """Functions of a real number, as they are called by name."""
+        return [*self.locals, *(f"h{k}" for k in range(len(self.helpers)))]
+
+    def inferred(self, depth: int) -> str:
+        """The value of an inner search."""
+        r = lambda: self.real(depth - 1)  # noqa: E731
+        name, q = self.random.choice(self.callables()), self.fresh("q")
+        args = f"{r()}, 1" if name.startswith("h") else r()
+        call = f"{name}({q}, 1)" if name.startswith("h") else f"{name}({q})"
+        method = self.random.choice(
+            ["forward()", "importance(4)", "smc(3)", "mh(steps=6)", "smc(2, order='depth-first')"]
+        )
+        keep = self.random.choice(["", ", keep='best'"])
+        return self.pick(
+            f"infer({name}, {method}, {args}{keep})",
+            f"infer(lambda {q}: {call} + gaussian(0, 1), {method}, {r()}{keep})",
+            f"infer(lambda f, {q}: {call.replace(name, 'f')} * 0.5, {method}, {name}, {r()}{keep})",
+            f"infer(lambda f, {q}: {call.replace(name, 'f[1]')} * 0.5, {method}, (1, {name}), {r()}{keep})",
+        )
 
     def forced(self, depth: int) -> str:
         """The value of a future, wherever that lies."""
@@ -216,6 +251,12 @@ class Maker:
                 lambda: self.while_loop(depth),
             ] * 2
             kinds += [lambda: self.closure()] * (not loop)
+            kinds += [lambda: self.shadowing()] * (2 * (not loop))
+            kinds += [
+                lambda: ["for x in [x, 1.5, x]:", "    f = f + x", *self.block(depth, True)],
+                lambda: ["for n in range(n % 4):", *self.block(depth, True)],
+                lambda: [f"for n, x in enumerate({self.sequence(1)}[:3]):", *self.block(depth, True)],
+            ]
         if loop:
             kinds += [
                 lambda: [f"if {self.boolean(1)}:", "    break"],
@@ -268,6 +309,30 @@ class Maker:
         self.locals.append(name)
         return [*lines, f"f = f + {name}(x)"]
 
+    def shadowing(self) -> list[str]:
+        """A nested function whose names are those of the function around it, called with keywords in any order."""
+        name, kept = self.fresh("g"), self.fresh("kept")
+        before = [f"{kept} = {self.real(1)}"]
+        default = self.pick("2", f"{self.integer(1)}", f"(lambda n: n + {self.integer(0)})(1)")
+        outside, self.locals = self.locals, [*self.locals]
+        inner = [line for _ in range(self.random.randint(1, 3)) for line in self.statement(1)]
+        self.locals = outside
+        body = ["t = (1, x)", "f = 0.0", "xs = [x, n, 1.5]", f"y = gaussian(x + {kept}, 1)", *inner]
+        body = [without_queries(line).replace("return (n, x)", "return x") for line in body]
+        head = f"def {name}(x, n={default}, *, b=True, w={self.real(1)}):"
+        lines = [head, *(f"    {line}" for line in body), "    return y + f * 0.1 + x * n + w"]
+        if self.random.random() < 0.3:
+            other = [
+                f"    def {name}(x, n={default}, *, b=True, w=1.0):",
+                "        return x + n + gaussian(w, 1)",
+            ]
+            lines = [f"if {self.boolean(1)}:", *(f"    {line}" for line in lines), "else:", *other]
+            return [*before, *lines, f"f = f + {name}({self.real(1)})"]
+        self.locals.append(name)
+        given = [f"x={self.real(1)}", f"w={self.real(1)}", f"b={self.boolean(1)}", f"n={self.integer(1)} % 4"]
+        self.random.shuffle(given)
+        return [*before, *lines, f"f = f + {name}({', '.join(given)})"]
+
     def helper(self) -> str:
         """A function of a real and a counter, that may call itself and the helpers before it."""
         name = f"h{len(self.helpers)}"
@@ -278,15 +343,21 @@ class Maker:
             "    xs = list(xs)",
         ]
         lines += [f"    y = {self.pick('gaussian(x, 1)', 'uniform(0, 1) + x', 'sample(Gaussian(x, 0.5))')}"]
-        lines += self.block(1, True)[:0] + [f"    {line}" for line in self.statement(1)]
+        lines += [f"    {without_queries(line)}" for line in self.statement(1)]
         lines = [line.replace("return (n, x)", "return x") for line in lines]
         lines += ["    if n > 0 and flip(0.6):", f"        return {name}(y, n - 1) + f", "    return y + x"]
         return "\n".join(lines)
 
 
-def program(seed: int, size: int = 8) -> Program:
-    """A random program of `size` statements."""
-    maker = Maker(seed)
+def without_queries(line: str) -> str:
+    """A line of a function that is called more than once: a query may be written only once."""
+    indent = line[: len(line) - len(line.lstrip())]
+    return f"{indent}f = f + 1" if line.lstrip().startswith("query(") else line
+
+
+def program(seed: int, size: int = 8, inner: bool = True) -> Program:
+    """A random program of `size` statements, with inner searches or without."""
+    maker = Maker(seed, inner)
     for _ in range(maker.random.randint(0, 3)):
         maker.helpers.append(maker.helper())
     statements = []

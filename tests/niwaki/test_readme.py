@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import re
 import runpy
+import shlex
 from pathlib import Path
 
 import niwaki as nw
 import pytest
-from niwaki import box
 from niwaki.draw.scene import Scene
+from niwaki.shell.main import app
+from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -19,12 +21,24 @@ def test_the_first_program_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     found = re.search(r"```python\n(.*?)```", README, re.DOTALL)
     assert found is not None
     monkeypatch.chdir(tmp_path)
-    Scene([("tower", [box((0, 3, 0), (3, 6, 3))])]).export("tower.obj")
-    (tmp_path / "program.py").write_text(found[1], encoding="utf-8")
-    made = runpy.run_path("program.py")
-    assert made["result"].best.similarity > 0.9
+    (tmp_path / "tower.py").write_text(found[1], encoding="utf-8")
+    made = runpy.run_path("tower.py", run_name="__main__")
+    assert made["result"].best.fit.covered > 0.8 and len(made["ten"]) == 10
     assert nw.Target.load("tower.glb").volume > 0.0
     assert (tmp_path / "tower.png").stat().st_size > 0
+
+
+def test_its_commands_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    program = re.search(r"```python\n(.*?)```", README, re.DOTALL)
+    assert program is not None
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tower.py").write_text(program[1], encoding="utf-8")
+    Scene([("mine", [nw.box((0, 3, 0), (3, 6, 3))])]).export("mine.obj")
+    commands = re.findall(r"^    niwaki ((?:show|grow) .*)$", README, re.MULTILINE)
+    assert len(commands) == 4
+    for command in commands:
+        done = CliRunner().invoke(app, [*shlex.split(command), *(["--quick"] if "grow" in command else [])])
+        assert done.exit_code == 0, (command, done.output, done.exception)
 
 
 @pytest.mark.parametrize("picture", re.findall(r"!\[[^]]+\]\(([^)]+\.png)\)", README))

@@ -19,6 +19,7 @@ impl Aabb {
     };
 
     /// The smallest box around `points`.
+    #[inline]
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
         points.into_iter().fold(Aabb::EMPTY, |b, p| Aabb { low: b.low.min(p), high: b.high.max(p) })
     }

@@ -286,6 +286,36 @@ impl Shape {
         kind(&self.0.solid)
     }
 
+    /// Its address in memory: no other shape has it while this one exists.
+    #[inline]
+    pub fn address(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
+
+    /// Whether something else holds it, too.
+    #[inline]
+    pub fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.0) > 1
+    }
+
+    /// Bytes that it takes, with the hulls and the mesh that it may keep; a mesh that is shared counts once for each shape.
+    pub fn bytes(&self) -> usize {
+        let hull = |sides: usize| size_of::<Coarse>() + 4 * sides * size_of::<Vec3>();
+        let beside = match &self.0.solid {
+            Solid::Box { .. } => 0,
+            Solid::TaperedBox { .. } => hull(4),
+            Solid::Cylinder { sides, .. } | Solid::TaperedCylinder { sides, .. } => hull(*sides),
+            Solid::Limb { sides, .. } => size_of::<[Ring; 2]>() + hull(*sides),
+            Solid::Segment(_) => size_of::<Tube>() + hull(8),
+            Solid::Mesh(mesh) => {
+                mesh.vertices().len() * size_of::<Vec3>() + mesh.triangles().len() * size_of::<[u32; 3]>()
+            }
+            Solid::Stroke { .. } => size_of::<[Round; 2]>(),
+            Solid::Ellipse { .. } => 0,
+        };
+        16 + size_of::<Inner>() + beside
+    }
+
     /// The smallest box around the coarse mesh, world space; of a flat shape, around the outline.
     #[inline]
     pub fn aabb(&self) -> &Aabb {

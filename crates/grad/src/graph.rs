@@ -116,6 +116,12 @@ impl Hasher for Mix {
     }
 }
 
+/// A number of operations, coordinates or places as the programs have it: 2^32 of them would take 160 GB.
+#[inline]
+pub(crate) fn small(n: usize) -> u32 {
+    u32::try_from(n).expect("fewer than 2^32 operations")
+}
+
 /// Operations, each kept once.
 #[derive(Clone, Default)]
 pub struct Graph {
@@ -154,7 +160,7 @@ impl Graph {
 
     /// Every node, in an order of evaluation.
     pub fn nodes(&self) -> impl Iterator<Item = (Id, &Node)> {
-        self.nodes.iter().enumerate().map(|(at, node)| (Id(at as u32), node))
+        self.nodes.iter().enumerate().map(|(at, node)| (Id(small(at)), node))
     }
 
     /// Declares that a node's values are between two numbers.
@@ -183,12 +189,12 @@ impl Graph {
                 self.nodes[at].args().for_each(|arg| marked[arg.index()] = true);
             }
         }
-        (0..marked.len()).filter(|&at| marked[at]).map(|at| Id(at as u32)).collect()
+        (0..marked.len()).filter(|&at| marked[at]).map(|at| Id(small(at))).collect()
     }
 
     fn intern(&mut self, op: Op, args: [u32; 3]) -> Id {
         let node = Node { op, args };
-        let next = self.nodes.len() as u32;
+        let next = small(self.nodes.len());
         let id = *self.ids.entry(node).or_insert(next);
         if id == next {
             let range = self.range_of(&node);
@@ -199,6 +205,7 @@ impl Graph {
     }
 
     /// A number.
+    #[expect(clippy::cast_possible_truncation, reason = "the two halves of the bits")]
     pub fn constant(&mut self, x: f64) -> Id {
         let bits = x.to_bits();
         self.intern(Op::Constant, [bits as u32, (bits >> 32) as u32, 0])
@@ -207,7 +214,7 @@ impl Graph {
     /// The next input.
     pub fn input(&mut self) -> Id {
         self.inputs += 1;
-        self.intern(Op::Input, [self.inputs as u32 - 1, 0, 0])
+        self.intern(Op::Input, [small(self.inputs) - 1, 0, 0])
     }
 
     /// An operation of one argument.
@@ -388,6 +395,7 @@ impl Graph {
     }
 
     /// `a` to the power `b`.
+    #[expect(clippy::cast_possible_truncation, reason = "a whole number of at most 64")]
     pub fn pow(&mut self, a: Id, b: Id) -> Id {
         if let Some(y) = self.constant_of(b) {
             if y == 0.5 {

@@ -10,6 +10,8 @@
 //! * [`compiled`]: the tape first, then machine code; [`live`]: records again where a guard fails;
 //! * [`jax`]: the same density as Python text.
 
+#![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
+
 pub mod compiled;
 pub mod coordinates;
 pub mod density;

@@ -244,7 +244,7 @@ impl Answers<Var> for Recorder<'_> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value<Var>]) -> Result<Value<Var>, Fault> {
+    fn host(&mut self, constant: u16, args: &[Value<Var>], _: &mut u64) -> Result<Value<Var>, Fault> {
         let varying = std::cell::Cell::new(false);
         let note = |x: Var| {
             varying.set(varying.get() || x.varies());

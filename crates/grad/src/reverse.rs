@@ -4,14 +4,14 @@
 //! `abs`, a tie of `min`) the slope of one side is taken. A branch of a select that is not taken gets the adjoint zero
 //! by a select of its own, never by a product: zero times infinity is NaN.
 
-use crate::graph::{Graph, Id};
+use crate::graph::{Graph, Id, small};
 use crate::operation::Op;
 use std::f64::consts::FRAC_2_SQRT_PI;
 
 /// The derivatives of `root` by each of the graph's inputs.
 pub fn gradient(graph: &mut Graph, root: Id) -> Vec<Id> {
     let end = root.index() + 1;
-    let first = Id(graph.len() as u32);
+    let first = Id(small(graph.len()));
     let depends = depends_on_inputs(graph, end);
     let mut adjoint: Vec<Option<Id>> = vec![None; end];
     adjoint[root.index()] = Some(graph.constant(1.0));
@@ -21,7 +21,7 @@ pub fn gradient(graph: &mut Graph, root: Id) -> Vec<Id> {
         if !depends[at] {
             continue;
         }
-        let id = Id(at as u32);
+        let id = Id(small(at));
         let node = *graph.node(id);
         if let Some(k) = node.input() {
             inputs[k] = Some(out);

@@ -7,7 +7,7 @@
 #![allow(unsafe_code)] // Slices of one memory, disjoint by construction; calls of code for AVX2 and AVX-512.
 
 use crate::density::{Comparison, Density, Guard};
-use crate::graph::{Graph, Id};
+use crate::graph::{Graph, Id, small};
 use crate::kernels::{self, Vectors};
 use crate::operation::Op;
 
@@ -71,10 +71,10 @@ impl Tape {
         for &id in &needed {
             let node = graph.node(id);
             let permanent = node.op.arity() == 0;
-            let reused = if permanent { node.input().map(|k| k as u32) } else { free.pop() };
+            let reused = if permanent { node.input().map(small) } else { free.pop() };
             slot[id.index()] = reused.unwrap_or_else(|| {
                 tape.slots += 1;
-                tape.slots as u32 - 1
+                small(tape.slots) - 1
             });
             let to = slot[id.index()];
             if let Some(x) = node.constant() {

@@ -13,6 +13,8 @@
 //!
 //! This crate does not know programs, scenes or traces: numbers and distributions in, numbers and draws out.
 
+#![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
+
 pub mod filtered;
 pub mod heads;
 pub mod learn;

@@ -36,7 +36,7 @@ impl<C: Chooser> Forward<'_, C> {
     /// A fault of the program, or of the chooser.
     pub fn run(&mut self, task: &Task, machine: &mut Machine<'_>, state: &mut State) -> Result<(), Failure> {
         while !state.has_ended() && (self.complete || self.record.cause.is_none()) {
-            let Some(next) = state.runnable().first().copied() else {
+            let Some(next) = state.runnable().first() else {
                 return Err(Box::new(machine.waiting_cycle(state)).into());
             };
             match machine.resume(state, next, self) {
@@ -97,6 +97,8 @@ pub(crate) fn named(factor: Factor, line: u32) -> String {
 }
 
 impl<C: Chooser> Answers<f64> for Forward<'_, C> {
+    const LOGS: bool = true;
+
     #[inline(always)]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let sketches = Some(&self.record.sketches).filter(|sketches| !sketches.is_empty());
@@ -136,8 +138,8 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.hosts.call(constant, args, steps)
     }
 }
 

@@ -5,7 +5,7 @@
 
 use niwaki_math::Draw;
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Census, Value};
 use serde::ser::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
@@ -115,6 +115,21 @@ impl Log {
         other.freeze();
         self.own.clear();
         self.frozen.clone_from(&other.frozen);
+    }
+
+    /// Counts its bytes; what copies share counts once.
+    pub fn count<'v>(&'v self, census: &mut Census<'v>) {
+        let mut parts = vec![&self.own[..]];
+        let mut at = self.frozen.as_ref();
+        while let Some(frozen) = at.filter(|frozen| census.is_first(frozen)) {
+            census.add_bytes(size_of::<Frozen>() + 16);
+            parts.push(&frozen.entries);
+            at = frozen.before.as_ref();
+        }
+        for entry in parts.into_iter().flatten() {
+            census.add_bytes(size_of::<Entry>());
+            census.add(&entry.value);
+        }
     }
 
     /// How many entries.

@@ -16,7 +16,7 @@ use crate::task::{Hosts, Task};
 use crate::weights::Normalised;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value, same};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -142,6 +142,9 @@ pub struct Inferences {
 /// How many answers are remembered.
 const REMEMBERED: usize = 16;
 
+/// Most bytes of one of them, with its arguments.
+const REMEMBERED_BYTES: usize = 1 << 20;
+
 /// The latest answers. A call that is run again (in a replay, or after another choice of the same activation changed)
 /// is not searched again. An inner search is a function of its inputs, so this changes no result.
 ///
@@ -150,30 +153,34 @@ const REMEMBERED: usize = 16;
 #[derive(Default)]
 pub struct Known(Mutex<VecDeque<Answered>>);
 
-/// The constant, the arguments, the answer.
-type Answered = (u16, Vec<Value>, Value);
+/// The constant, the arguments, the answer, the steps that it took.
+type Answered = (u16, Vec<Value>, Value, u64);
 
 impl Known {
-    fn find(&self, constant: u16, args: &[Value]) -> Option<Value> {
+    fn find(&self, constant: u16, args: &[Value]) -> Option<(Value, u64)> {
         let known = self.0.try_lock().ok()?;
-        let is_it = |(c, given, _): &&Answered| {
+        let is_it = |(c, given, ..): &&Answered| {
             *c == constant && given.len() == args.len() && given.iter().zip(args).all(|(a, b)| same(a, b))
         };
-        known.iter().find(is_it).map(|(_, _, answer)| answer.clone())
+        known.iter().find(is_it).map(|(_, _, answer, steps)| (answer.clone(), *steps))
     }
 
-    fn remember(&self, constant: u16, args: &[Value], answer: &Value) {
+    fn remember(&self, constant: u16, args: &[Value], (answer, steps): (&Value, u64)) {
         if let Ok(mut known) = self.0.try_lock() {
             known.truncate(REMEMBERED - 1);
-            known.push_front((constant, args.to_vec(), answer.clone()));
+            known.push_front((constant, args.to_vec(), answer.clone(), steps));
         }
     }
 }
 
 impl Hosts for Inferences {
-    fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        let Some(method) = self.methods.get(&constant) else { return self.hosts.call(constant, args) };
-        if let Some(answer) = self.known.find(constant, args) {
+    fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        let Some(method) = self.methods.get(&constant) else {
+            return self.hosts.call(constant, args, steps);
+        };
+        if let Some((answer, own)) = self.known.find(constant, args) {
+            // It costs what it cost, so that limits do not depend on what is remembered.
+            *steps = steps.saturating_add(own);
             return Ok(answer);
         }
         let given = args;
@@ -182,8 +189,13 @@ impl Hosts for Inferences {
         };
         match (model, seed) {
             (Value::Function(model), Value::Int(seed)) => {
-                let answer = self.infer(method, model, args, *seed as u64)?;
-                self.known.remember(constant, given, &answer);
+                let together = Arc::new(Together::new(self.limits.steps.saturating_sub(*steps)));
+                let answer = self.infer(method, model, args, *seed as u64, &together)?;
+                let own = together.taken();
+                *steps = steps.saturating_add(own);
+                if given.iter().chain([&answer]).map(Value::own_bytes).sum::<usize>() <= REMEMBERED_BYTES {
+                    self.known.remember(constant, given, (&answer, own));
+                }
                 Ok(answer)
             }
             _ => Err(Fault::not_callable(format!("`infer` runs a model, found {}", model.described()))),
@@ -192,7 +204,8 @@ impl Hosts for Inferences {
 }
 
 impl Inferences {
-    /// The value of an `infer` of this model with these arguments.
+    /// The value of an `infer` of this model with these arguments. All of its runs take their steps from those that
+    /// `together` leaves; of the memory they have a quarter of what the run around them has.
     ///
     /// # Errors
     /// The failure of the search, as a fault of the run around it.
@@ -202,6 +215,7 @@ impl Inferences {
         model: &Arc<Closure>,
         args: &[Value],
         seed: u64,
+        together: &Arc<Together>,
     ) -> Result<Value, Fault> {
         if self.depth == DEPTH {
             return Err(Fault::new(
@@ -209,19 +223,34 @@ impl Inferences {
                 format!("more than {DEPTH} `infer` are inside one another"),
             ));
         }
+        let limits = Limits { bytes: self.limits.bytes / 4, ..self.limits };
         let task = Task {
             program: Arc::clone(&self.program),
             model: Some(Arc::clone(model)),
             args: args.to_vec(),
             sketches: vec![],
             held: None,
-            hosts: Arc::new(Inferences { depth: self.depth + 1, known: Arc::default(), ..self.clone() }),
-            limits: self.limits,
+            hosts: Arc::new(Inferences {
+                depth: self.depth + 1,
+                known: Arc::default(),
+                limits,
+                ..self.clone()
+            }),
+            limits,
+            together: Some(together.clone()),
             invalid: Arc::default(),
         };
         let name = &self.program.function(FunctionId(model.function)).name;
-        method.value(&task, seed).map_err(|failure| fault_of(name, failure))
+        method.value(&task, seed).map_err(|failure| {
+            // Of parallel runs any may be the one that meets the bound: the message is the same.
+            if together.is_spent() { too_long(name, self.limits.steps) } else { fault_of(name, failure) }
+        })
     }
+}
+
+fn too_long(name: &str, steps: u64) -> Fault {
+    let message = format!("with the runs of `infer` of `{name}` the model took more than {steps} steps");
+    Fault::new("step-budget", message).with_help("search with fewer runs inside, or raise `max_steps`")
 }
 
 /// The failure of an inner search as a fault of the run around it.
@@ -309,8 +338,8 @@ mod tests {
         let inner = models(&inferences)[0].clone();
         let heads = (0..SEEDS).filter(|seed| {
             let args = [inner.clone(), Value::Real(-1.5), Value::Int(*seed as i64)];
-            let value = inferences.call(0, &args).unwrap();
-            assert!(*seed > 100 || inferences.call(0, &args).unwrap() == value);
+            let value = inferences.call(0, &args, &mut 0).unwrap();
+            assert!(*seed > 100 || inferences.call(0, &args, &mut 0).unwrap() == value);
             value == Value::Bool(true)
         });
         heads.count() as f64 / SEEDS as f64
@@ -359,7 +388,7 @@ mod tests {
     fn enumeration_gives_every_value() {
         let inferences = inferences(r#"{"method": "enumerate_all", "max_runs": 10}"#);
         let inner = models(&inferences)[0].clone();
-        let found = inferences.call(0, &[inner, Value::Real(-1.5), Value::Int(0)]).unwrap();
+        let found = inferences.call(0, &[inner, Value::Real(-1.5), Value::Int(0)], &mut 0).unwrap();
         let Value::List(pairs) = &found else { panic!("{found:?}") };
         assert!(repr(&found).unwrap().starts_with("[(True, "));
         let Value::Tuple(first) = pairs.get(0).unwrap() else { panic!("not a pair") };
@@ -371,13 +400,13 @@ mod tests {
     fn what_goes_wrong_inside_is_a_fault_outside() {
         let inferences = inferences(r#"{"method": "importance", "n": 5}"#);
         let [inner, never, broken, deep] = &models(&inferences)[..] else { panic!("four models") };
-        let code = |args: &[Value]| inferences.call(0, args).unwrap_err().code;
+        let code = |args: &[Value]| inferences.call(0, args, &mut 0).unwrap_err().code;
         assert_eq!(code(&[never.clone(), Value::Int(1)]), "infer-failed");
         assert_eq!(code(&[broken.clone(), Value::Int(1)]), "division-by-zero");
         assert_eq!(code(&[deep.clone(), Value::Int(1)]), "infer-failed");
         assert_eq!(code(&[inner.clone(), Value::Int(1)]), "wrong-arity");
         assert_eq!(code(&[Value::Int(3), Value::Int(1)]), "not-callable");
-        assert_eq!(inferences.call(7, &[]).unwrap_err().code, "host-function");
+        assert_eq!(inferences.call(7, &[], &mut 0).unwrap_err().code, "host-function");
     }
 
     #[test]

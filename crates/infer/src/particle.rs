@@ -6,8 +6,9 @@ use crate::forward::Forward;
 use crate::record::Record;
 use crate::task::Task;
 use niwaki_math::{Stream, StreamKey, Total};
-use niwaki_vm::machine::state::State;
+use niwaki_vm::machine::state::{FutureId, State};
 use niwaki_vm::machine::{Machine, Stop};
+use niwaki_vm::value::Census;
 
 /// The visit of the particle's stream for order choices.
 const ORDER: u64 = 1;
@@ -32,6 +33,8 @@ pub(crate) struct Particle {
     pub pending: f64,
     /// The thread that ran it last.
     pub home: usize,
+    /// Bytes of its activations when they were counted last.
+    pub bytes: isize,
 }
 
 impl Particle {
@@ -48,6 +51,7 @@ impl Particle {
             log_weight: 0.0,
             pending: 0.0,
             home: 0,
+            bytes: 0,
         }
     }
 
@@ -89,7 +93,7 @@ impl Particle {
         chooser: impl Chooser,
     ) -> Result<bool, Failure> {
         let runnable = self.state.runnable();
-        let future = runnable[which];
+        let future = runnable.get(which).unwrap_or(FutureId::NONE);
         if runnable.len() > 1 {
             self.picks += 1;
             self.record.log.push_order(self.state.path_of(future), which);
@@ -103,6 +107,12 @@ impl Particle {
             Ok(stop) => Ok(stop == Stop::Paused),
             Err(met) => self.record.forgive(task, met).map(|()| false),
         }
+    }
+
+    /// Counts the values that it holds, and its choices.
+    pub fn count<'v>(&'v self, census: &mut Census<'v>) {
+        self.state.count(census);
+        self.record.log.count(census);
     }
 
     /// A uniform draw among the runnable futures.
@@ -124,6 +134,7 @@ impl Particle {
             log_weight: self.log_weight,
             pending: self.pending,
             home: self.home,
+            bytes: self.bytes,
         }
     }
 

@@ -16,7 +16,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::Call;
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Value, equal, hash, repr, same};
 use std::collections::HashMap;
 
 /// A choice with its readable address.
@@ -116,7 +116,7 @@ struct Replay<'a> {
     chooser: Sourced<'a>,
     trace: Trace,
     record: Record,
-    written: HashMap<String, u32>,
+    written: HashMap<u64, Vec<(Value, u32)>>,
 }
 
 impl Answers<f64> for Replay<'_> {
@@ -166,9 +166,13 @@ impl Answers<f64> for Replay<'_> {
     }
 
     fn query(&mut self, at: &At<'_, f64>, key: &Value, value: &Value) -> Result<(), Fault> {
-        let text = niwaki_vm::value::repr(key)?;
         let line = at.site.span.line;
-        if let Some(first) = self.written.insert(text.clone(), line) {
+        let alike = self.written.entry(hash(key)).or_default();
+        let is_it = |other: &Value| same(other, key) || equal(other, key).unwrap_or(false);
+        let first = alike.iter().find(|(other, _)| is_it(other)).map(|(_, line)| *line);
+        alike.push((key.clone(), line));
+        if let Some(first) = first {
+            let text = repr(key)?;
             return Err(Fault::new(
                 "query-twice",
                 format!("the query {text} is written at line {first} and again at line {line}"),
@@ -179,8 +183,8 @@ impl Answers<f64> for Replay<'_> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.task.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.task.hosts.call(constant, args, steps)
     }
 }
 
@@ -202,7 +206,9 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let mut answers = Replay { task, chooser, trace, record, written: HashMap::new() };
     if missing == Missing::Stop {
         let mut stuck = Vec::new();
-        while let Some(next) = state.runnable().iter().copied().find(|future| !stuck.contains(future)) {
+        loop {
+            let next = state.runnable().iter().find(|future| !stuck.contains(future));
+            let Some(next) = next else { break };
             if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {
                 stuck.push(next);
             }

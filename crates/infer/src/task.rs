@@ -9,24 +9,24 @@ use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
-use niwaki_vm::machine::{Limits, Machine};
+use niwaki_vm::machine::{Limits, Machine, Together};
 use niwaki_vm::value::{Closure, Value};
 use std::sync::Arc;
 
 /// Pure functions of the host, by the number of their constant.
 pub trait Hosts: Send + Sync {
-    /// Calls a function.
+    /// Calls a function. `steps` are those of the run that calls it so far; the function adds its own where it runs models.
     ///
     /// # Errors
     /// The exception of the function, as a fault.
-    fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault>;
+    fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault>;
 }
 
 /// No host functions.
 pub struct NoHosts;
 
 impl Hosts for NoHosts {
-    fn call(&self, _: u16, _: &[Value]) -> Result<Value, Fault> {
+    fn call(&self, _: u16, _: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Err(Fault::new("host-function", "this program has no host functions"))
     }
 }
@@ -48,6 +48,8 @@ pub struct Task {
     pub hosts: Arc<dyn Hosts>,
     /// The limits of one run.
     pub limits: Limits,
+    /// The steps that all of its runs may take together: of a search inside of a model.
+    pub together: Option<Arc<Together>>,
     /// Counts the runs of its searches in which a distribution is invalid; clones count together.
     pub invalid: Arc<Invalid>,
 }
@@ -63,6 +65,7 @@ impl Task {
             held: None,
             hosts: Arc::new(NoHosts),
             limits: Limits::default(),
+            together: None,
             invalid: Arc::default(),
         }
     }
@@ -72,9 +75,17 @@ impl Task {
         Task { invalid: Arc::default(), ..self.clone() }
     }
 
+    /// The same task for each of so many searches at once, which share its memory.
+    pub fn shared_by(&self, count: usize) -> Task {
+        let bytes = self.limits.bytes / count.max(1);
+        Task { limits: Limits { bytes, ..self.limits }, ..self.clone() }
+    }
+
     /// A machine for its program.
     pub fn machine(&self) -> Machine<'_> {
-        Machine::new(&self.program, self.limits).holding(self.held.as_deref())
+        Machine::new(&self.program, self.limits)
+            .holding(self.held.as_deref())
+            .within(self.together.as_deref())
     }
 
     /// A run that has not begun.

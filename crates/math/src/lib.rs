@@ -16,6 +16,8 @@
 //!
 //! This crate does not know shapes, programs, searches or Python.
 
+#![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
+
 pub mod color;
 pub mod distributions;
 pub mod fingerprint;

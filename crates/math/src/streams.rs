@@ -19,6 +19,7 @@ const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 
 /// Ten rounds of Philox4x32: 128 random bits from a counter and a key.
 #[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the two halves of a product")]
 pub fn philox(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
     let ([mut a, mut b, mut c, mut d], [mut k, mut l]) = (counter, key);
     for _ in 0..10 {
@@ -88,6 +89,7 @@ impl StreamKey {
 
     /// The bits of the choice at `address`.
     #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "the four quarters of an address")]
     pub fn at(self, address: u128) -> Stream {
         let counter =
             [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
@@ -124,6 +126,7 @@ impl TryRng for Stream {
     }
 
     #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "the two halves of a key")]
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
         if let Some(bits) = self.spare.take() {
             return Ok(bits);

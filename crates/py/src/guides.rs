@@ -112,7 +112,9 @@ impl PyLessons {
         let examples: &[Example] = &using;
         let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
-            let mut seen = |now: Progress| watch.look(now.step, now.steps as usize, -now.held_out);
+            let mut seen = |now: Progress| {
+                watch.look(now.step, usize::try_from(now.steps).unwrap_or(usize::MAX), -now.held_out)
+            };
             train(examples, &making, start.as_deref(), &mut seen, checkpoint)
         })?;
         let told = PyDict::new(py);

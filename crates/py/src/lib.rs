@@ -10,6 +10,8 @@
 //! * `checkpoints`: what a search needs to go on after it was killed;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
+#![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
+
 mod chains;
 mod checkpoints;
 mod distributions;

@@ -24,7 +24,7 @@ struct PyHosts {
 }
 
 impl Hosts for PyHosts {
-    fn call(&self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn call(&self, constant: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         let Some(Some(callable)) = self.callables.get(constant as usize) else {
             return Err(Fault::new("host-function", format!("constant {constant} is not a function")));
         };

@@ -118,6 +118,7 @@ fn surface((vertices, faces, normals, color, [gloss, rough, pitch]): &Mesh<'_>) 
     })
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "rounded to the precision of a mesh")]
 fn triples(array: &Vertices<'_>, name: &str) -> PyResult<Vec<[f32; 3]>> {
     let array = array.as_array();
     if array.ncols() != 3 {

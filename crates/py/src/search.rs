@@ -1,7 +1,8 @@
 //! Searches for Python: a task and the algorithms that answer it.
 //!
-//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`]. If it
-//! raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search stops at its next barrier and returns its results so far.
+//! The interpreter's lock is released while the engine works. The callback `watch` is called every [`PAUSE`], and the
+//! memory that is left is looked at. If the callback raises `KeyboardInterrupt` (or Ctrl-C was pressed), the search
+//! stops at its next barrier and returns its results so far.
 
 use crate::checkpoints::PyCheckpoint;
 use crate::faults;
@@ -30,7 +31,7 @@ use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::Limits;
+use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -82,6 +83,11 @@ impl Watch {
     }
 }
 
+/// Refuses to go on where nearly no memory is left: the system would end the process.
+fn check_left() -> PyResult<()> {
+    Python::attach(|py| py.import("niwaki.errors.memory")?.call_method0("check_left").map(|_| ()))
+}
+
 /// Runs `work` without the interpreter's lock on a pool of `threads` threads (`None`: as many as the machine has);
 /// meanwhile this thread watches. Also returns whether Ctrl-C was pressed, even if that was too late to stop anything.
 ///
@@ -105,7 +111,7 @@ pub(crate) fn detached<T: Send>(
         pool.beside(working, move || {
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if raised.is_none()
-                    && let Err(error) = watch.tell(caller)
+                    && let Err(error) = watch.tell(caller).and_then(|()| check_left())
                 {
                     *raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);
@@ -142,7 +148,7 @@ pub struct PyTask {
 
 #[pymethods]
 impl PyTask {
-    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run or a whole population.
+    /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run, a whole population or several chains together.
     #[new]
     #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30))]
     fn new(
@@ -164,6 +170,7 @@ impl PyTask {
             sketches: sketches.into_iter().map(|s| s.0).collect(),
             hosts: own.hosts(limits),
             limits,
+            together: None,
             invalid: Arc::default(),
         };
         Ok(PyTask { task, model: program.clone_ref(py) })
@@ -238,7 +245,9 @@ impl PyTask {
         let inner = read.unwrap_or_else(|| Err(unknown())).map_err(|fault| faults::setting(py, &fault))?;
         let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
-        let value = self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed)?))?;
+        let together = Arc::new(Together::new(self.task.limits.steps));
+        let value =
+            self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;
         self.object(py, &value)
     }
 

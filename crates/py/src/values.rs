@@ -57,7 +57,8 @@ impl Classes {
             return Ok(Some(known));
         }
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let class = Arc::new(Class { id: known.len() as u32, name, fields, kind: record });
+        let id = u32::try_from(known.len()).expect("fewer than 2^32 classes");
+        let class = Arc::new(Class { id, name, fields, kind: record });
         known.push((kind.clone().unbind(), class.clone()));
         Ok(Some(class))
     }

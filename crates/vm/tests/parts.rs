@@ -65,7 +65,7 @@ impl Answers<f64> for Noted {
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }
-    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
     }
 }
@@ -79,7 +79,7 @@ fn run(depth_first: bool, asks: bool, pick: impl Fn(usize) -> usize) -> Noted {
         state.note_parts();
     }
     while !state.has_ended() {
-        let next = state.runnable()[pick(state.runnable().len())];
+        let next = state.runnable().get(pick(state.runnable().len())).expect("a place");
         if machine.resume(&mut state, next, &mut noted).expect("a run") == Stop::Paused {
             let mut copy = State::clone(&state);
             copy.clone_from(&state);
@@ -168,7 +168,7 @@ fn a_part_that_is_run_apart_says_the_same() {
         let mut state = trace.start_part(&program, part, false);
         trace.note_parts(&program, part, &mut state);
         let mut noted = Noted::default();
-        while let Some(next) = state.runnable().first().copied() {
+        while let Some(next) = state.runnable().first() {
             machine.resume(&mut state, next, &mut noted).expect("a run");
         }
         for (address, own) in &noted.parts {

@@ -49,7 +49,7 @@ impl Answers<f64> for Script {
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }
-    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
     }
 }
@@ -169,6 +169,20 @@ fn addresses_are_paths_of_sites() {
 }
 
 #[test]
+fn addresses_do_not_depend_on_which_variable_of_a_name_it_is() {
+    let found = |x: &str, y: &str| {
+        let text = format!(
+            "(module (fn \"low\" (params) (set ${x} (sample (dist gaussian 0 1))) (return ${x}))
+            (fn \"m\" (params) (for ${y} (range 2) (body (set ${x} (call \"low\")) (set $f (closure \"low\"))
+                (set ${x} (apply $f)))) (return (sample (dist gaussian 0 1)))) (entry \"m\"))"
+        );
+        let (_, script) = run_with(&text, Limits::default()).unwrap_or_else(|f| panic!("{f}"));
+        (script.paths, script.addresses)
+    };
+    assert_eq!(found("x", "i"), found("x%1", "i%2"));
+}
+
+#[test]
 fn two_hundred_thousand_calls_deep_runs_and_is_dropped() {
     for effect in ["", EFFECT] {
         let text = format!(
@@ -202,6 +216,37 @@ fn budgets_stop_what_does_not_end_and_show_the_stack() {
 }
 
 #[test]
+fn values_count_while_they_are_held_and_what_does_not_fit_is_refused() {
+    let bytes = |bytes| Limits { bytes, ..Limits::default() };
+    let kept = |made: &str| {
+        entry(&format!(
+            "(set $xs (list)) (for $i (range 100000) (body (set $xs (add $xs (list {made}))))) (return (len $xs))"
+        ))
+    };
+    let dropped = entry(
+        "(set $n 0) (for $i (range 20000) (body (set $n (add $n (len (mul (list $i) 1000)))))) (return $n)",
+    );
+    for made in ["(mul (list $i) 100)", "(mul \"text \" 200)", "(tuple $i $i $i $i $i)", "(vec 1.0 2.0 3.0)"]
+    {
+        assert_eq!(fault(&kept(made), bytes(2 << 20)).fault.code, "memory-budget", "{made}");
+    }
+    // 320 MB in all, 16 kB at a time.
+    assert_eq!(run_with(&dropped, bytes(1 << 20)).map(|(value, _)| value).ok().as_deref(), Some("20000000"));
+    let found = fault(&entry("(return (len (mul (list 1) 60000000)))"), bytes(100 << 20));
+    assert!(found.fault.message.contains("100 MB"), "{found}");
+    let below = entry("(return (len (mul (list 1) 4000000)))");
+    assert!(run_with(&below, bytes(100 << 20)).is_ok());
+}
+
+#[test]
+fn an_operation_takes_a_step_for_every_eight_elements() {
+    let text = entry("(set $xs (mul (list 1) 80000)) (return (sum $xs))");
+    assert!(run_with(&text, Limits { steps: 20_000, ..Limits::default() }).is_ok());
+    let found = fault(&text, Limits { steps: 19_999, ..Limits::default() });
+    assert_eq!(found.fault.code, "step-budget");
+}
+
+#[test]
 fn a_paused_run_goes_on_where_it_was_and_forks_apart() {
     let text = r#"(module (fn "m" (params) (set $xs (list)) (for $i (range 4) (body
         (set $x (sample (dist gaussian 0 1))) (do (factor $x)) (set $xs (append $xs $x)))) (return $xs)) (entry "m"))"#;
@@ -209,7 +254,7 @@ fn a_paused_run_goes_on_where_it_was_and_forks_apart() {
     let mut machine = Machine::new(&program, Limits::default());
     let mut state = machine.start(&[], true).expect("a start");
     let mut script = Script { pause: true, ..Script::default() };
-    let root = state.runnable()[0];
+    let root = state.runnable().first().expect("the root");
     for _ in 0..2 {
         let stop = machine.resume(&mut state, root, &mut script).unwrap_or_else(|f| panic!("{f}"));
         assert_eq!(stop, Stop::Paused);
@@ -292,7 +337,7 @@ fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
             let mut script = Script { pause: true, ..Script::default() };
             let mut turn = 0;
             while !state.has_ended() {
-                let can = state.runnable().to_vec();
+                let can: Vec<_> = state.runnable().iter().collect();
                 turn += 1;
                 let next = [0, can.len() - 1, turn % can.len()][order];
                 machine.resume(&mut state, can[next], &mut script).unwrap_or_else(|f| panic!("{body}: {f}"));
@@ -382,7 +427,7 @@ impl Answers<f64> for Scopes {
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }
-    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
     }
 }

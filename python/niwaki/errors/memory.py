@@ -13,6 +13,9 @@ _GROUPS = (
     ("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"),
 )
 
+#: A search stops when less is left: the system would end the process soon, and its results with it.
+LEAST = 256 * 2**20
+
 #: More than any machine has: the answer of a system that does not say.
 UNKNOWN = 1 << 62
 
@@ -48,6 +51,19 @@ def check_room(name: str, count: int, each: int, what: str) -> None:
             free=size(free),
             fit=f"{free // each:,}",
         )
+
+
+def check_left() -> None:
+    """Refuse to go on where nearly no memory is left. The engine calls it every 50 milliseconds while it works.
+
+    Raises
+    ------
+    InputError
+        How much is free, and below what a search stops.
+    """
+    free = free_memory()
+    if free < LEAST:
+        raise InputError("memory-full", free=size(free), least=size(LEAST))
 
 
 def size(count: int) -> str:

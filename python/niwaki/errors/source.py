@@ -61,7 +61,7 @@ def _parsed(path: str, module_globals: dict[str, object]) -> tuple[SourceFile, a
     if known is None or known[0].lines != lines:
         try:
             tree = ast.parse("\n".join(lines) + "\n", filename=path)
-        except SyntaxError:
+        except (SyntaxError, RecursionError, MemoryError):
             return None
         known = _files[path] = (SourceFile(path, lines), tree)
     return known

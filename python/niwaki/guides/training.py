@@ -29,7 +29,7 @@ from niwaki.search.checkpoint import Checkpoint, begun_seed
 from niwaki.search.checks import check_seed, check_threads, fresh
 from niwaki.search.data import source_hash, text_hash
 from niwaki.search.keeping import Keeper, Stage
-from niwaki.search.searching import SearchWarning
+from niwaki.search.worth import SearchWarning
 from niwaki.targets.sketches import Score
 
 #: Of the targets, one in so many judges where none is named.

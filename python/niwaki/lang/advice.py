@@ -13,8 +13,9 @@ is followed through variables and calls, not through arguments.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache, wraps
 from types import FunctionType
 from typing import Any
 
@@ -23,6 +24,7 @@ from niwaki.errors.kinds import fill, notes, snippet
 from niwaki.errors.messages import MESSAGES
 from niwaki.errors.source import Span, span_of
 from niwaki.lang import vocabulary
+from niwaki.lang.deep import deep
 from niwaki.lang.lower import lowered
 from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable, is_library
@@ -30,6 +32,7 @@ from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable
 
 BARRIERS = (words.emit, words.factor, words.observe, words.condition)
+CHOSEN = (words.sample, words.choose)
 LEAVES = (ast.Return, ast.Break, ast.Continue)
 FUNCTIONS = (ast.FunctionDef, ast.Lambda)
 
@@ -61,12 +64,29 @@ class Advice:
         return "\n".join([head, *lines, *notes(message, self.values, margin=lines[-1].removesuffix("|"))])
 
 
+@deep
 def advise(function: FunctionType) -> list[Advice]:
     """Advice on a model and on every function that it can call, in the order of the source."""
     program = lowered(function)
     knows = _Facts(program)
     found = [one for unit in program.units.values() for one in _Reader(unit, knows).read()]
     return sorted(found, key=lambda one: (one.span.file.path, one.span.line, one.span.column))
+
+
+Asked = Callable[["_Reader", ast.AST], bool]
+
+
+def once(ask: Asked) -> Asked:
+    """Answer a question about a part from what was found before. A reader is made anew when the facts have grown."""
+
+    @wraps(ask)
+    def answer(reader: _Reader, part: ast.AST) -> bool:
+        key = ask.__name__, part
+        if key not in reader.known:
+            reader.known[key] = ask(reader, part)
+        return reader.known[key]
+
+    return answer
 
 
 class _Facts:
@@ -106,6 +126,7 @@ class _Reader:
         self.unit = unit
         self.facts = facts
         self.owner: dict[ast.AST, Scope] = {}
+        self.known: dict[tuple[str, ast.AST], bool] = {}
         self._own(unit.node, unit.scopes.root)
 
     def _own(self, node: ast.AST, scope: Scope) -> None:
@@ -142,10 +163,13 @@ class _Reader:
         while waiting:
             node = waiting.pop()
             if isinstance(node, ast.Call):
-                value = self.meaning(node.func)
-                yield node, value if isinstance(value, ast.AST) or hashable(value) else MISSING
-            if not isinstance(node, FUNCTIONS):
-                waiting.extend(ast.iter_child_nodes(node))
+                yield node, self.called(node)
+            waiting.extend(below(node))
+
+    def called(self, node: ast.AST) -> Any:
+        """What a call calls; MISSING for other parts."""
+        value = self.meaning(node.func) if isinstance(node, ast.Call) else MISSING
+        return value if isinstance(value, ast.AST) or hashable(value) else MISSING
 
     def function(self, value: Any) -> ast.AST | None:
         """The node of a user's function."""
@@ -155,23 +179,26 @@ class _Reader:
             return self.facts.program.units[value].node
         return None
 
+    @once
     def is_barrier(self, part: ast.AST) -> bool:
         """Whether it adds to the scene or the score, itself or by a call."""
-        return any(
-            value in BARRIERS or self.function(value) in self.facts.builds for _, value in self.calls(part)
-        )
+        value = self.called(part)
+        if value in BARRIERS or self.function(value) in self.facts.builds:
+            return True
+        return any([self.is_barrier(child) for child in below(part)])
 
+    @once
     def is_random(self, part: ast.AST) -> bool:
         """Whether it makes a random choice, itself or by a call."""
-        chosen = (words.sample, words.choose)
-        return any(
-            value in vocabulary.DRAWS or value in chosen or self.function(value) in self.facts.draws
-            for _, value in self.calls(part)
-        )
+        value = self.called(part)
+        if value in vocabulary.DRAWS or value in CHOSEN or self.function(value) in self.facts.draws:
+            return True
+        return any([self.is_random(child) for child in below(part)])
 
+    @once
     def makes_futures(self, part: ast.AST) -> bool:
         """Whether it leaves a call for later."""
-        return any(value is words.future for _, value in self.calls(part))
+        return self.called(part) is words.future or any([self.makes_futures(child) for child in below(part)])
 
     # what depends on chance
 
@@ -181,7 +208,7 @@ class _Reader:
         grown = -1
         while grown != (grown := len(names)):
             for part in body:
-                for node in inside(part):
+                for node in statements(part):
                     if (
                         isinstance(node, (ast.Assign, ast.AnnAssign, ast.AugAssign))
                         and node.value is not None
@@ -197,7 +224,7 @@ class _Reader:
     def decisions(self, body: Sequence[ast.AST]) -> list[ast.If]:
         """The branches on random values that build."""
         names = self.random_names(body)
-        found = [node for part in body for node in inside(part) if isinstance(node, ast.If)]
+        found = [node for part in body for node in statements(part) if isinstance(node, ast.If)]
         return [
             node
             for node in found
@@ -266,23 +293,30 @@ def first_line(span: Span) -> Span:
     return Span(span.file, span.line, span.column, span.line, len(span.file.line(span.line).rstrip()) + 1)
 
 
-def inside(part: ast.AST) -> Iterator[ast.AST]:
-    """A part and all in it, but not what belongs to functions that it defines."""
-    yield part
-    for child in ast.iter_child_nodes(part):
-        if not isinstance(child, FUNCTIONS):
-            yield from inside(child)
+def below(part: ast.AST) -> list[ast.AST]:
+    """The parts of a part; none of a function that it defines."""
+    return [] if isinstance(part, FUNCTIONS) else [*ast.iter_child_nodes(part)]
 
 
-def reads(part: ast.AST) -> set[str]:
+@lru_cache(maxsize=10_000)
+def statements(part: ast.AST) -> tuple[ast.AST, ...]:
+    """A statement and all statements in it, but not those of functions that it defines."""
+    inner = [
+        child for child in below(part) if isinstance(child, ast.stmt) and not isinstance(child, FUNCTIONS)
+    ]
+    return (part, *[one for child in inner for one in statements(child)])
+
+
+@lru_cache(maxsize=10_000)
+def reads(part: ast.AST) -> frozenset[str]:
     """The names that a part reads, also in functions that it defines."""
-    return {
+    return frozenset(
         node.id for node in ast.walk(part) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
-    } | {
+    ) | frozenset(
         node.target.id
         for node in ast.walk(part)
         if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)
-    }
+    )
 
 
 def reads_of(parts: Iterable[ast.AST]) -> set[str]:
@@ -304,7 +338,7 @@ def writes_in(part: ast.If) -> set[str]:
 
 def leaves(part: ast.If) -> bool:
     """Whether an arm leaves the function or the loop around it."""
-    return any(isinstance(node, LEAVES) for arm in (*part.body, *part.orelse) for node in inside(arm))
+    return any(isinstance(node, LEAVES) for arm in (*part.body, *part.orelse) for node in statements(arm))
 
 
 def blocks(part: ast.stmt) -> Iterator[tuple[list[ast.stmt], ast.stmt | None]]:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Sequence
-from functools import partial
 
 from niwaki.errors.source import Span
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr
-from niwaki.lang.expressions import expression
+from niwaki.lang.expressions import later
 from niwaki.lang.names import nearest
 from niwaki.lang.vocabulary import REQUIRED, Parameter
 
@@ -69,7 +68,7 @@ def bind(
         if parameter.default is REQUIRED and slot not in slots:
             wrong(body, node, parameters, name, place, len(args) + len(keywords))
     nodes = [*args, *(keyword.value for keyword in keywords)]
-    makers: list[Callable[[], Expr]] = [partial(expression, body, value) for value in nodes]
+    makers: list[Callable[[], Expr]] = [later(body, value) for value in nodes]
     values = body.in_order(makers, keep=slots != sorted(slots))
     bound: list[Expr | None] = [None] * max(len(names), len(args))
     for slot, value in zip(slots, values, strict=True):

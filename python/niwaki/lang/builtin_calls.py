@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import builtins
 from collections.abc import Callable, Sequence
-from functools import partial
 from types import FunctionType
 from typing import Any
 
@@ -15,7 +14,7 @@ from niwaki.lang.arguments import bind, no_keywords
 from niwaki.lang.body import Body
 from niwaki.lang.callees import applied, nested, operate, user_function
 from niwaki.lang.core import Expr, Form, literal
-from niwaki.lang.expressions import closure, expression, expressions, keep_defaults, static
+from niwaki.lang.expressions import closure, expression, expressions, keep_defaults, later, static
 from niwaki.lang.marks import underlying
 from niwaki.lang.names import MISSING, hashable
 from niwaki.lang.scope import Scope
@@ -38,6 +37,11 @@ def iterable(body: Body, node: ast.expr) -> Expr:
     return (
         comprehensions.collect(body, node) if isinstance(node, ast.GeneratorExp) else expression(body, node)
     )
+
+
+def items_later(body: Body, node: ast.expr) -> Callable[[], Expr]:
+    """What lowers such an argument when it is called."""
+    return lambda: iterable(body, node)
 
 
 def _operate(body: Body, node: ast.Call, name: str) -> Expr:
@@ -75,8 +79,8 @@ def over(body: Body, node: ast.Call) -> Expr:
     if len(start) != len(node.keywords) or len(node.args) + len(start) > 2:
         return _operate(body, node, name)
     makers = [
-        partial(iterable, body, generator),
-        *(partial(expression, body, arg) for arg in (*node.args[1:], *start)),
+        items_later(body, generator),
+        *(later(body, arg) for arg in (*node.args[1:], *start)),
     ]
     values = body.in_order(makers)
     if name == "list":
@@ -91,7 +95,7 @@ def zip_(body: Body, node: ast.Call) -> Expr:
     strict = _keyword(node, "strict")
     if any(keyword.arg != "strict" for keyword in node.keywords):
         no_keywords(body, node, "zip")
-    values = body.in_order([partial(iterable, body, arg) for arg in node.args])
+    values = body.in_order([items_later(body, arg) for arg in node.args])
     if isinstance(strict, ast.Constant) and strict.value is True:
         return body.form("zip_strict", values, node)
     if strict is not None and not isinstance(strict, ast.Constant):
@@ -171,9 +175,9 @@ def sorted_(body: Body, node: ast.Call) -> Expr:
     _only(body, node, ("key", "reverse"))
     key, reverse = _keyword(node, "key"), _keyword(node, "reverse")
     if key is None or (isinstance(key, ast.Constant) and key.value is None):
-        makers = [partial(iterable, body, node.args[0])]
+        makers = [items_later(body, node.args[0])]
         if reverse is not None:
-            makers.append(partial(expression, body, reverse))
+            makers.append(later(body, reverse))
         return body.form("sorted", body.in_order(makers), node)
     items, function, flag = _with_key(body, node, key, reverse)
     keys = comprehensions.mapped(body, items, "sorted", node, lambda variable: [function([variable], node)])
@@ -191,15 +195,13 @@ def extreme(body: Body, node: ast.Call) -> Expr:
             "wrong-number-of-arguments", node, name=name, expected="1 argument", found=str(len(node.args))
         )
     if key is None and default is None:
-        return body.form(name, body.in_order([partial(iterable, body, arg) for arg in node.args]), node)
+        return body.form(name, body.in_order([items_later(body, arg) for arg in node.args]), node)
     one = len(node.args) == 1
     items: Expr
     other: Expr | None = None
     if key is None:
         assert default is not None
-        items, other = body.in_order(
-            [partial(iterable, body, node.args[0]), partial(expression, body, default)]
-        )
+        items, other = body.in_order([items_later(body, node.args[0]), later(body, default)])
         items = body.kept(items)
         best: Expr = body.form(name, [items], node)
     else:
@@ -236,7 +238,7 @@ def _with_key(
 def function_and_items(body: Body, function: ast.expr, nodes: Sequence[ast.expr]) -> tuple[Caller, Expr]:
     """What calls `function`, and the items that it is called with: of several lists, their `zip`."""
     call = caller(body, function)
-    values = body.in_order([partial(iterable, body, node) for node in nodes])
+    values = body.in_order([items_later(body, node) for node in nodes])
     return call, values[0] if len(values) == 1 else Form("zip", values)
 
 

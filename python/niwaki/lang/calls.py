@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from functools import partial
 from types import FunctionType, ModuleType
 from typing import Any
 
@@ -19,7 +18,7 @@ from niwaki.lang.arguments import bind, no_keywords, no_stars
 from niwaki.lang.body import Body
 from niwaki.lang.callees import applied, nested, operate, user_function
 from niwaki.lang.core import Expr, Form, literal
-from niwaki.lang.expressions import expression, expressions, forbidden, keep_defaults, lowers, static
+from niwaki.lang.expressions import expressions, forbidden, keep_defaults, later, lowers, static
 from niwaki.lang.inference import infer
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
@@ -178,8 +177,8 @@ def method(body: Body, node: ast.Call, callee: ast.Attribute) -> Expr:
         body.refuse(
             "wrong-number-of-arguments", node, name=name, expected=expected, found=str(len(node.args))
         )
-    makers: list[Callable[[], Expr]] = [partial(expression, body, callee.value)]
-    makers += [partial(builtin_calls.iterable, body, arg) for arg in node.args]
+    makers: list[Callable[[], Expr]] = [later(body, callee.value)]
+    makers += [builtin_calls.items_later(body, arg) for arg in node.args]
     value, *args = body.in_order(makers)
     return body.form("method", [value, literal(name), *args], node)
 

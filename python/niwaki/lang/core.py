@@ -100,7 +100,7 @@ def write(form: Expr, spans: bool = True, labels: bool = True) -> str:
     if isinstance(form, str):
         return form
     head = [form.head] if form.head else []
-    parts = [*head, *_marks(form, spans, labels), *(write(arg, spans, labels) for arg in form.args)]
+    parts = [*head, *_marks(form, spans, labels), *[write(arg, spans, labels) for arg in form.args]]
     return f"({' '.join(parts)})"
 
 

@@ -45,6 +45,15 @@ def log_density(dist: Distribution, value: Any) -> float:
     return grid(float(_engine.log_density(dist.family, parameters(dist), value)))
 
 
+def is_valid(dist: Distribution) -> bool:
+    """Whether the parameters are in their ranges and of their kinds."""
+    try:
+        _engine.support(dist.family, parameters(dist))
+    except (ValueError, TypeError):
+        return False
+    return True
+
+
 def draw(dist: Distribution, seed: int, address: str) -> Any:
     """The value that a seed gives at an address."""
     value = _engine.draw_at(dist.family, parameters(dist), seed, 0, hashed(address), 0)

@@ -41,9 +41,14 @@ def expression(body: Body, node: ast.expr) -> Expr:
     return lower(body, node)
 
 
+def later(body: Body, node: ast.expr) -> Callable[[], Expr]:
+    """What lowers an expression when it is called."""
+    return lambda: expression(body, node)
+
+
 def expressions(body: Body, nodes: Sequence[ast.expr]) -> list[Expr]:
     """Several expressions, evaluated from left to right."""
-    return body.in_order([partial(expression, body, node) for node in nodes])
+    return body.in_order([later(body, node) for node in nodes])
 
 
 @lowers(ast.Constant)
@@ -192,23 +197,27 @@ def unary(body: Body, node: ast.UnaryOp) -> Expr:
 def boolean(body: Body, node: ast.BoolOp) -> Expr:
     """`a and b and c`, `a or b`: the first operand that decides."""
     head = "and" if isinstance(node.op, ast.And) else "or"
-    return short_circuit(body, head, [partial(expression, body, value) for value in node.values], node)
+    return short_circuit(body, head, [later(body, value) for value in node.values], node)
 
 
 def short_circuit(body: Body, head: str, makers: Sequence[Callable[[], Expr]], node: ast.AST) -> Expr:
-    """Operands of `and` and `or`; as nested `if` statements when a later one needs statements."""
-    first = makers[0]()
-    if len(makers) == 1:
-        return first
-    block, rest = body.within(lambda: short_circuit(body, head, makers[1:], node))
-    if not block:
-        same = isinstance(rest, Form) and rest.head == head and len(makers) > 2
-        return body.form(head, [first, *(rest.args if same and isinstance(rest, Form) else [rest])], node)
+    """Operands of `and` and `or`; one that needs statements has them in an `if` of the operands before it."""
+    parts: list[tuple[Block, list[Expr]]] = [([], [makers[0]()])]
+    for make in makers[1:]:
+        block, value = body.within(make)
+        if block:
+            parts.append((block, [value]))
+        else:
+            parts[-1][1].append(value)
+    values = [body.form(head, part, node) if len(part) > 1 else part[0] for _, part in parts]
+    if len(values) == 1:
+        return values[0]
     result = body.temporary()
-    body.put(Form("set", [result, first]))
-    more: Block = [*block, Form("set", [result, rest])]
-    arms = [Form("then", more), Form("else", [])] if head == "and" else [Form("then", []), Form("else", more)]
-    body.put(body.form("if", [result, *arms], None))
+    body.put(Form("set", [result, values[0]]))
+    for (block, _), value in zip(parts[1:], values[1:], strict=True):
+        more: Block = [*block, Form("set", [result, value])]
+        then, other = (more, []) if head == "and" else ([], more)
+        body.put(body.form("if", [result, Form("then", then), Form("else", other)], None))
     return result
 
 
@@ -234,11 +243,11 @@ def compare(body: Body, node: ast.Compare) -> Expr:
     """Comparisons; `a < b < c` computes `b` once and stops at the first that fails."""
     left, *rest = [node.left, *node.comparators]
     if len(rest) == 1:
-        return _comparison(body, node, node.ops[0], partial(expression, body, left), rest[0], keep=False)[0]
+        return _comparison(body, node, node.ops[0], later(body, left), rest[0], keep=False)[0]
     middle: list[Expr] = []
 
     def step(number: int) -> Expr:
-        first = partial(expression, body, left) if number == 0 else (lambda: middle[-1])
+        first = later(body, left) if number == 0 else (lambda: middle[-1])
         last = number == len(rest) - 1
         form, right = _comparison(body, node, node.ops[number], first, rest[number], keep=not last)
         middle.append(right)
@@ -294,8 +303,8 @@ def subscript(body: Body, node: ast.Subscript) -> Expr:
     """`xs[i]`, `xs[a:b:c]`, and `array[i, j]` for data."""
     if isinstance(node.slice, ast.Slice):
         parts = [node.slice.lower, node.slice.upper, node.slice.step]
-        makers = [partial(expression, body, part) if part is not None else (lambda: "none") for part in parts]
-        return body.form("slice", body.in_order([partial(expression, body, node.value), *makers]), node)
+        makers = [later(body, part) if part is not None else (lambda: "none") for part in parts]
+        return body.form("slice", body.in_order([later(body, node.value), *makers]), node)
     indices = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
     for index in indices:
         if isinstance(index, (ast.Slice, ast.Starred)):
@@ -359,4 +368,4 @@ def _spec(body: Body, node: ast.FormattedValue) -> str:
     return "".join(str(part.value) for part in spec.values if isinstance(part, ast.Constant))
 
 
-__all__ = ["expression", "expressions", "lowers", "stable"]
+__all__ = ["expression", "expressions", "later", "lowers", "stable"]

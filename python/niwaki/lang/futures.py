@@ -76,14 +76,14 @@ def holds_future(*values: Any) -> bool:
         value = work.pop()
         if type(value) is Future:
             return True
-        parts = _parts(value)
+        parts = parts_of(value)
         if parts and id(value) not in seen:
             seen.add(id(value))
             work.extend(parts)
     return False
 
 
-def _parts(value: Any) -> Sequence[Any]:
+def parts_of(value: Any) -> Sequence[Any]:
     """The values that a value holds."""
     if isinstance(value, (list, tuple)):
         return value

@@ -9,14 +9,13 @@ engine's `nested` reads the constant.
 from __future__ import annotations
 
 import ast
-from functools import partial
 from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.lang.body import Body
 from niwaki.lang.core import Expr, Form
-from niwaki.lang.expressions import expression, static
+from niwaki.lang.expressions import later, static
 from niwaki.lang.names import MISSING
 from niwaki.methods import EnumerateAll, Method
 from niwaki.words.distributions import DiscreteUniform
@@ -80,10 +79,10 @@ def infer(body: Body, node: ast.Call) -> Expr:
         )
     method = _method(body, node.args[1])
     number = body.program.number(constant(method, keep))
-    makers = [partial(expression, body, arg) for arg in (node.args[0], *node.args[2:])]
+    makers = [later(body, arg) for arg in (node.args[0], *node.args[2:])]
     if isinstance(method, EnumerateAll):
         return Form("host", [str(number), *body.in_order(makers), "0"], body.span(node))
-    return Form("host", [str(number), *body.in_order([*makers, partial(_seed, body, node)])], body.span(node))
+    return Form("host", [str(number), *body.in_order([*makers, lambda: _seed(body, node)])], body.span(node))
 
 
 def _seed(body: Body, node: ast.Call) -> Expr:

@@ -1,7 +1,7 @@
 """A model function that reports where it is: the user's own code, compiled from their file with each site named.
 
 `f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`, what is compared
-becomes `__nw__.compared(x)`; nested functions have their names of the core form; nothing else changes, and every node
+becomes `__nw__.compared(x)`; nested functions know their place in the program; nothing else changes, and every node
 keeps its line and columns, so that a debugger
 and a traceback show the file that the user wrote.
 `__nw__` is a cell of the function's closure: the user's module is not touched.
@@ -10,14 +10,19 @@ and a traceback show the file that the user wrote.
 from __future__ import annotations
 
 import ast
-import copy
 from types import CellType, CodeType, FunctionType
 from typing import Any
 from weakref import WeakKeyDictionary
 
+from niwaki.errors import ModelError
+from niwaki.errors.source import head_span
+from niwaki.lang.deep import copied, deep
 from niwaki.lang.program import Program
+from niwaki.lang.scope import functions
 
 HOOK = "__nw__"
+#: The function itself, for those nested in it.
+OWN = "__nw_own__"
 INNER = "__nw_def__"
 _codes: WeakKeyDictionary[FunctionType, CodeType] = WeakKeyDictionary()
 
@@ -28,40 +33,47 @@ def instrumented(function: FunctionType, hook: Any) -> FunctionType:
         _codes[function] = _compile(function)
     code = _codes[function]
     cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
-    closure = tuple(CellType(hook) if name == HOOK else cells[name] for name in code.co_freevars)
+    cells |= {HOOK: CellType(hook), OWN: CellType(function)}
+    closure = tuple(cells[name] for name in code.co_freevars)
     built = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
     built.__kwdefaults__ = function.__kwdefaults__
     built.__qualname__ = function.__qualname__
     return built
 
 
+@deep
 def _compile(function: FunctionType) -> CodeType:
     unit = Program().unit(function)
-    memo: dict[int, Any] = {}
-    clone = copy.deepcopy(unit.node, memo)
+    clone, memo = copied(unit.node)
     labels: dict[Any, Any] = {}
     for key, label in unit.labels.items():
         if isinstance(key, tuple):
-            pair = labels.setdefault(memo[id(key[0])], ["", ""])
+            pair = labels.setdefault(memo[key[0]], ["", ""])
             pair[0 if key[1] == "loop" else 1] = label
         else:
-            labels[memo[id(key)]] = label
-    shown = {memo[id(scope.node)]: name for scope, name in unit.names.items()}
+            labels[memo[key]] = label
+    shown = {memo[scope.node]: n for n, scope in enumerate(functions(unit.scopes))}
+    assert isinstance(clone, (ast.FunctionDef, ast.Lambda))
+    given = clone.args
+    given.defaults = [ast.copy_location(ast.Constant(None), default) for default in given.defaults]
+    given.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in given.kw_defaults]
     node = _Namer(labels, shown, clone).visit(clone)
-    node.args.defaults = [ast.copy_location(ast.Constant(None), default) for default in node.args.defaults]
-    node.args.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in node.args.kw_defaults]
     if isinstance(node, ast.FunctionDef):
         node.name, node.decorator_list = INNER, []
         inner: list[ast.stmt] = [node]
     else:
         inner = [ast.Expr(node)]
-    names = [HOOK, *function.__code__.co_freevars]
+    names = [HOOK, OWN, *function.__code__.co_freevars]
     arguments = ast.arguments(
         posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[]
     )
     factory = ast.FunctionDef("__factory__", arguments, inner, [], lineno=1, col_offset=0)
     module = ast.fix_missing_locations(ast.Module([factory], []))
-    outer = _inner(compile(module, unit.file.path, "exec", dont_inherit=True), "__factory__")
+    try:
+        compiled = compile(module, unit.file.path, "exec", dont_inherit=True)
+    except (RecursionError, MemoryError):
+        raise ModelError("nested-too-deeply", head_span(unit.node, unit.file)) from None
+    outer = _inner(compiled, "__factory__")
     return _renamed(_inner(outer, node.name if isinstance(node, ast.FunctionDef) else "<lambda>"), function)
 
 
@@ -89,7 +101,7 @@ def _inner(code: CodeType, name: str) -> CodeType:
 class _Namer(ast.NodeTransformer):
     """Rewrites calls, loops and `break`."""
 
-    def __init__(self, labels: dict[Any, Any], names: dict[Any, str], root: ast.AST) -> None:
+    def __init__(self, labels: dict[Any, Any], names: dict[Any, int], root: ast.AST) -> None:
         self.labels = labels
         self.names = names
         self.root = root
@@ -155,15 +167,15 @@ class _Namer(ast.NodeTransformer):
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         node.returns = None
         self.generic_visit(node)
-        node.decorator_list = [] if node is self.root else [self._hook("named", [self._name(node)], [], node)]
+        node.decorator_list = [] if node is self.root else [self._hook("named", self._name(node), [], node)]
         return node
 
     def visit_Lambda(self, node: ast.Lambda) -> ast.AST:
         self.generic_visit(node)
         if node is self.root:
             return node
-        named = self._hook("named", [self._name(node)], [], node)
+        named = self._hook("named", self._name(node), [], node)
         return ast.fix_missing_locations(ast.copy_location(ast.Call(named, [node], []), node))
 
-    def _name(self, node: ast.AST) -> ast.expr:
-        return ast.Constant(self.names[node])
+    def _name(self, node: ast.AST) -> list[ast.expr]:
+        return [ast.Name(OWN, ast.Load()), ast.Constant(self.names[node])]

@@ -14,6 +14,7 @@ from niwaki.lang import calls, comprehensions, looking  # noqa: F401  (they regi
 from niwaki.lang.body import Body
 from niwaki.lang.callees import live_defaults
 from niwaki.lang.core import Core, Expr, Form, literal, write_tree
+from niwaki.lang.deep import deep
 from niwaki.lang.expressions import expression
 from niwaki.lang.names import is_named_tuple, record_fields
 from niwaki.lang.program import Program, Unit, check_signature
@@ -21,6 +22,7 @@ from niwaki.lang.scope import Scope, Variable, functions
 from niwaki.lang.statements import statement
 
 
+@deep
 def lower(function: FunctionType) -> Core:
     """The core form of a model's function and of everything it can call.
 
@@ -31,14 +33,8 @@ def lower(function: FunctionType) -> Core:
     """
     program = Program()
     entry = program.unit(function)
-    forms = _functions(program)
-    module: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
-    for number, record in enumerate(program.classes):
-        fields = Form("", [literal(field) for field in record_fields(record)])
-        kind = ["namedtuple"] if is_named_tuple(record) else []
-        module.append(Form("class", [str(number), literal(record.__name__), fields, *kind]))
-    module += [*forms, Form("entry", [literal(entry.name)])]
-    form = Form("module", module)
+    forms = lower_waiting(program)
+    form = Form("module", [*module_head(program), *forms, Form("entry", [literal(entry.name)])])
     parameters = entry.scopes.root.parameters
     defaults = len(function.__defaults__ or ()) + len(function.__kwdefaults__ or {})
     return Core(
@@ -53,15 +49,26 @@ def lower(function: FunctionType) -> Core:
     )
 
 
+@deep
 def lowered(function: FunctionType) -> Program:
     """What lowering a model finds out: its functions, their texts, what their names mean."""
     program = Program()
     program.unit(function)
-    _functions(program)
+    lower_waiting(program)
     return program
 
 
-def _functions(program: Program) -> list[Expr]:
+def module_head(program: Program) -> list[Expr]:
+    """The files and the record classes of a program."""
+    head: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
+    for number, record in enumerate(program.classes):
+        fields = Form("", [literal(field) for field in record_fields(record)])
+        kind = ["namedtuple"] if is_named_tuple(record) else []
+        head.append(Form("class", [str(number), literal(record.__name__), fields, *kind]))
+    return head
+
+
+def lower_waiting(program: Program) -> list[Expr]:
     """Every function that waits, and those that they call."""
     forms: list[Expr] = []
     while program.waiting:

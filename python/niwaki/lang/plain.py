@@ -18,8 +18,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError
 from niwaki.errors.kinds import place
-from niwaki.lang import densities, futures, inference, vocabulary
-from niwaki.lang.compiled import Compiled, task
+from niwaki.lang import densities, futures, inference, inner, vocabulary
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.marks import Host, Marked, underlying
@@ -130,6 +129,8 @@ class PlainRun:
     """The state of a plain run; answers both the words (`Runner`) and the instrumented code."""
 
     def __init__(self, seed: int | None, choices: Mapping[str, Any] | None) -> None:
+        self.model: FunctionType | None = None
+        self.around: inner.Around | None = None
         self.seed = seed
         self.given = choices
         self.path: list[str] = []
@@ -171,7 +172,8 @@ class PlainRun:
         )
 
     def enter(self, function: FunctionType, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        """Run a function of the user."""
+        """Run a function of the user; the first one is the model."""
+        self.model = self.model or function
         if function.__code__ not in self.codes:
             if function not in self.functions:
                 traced = instrumented(function, self)
@@ -232,11 +234,11 @@ class PlainRun:
 
         return self.loop(label, count())
 
-    def named(self, name: str) -> Callable[[FunctionType], FunctionType]:
-        """Give a nested function its name of the core form, by which an `infer` of it is compiled."""
+    def named(self, root: FunctionType, number: int) -> Callable[[FunctionType], FunctionType]:
+        """Note on a nested function which one it is, for an `infer` of it."""
 
         def name_it(function: FunctionType) -> FunctionType:
-            function.__qualname__ = name
+            function.__dict__.update({inner.ROOT: root, inner.NUMBER: number})
             return function
 
         return name_it
@@ -288,11 +290,12 @@ class PlainRun:
             )
 
     def density(self, dist: Distribution, value: Any) -> float:
-        """The log density of a value, which must not be infinitely likely; a bad parameter is a fault."""
+        """The log density of a value, which must not be infinitely likely; a bad parameter or value is a fault."""
         try:
             found = densities.log_density(dist, value)
         except (ValueError, TypeError) as error:
-            raise ModelFault("bad-parameter", str(error), stack=self.stack()) from error
+            code = "type-mismatch" if densities.is_valid(dist) else "bad-parameter"
+            raise ModelFault(code, str(error), stack=self.stack()) from error
         if math.isnan(found) or found == math.inf:
             message = f"the log density of {value!r} is {found}"
             raise ModelFault("non-finite-score", message, stack=self.stack())
@@ -314,6 +317,7 @@ class PlainRun:
     def query(self, key: Any, value: Any) -> None:
         """Record an answer."""
         address = self.address("query")
+        _refuse_as_key(key)
         if key in self.answers:
             other = self.answered[key]
             raise ModelFault(
@@ -354,7 +358,9 @@ class PlainRun:
         seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)
         self.pending = ""
         try:
-            return task(Compiled(function), args).infer(inference.constant(method, keep), seed)
+            if self.around is None:
+                self.around = inner.Around(self.model or function)
+            return self.around.infer(inference.constant(method, keep), function, args, seed)
         except _engine.EngineFault as fault:
             raise ModelFault(fault.code, fault.message, fault.help, stack=self.stack()) from None
 
@@ -414,6 +420,17 @@ class PlainRun:
             )
         replay = f"seed={self.seed}" if self.seed is not None else ""
         return ModelFault(code, text, stack=self.stack(error), replay=replay)
+
+
+def _refuse_as_key(key: Any) -> None:
+    """Keys of queries are what can be a key of a dict, also when it comes from the engine."""
+    hash(key)
+    waiting = [key]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, (FunctionType, Distribution)):
+            raise TypeError(f"{part!r} cannot be a key")
+        waiting.extend(futures.parts_of(part))
 
 
 def failed_host(error: BaseException) -> Host[Any, Any] | None:

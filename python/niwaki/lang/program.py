@@ -14,6 +14,7 @@ from niwaki.errors import InputError, ModelError
 from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.lang.constants import is_data, owned
 from niwaki.lang.core import Expr, Form, is_literal, literal
+from niwaki.lang.deep import too_deep
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_class, record_fields
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
@@ -60,6 +61,8 @@ class Program:
                     raise ModelError("no-source", used_at, name=function.__name__)
                 raise InputError("no-source-file", name=function.__name__)
             file, node = found
+            if (below := too_deep(node)) is not None:
+                raise ModelError("nested-too-deeply", span_of(below, file))
             check_signature(file, node)
             namespace = Namespace(function)
             scopes = analyse(node)
@@ -86,12 +89,13 @@ class Program:
         qualified = unit.function.__qualname__.replace(".<locals>", "").replace("<lambda>", "lambda")
         if qualified in self.taken:
             qualified = f"{unit.function.__module__}.{qualified}"
-        unit.names[unit.scopes.root] = self._fresh(qualified)
+        unit.names[unit.scopes.root] = self.fresh(qualified)
         for scope in functions(unit.scopes):
             if scope.parent is not None:
-                unit.names[scope] = self._fresh(f"{unit.names[scope.parent.function]}.{scope.name}")
+                unit.names[scope] = self.fresh(f"{unit.names[scope.parent.function]}.{scope.name}")
 
-    def _fresh(self, name: str) -> str:
+    def fresh(self, name: str) -> str:
+        """The name, or one made from it that no function has."""
         outer, _, last = name.rpartition(".")
         number = 2
         unique = name

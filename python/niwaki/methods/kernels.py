@@ -460,6 +460,10 @@ def parse(text: str) -> Kernel:
     """
     try:
         result = _kernel_of(ast.parse(text.strip(), mode="eval").body)
+    except (RecursionError, MemoryError):
+        raise InputError(
+            "unreadable-kernel", found=f"{text[:40]}...", reason="it is nested too deeply"
+        ) from None
     except (SyntaxError, ValueError, TypeError) as error:
         raise InputError("unreadable-kernel", found=text, reason=str(error).split(" (<")[0]) from None
     if not isinstance(result, Kernel):

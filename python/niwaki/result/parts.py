@@ -43,6 +43,28 @@ def chosen(patterns: Sequence[str], choices: Iterable[str], scene: Iterable[str]
     return found
 
 
+def matching(pattern: str, choices: Iterable[str], scene: Iterable[str], name: str) -> list[str]:
+    """The calls and iterations that a pattern matches, without those inside of another one, in the order of the run.
+
+    A primitive of the scene stands for the call that emits it, as for `chosen`.
+
+    Raises
+    ------
+    InputError
+        It matches none; with those that are nearest.
+    """
+    emitted = {place: _above(place) for place in scene}
+    calls = list(dict.fromkeys(call for address in [*choices, *emitted] for call in _calls(address)))
+    found = {call for call in calls if _engine.matches(pattern, call)}
+    found |= {call for place, call in emitted.items() if _engine.matches(pattern, place) and call}
+    if not found:
+        near = ", ".join(f"`{one}`" for one in _engine.nearest(pattern, sorted(calls)))
+        raise InputError(
+            "no-address", pattern=pattern, name=name, nearest=near or "none: the run has no part"
+        )
+    return [one for one in calls if one in found and not found & set(_calls(one))]
+
+
 def _above(address: str) -> str:
     """The call in which something with this address is; empty for the model itself."""
     return address.rpartition("/")[0]

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki import _engine, draw
+from niwaki import _engine, draw, targets
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
@@ -30,7 +30,7 @@ from niwaki.result.hmc import HmcInfo, together
 from niwaki.result.info import EnumerationInfo, Info
 from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
-from niwaki.targets.sketches import Score
+from niwaki.targets.sketches import Score, View
 
 if TYPE_CHECKING:
     from niwaki.search import Search
@@ -347,12 +347,18 @@ class Result(Sequence[Sample]):
         return self.best.save(path, **settings)
 
     def sheet(self, **settings: Any) -> Any:
-        """All samples side by side, best first, with their numbers."""
-        ranked = sorted(self.samples, key=lambda sample: -sample.log_score)
-        scenes = [sample.scene for sample in ranked]
+        """All samples side by side, best first, each with its number, from 1, and its scores.
+
+        Where an image or a shadow is matched and no volume, they are seen from its camera.
+        """
+        ranked = sorted(enumerate(self.samples, 1), key=lambda one: -one[1].log_score)
+        scenes = [sample.scene for _, sample in ranked]
+        captions = [caption(sample, number) for number, sample in ranked]
         if self.score.window is not None:
             settings = {"window": self.score.window, **settings}
-        return draw.sheet.sheet(scenes, [caption(sample) for sample in ranked], self.score.target, **settings)
+        elif self.score.target is None and self.score.views:
+            settings = {**_seen(self.score.views[0]), **settings}
+        return draw.sheet.sheet(scenes, captions, self.score.target, **settings)
 
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None
@@ -369,8 +375,8 @@ class Result(Sequence[Sample]):
             parts = [*parts, f"{self.info.gradients} gradients", *self.info.divergences.named]
         elif self.samples or isinstance(self.info, MhInfo):
             parts.append(f"best log score {self.best.log_score:.2f}")
-            if self.best.similarity is not None:
-                parts.append(f"similarity {self.best.similarity:.3f}")
+            if self.best.fit is not None:
+                parts.append(str(self.best.fit))
         if self.log_evidence is not None:
             parts.append(f"log evidence {self.log_evidence:.4g}")
         if isinstance(self.info, MhInfo | HmcInfo):
@@ -397,10 +403,17 @@ def _columns(chain: Sequence[Sample]) -> dict[str, NDArray[Any]]:
     return found
 
 
-def caption(sample: Sample) -> str:
-    """A line for a contact sheet."""
-    close = f"   {100 * sample.similarity:.1f} %" if sample.similarity is not None else ""
-    return f"seed {sample.seed}   {sample.log_score:.2f}{close}"
+def caption(sample: Sample, number: int) -> str:
+    """A line for a contact sheet; `number` is that of the sample in its result, from 1."""
+    fits = f"   {sample.fit}" if sample.fit is not None else ""
+    return f"#{number}{fits}   seed {sample.seed}   {sample.log_score:.2f}"
+
+
+def _seen(view: View) -> dict[str, Any]:
+    """Settings of a picture that is seen as an image to match is."""
+    rows, columns = view.image.shape
+    camera = {} if view.camera is None else {"camera": targets.views.eye(view.camera)}
+    return {**camera, "size": (max(1, round(360 * columns / rows)), 360)}
 
 
 def _can_be_key(value: Any) -> bool:

@@ -13,6 +13,7 @@ from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
 from niwaki.result import parts
 from niwaki.result.gradient import LogDensity
+from niwaki.targets.fit import Fit, fit
 from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ class Sample:
     log_weight : float
         The weight in its population; 0 where all weigh the same.
     similarity : float or None
-        Share of cells that are equal in the scene and its target.
+        Share of cells that are equal in the scene and its target, which the score looks at; `fit` is for people.
     primitives : int
         How many primitives the scene has.
     has_ended : bool
@@ -195,6 +196,11 @@ class Sample:
         """The primitives, by the addresses of their `emit`."""
         return Scene(self._trace.parts)
 
+    @cached_property
+    def fit(self) -> Fit | None:
+        """How much of the target the scene covers, and how much of the scene is outside; None without a target."""
+        return fit(self.search.score, self.scene)
+
     def export(
         self,
         path: str | PathLike[str],
@@ -247,8 +253,8 @@ class Sample:
 
     def __repr__(self) -> str:
         parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]
-        if self.similarity is not None:
-            parts.append(f"similarity {self.similarity:.3f}")
+        if self.fit is not None:
+            parts.append(str(self.fit))
         if self.primitives:
             parts.append(f"{self.primitives} primitives")
         if not self.has_ended:

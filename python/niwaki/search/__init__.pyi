@@ -3,10 +3,11 @@ from .checks import fresh as fresh
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
 from .entry import POWER as POWER
+from .entry import asked as asked
 from .entry import explain as explain
 from .entry import grow as grow
 from .entry import run as run
 from .entry import usual as usual
 from .keeping import Stage as Stage
 from .request import Search as Search
-from .searching import SearchWarning as SearchWarning
+from .worth import SearchWarning as SearchWarning

@@ -179,7 +179,7 @@ def source_hash(function: Any) -> str:
     """SHA-256 of a function: of its syntax tree without places and comments, or of its name if it has no source."""
     try:
         return text_hash(ast.dump(ast.parse(textwrap.dedent(inspect.getsource(function)))))
-    except (OSError, TypeError, SyntaxError):
+    except (OSError, TypeError, SyntaxError, RecursionError, MemoryError):
         return text_hash(getattr(function, "__qualname__", repr(type(function))))
 
 

@@ -75,9 +75,10 @@ def run(
     lock
         Values of choices by address that every run has; see `Search`.
     max_steps
-        Most calls and loop steps of one run.
+        Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
+        one step for every eight of them.
     max_memory
-        Most bytes of a run or a population.
+        Most bytes of a run, or of a population or several chains together: calls, values and choices.
     threads
         How many to use; all of the machine's when left out. The result does not depend on it.
     progress
@@ -173,6 +174,44 @@ def grow(
         became impossible are left out with a warning, and are an error when there is no other. A best that is worse
         than the empty scene is a warning, too.
     """
+    search = asked(
+        model,
+        target,
+        *args,
+        score=score,
+        method=method,
+        voxel=voxel,
+        sigma=sigma,
+        rule=rule,
+        polish=polish,
+        runs=runs,
+        seed=begun_seed(seed, checkpoint),
+        lock=lock,
+        max_steps=max_steps,
+        max_memory=max_memory,
+        **kwargs,
+    )
+    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
+
+
+def asked(
+    model: Model[..., Any] | Callable[..., Any],
+    target: Target | str | PathLike[str] | None = None,
+    *args: Any,
+    score: Score | None = None,
+    method: Method | None = None,
+    voxel: float | None = None,
+    sigma: float = 0.02,
+    rule: str = "solid",
+    polish: Mh | None = None,
+    runs: int = 1,
+    seed: int | None = None,
+    lock: Mapping[str, Any] | None = None,
+    max_steps: int = 20_000_000,
+    max_memory: int = 1 << 30,
+    **kwargs: Any,
+) -> Search:
+    """The search that `grow` makes of its arguments, which it then runs."""
     model = as_model(model)
     settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
     if settings.get("guide", True) is None:
@@ -194,12 +233,12 @@ def grow(
         product *= match_volume(aim, voxel, sigma)
     elif len(product.asks) == (0 if drawn else 1):
         raise InputError("no-target", name=model.name)
-    search = Search(
+    return Search(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
         method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
-        seed=fresh(begun_seed(seed, checkpoint)),
+        seed=fresh(seed),
         lock=lock,
         runs=runs,
         keep="best",
@@ -207,7 +246,6 @@ def grow(
         max_steps=max_steps,
         max_memory=max_memory,
     )
-    return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:

@@ -92,9 +92,10 @@ class Search:
     polish
         The chains that continue from the best of each run, `mh(...)`.
     max_steps
-        Most calls and loop steps of one run.
+        Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
+        one step for every eight of them.
     max_memory
-        Most bytes of a run or a population.
+        Most bytes of a run, or of a population or several chains together: calls, values and choices.
     """
 
     model: Model[..., Any]

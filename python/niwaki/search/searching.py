@@ -26,6 +26,7 @@ from niwaki.result.progress import EngineWatch, Watch, watcher
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeping import Keeper, Stage
+from niwaki.search.worth import SearchWarning, check_worth
 
 if TYPE_CHECKING:
     from niwaki.search.request import Search
@@ -36,10 +37,6 @@ SHOWN = 6
 
 #: Of so many samples or more, fewer effective ones than this are a collapse of their weights.
 MANY, COLLAPSED = 20, 2.0
-
-
-class SearchWarning(UserWarning):
-    """A search gave a result, but one that is worth less than its settings promise."""
 
 
 def keeper(search: Search, checkpoint: Checkpoint) -> Keeper:
@@ -128,7 +125,7 @@ def carried_out(
             stacklevel=4,
         )
     if search.score.asks and search.keep == "best":
-        _check_gain(search, max(found, key=lambda sample: sample.log_score))
+        check_worth(search.task, search.score, max(found, key=lambda sample: sample.log_score))
     seconds = spent, sum(sample.cpu_seconds for sample in found)
     if keeper is not None:
         keeper.finish(interrupted)
@@ -205,18 +202,6 @@ def _check_weights(result: Result) -> None:
         warnings.warn(
             f"{effective:.1f} of {len(result)} samples are effective: what a guide drew weighs too unevenly. Resample "
             '(`smc` with `resampling="tempered"` and without `ess`), or train the guide with a larger `share`',
-            SearchWarning,
-            stacklevel=5,
-        )
-
-
-def _check_gain(search: Search, best: Sample) -> None:
-    """Warn where the best scene is worse than an empty one."""
-    gain = search.task.gain(best._run)
-    if gain < 0.0:
-        warnings.warn(
-            f"the best result scores {-gain:.1f} nats less than an empty scene: give more `seconds` or `rounds`, or "
-            "look whether the model can reach its target at all (`niwaki.run(model).best.save('scene.png')`)",
             SearchWarning,
             stacklevel=5,
         )

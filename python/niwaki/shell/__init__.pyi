@@ -1,3 +1,4 @@
+from . import anyway as anyway
 from . import references as references
 from . import results as results
 from . import run_files as run_files

@@ -16,6 +16,7 @@ from niwaki.errors import FileError
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
     "models": "List the gallery: name, target, title.",
+    "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
     "replay": "Write the best result of a search again, in any format.",
     "check": "Compile a model and report what it is made of, with advice.",
@@ -75,3 +76,8 @@ def ensure_folder(place: Path) -> Path:
     except OSError as error:
         raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
     return place
+
+
+def counted(number: int, what: str) -> str:
+    """A number of things, as a sentence has it."""
+    return f"{number} {what}{'' if number == 1 else 's'}"

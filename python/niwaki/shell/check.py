@@ -10,18 +10,22 @@ import typer
 
 from niwaki import lang, shell
 from niwaki.errors import ModelError
+from niwaki.shell import arguments
 from niwaki.shell.app import ModelName, app
 
 
 @app.command()
 def check(
     model: ModelName,
+    values: arguments.Arguments = None,
+    preset: arguments.Preset = None,
     core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
     found = shell.references.find(model)
     start = time.perf_counter()
+    arguments.read(found.model, values, preset)
     try:
         compiled = found.model.core()
     except ModelError as error:
@@ -37,6 +41,7 @@ def check(
         return
     own = [row for row in program.functions if "/" not in row[0]]
     print(f"{found.reference}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
+    print(f"  arguments   {arguments.described(found.model) or 'none'}")
     print(f"  constants   {len(compiled.constants)}")
     print(f"  functions   {len(own)}")
     width = max(len(name) for name, _, _ in own)

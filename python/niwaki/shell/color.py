@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -11,8 +10,8 @@ import typer
 from niwaki import color as coloring
 from niwaki import methods, search
 from niwaki.draw.limits import LARGEST
-from niwaki.errors.folders import held_folder
 from niwaki.errors.settings import count as whole
+from niwaki.shell import folders
 from niwaki.shell.app import Folder, app
 
 
@@ -31,6 +30,7 @@ def color(
     ] = None,
     count: Annotated[int, typer.Option("-n", "--count", help="How many colourings.")] = 12,
     output: Folder = None,
+    force: folders.Force = False,
     size: Annotated[int, typer.Option("--size", help="Pixels of the longer side of each PNG.")] = 1024,
     measure: Annotated[
         int, typer.Option("--measure", help="Pixels of the longer side at which an SVG is measured.")
@@ -50,7 +50,7 @@ def color(
     asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
     _before(read, asked)
     start = time.perf_counter()
-    with held_folder(output or Path("out")) as folder:
+    with folders.own_folder(output, force) as folder:
         found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
         seconds = time.perf_counter() - start
         written = coloring.files.write(found, folder, size)

@@ -34,7 +34,7 @@ def demo(folder: Path) -> None:
             continue
         place = folder / entry.name
         print(f"\n{entry.name}: {entry.title}, into the target `{entry.target_name}`")
-        words = f"grow {entry.name} --runs {RUNS} --seed {SEED} -o".split() + [str(place)]
+        words = f"grow {entry.name} --runs {RUNS} --seed {SEED} --force -o".split() + [str(place)]
         print("$ niwaki", *words, flush=True)
         began = time.perf_counter()
         app(words, standalone_mode=False)

@@ -5,18 +5,19 @@ from __future__ import annotations
 import json
 import sys
 from contextlib import nullcontext
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 import niwaki as nw
-from niwaki import draw, gallery, search, shell, targets
+from niwaki import gallery, search, shell
 from niwaki import result as results
 from niwaki.errors.folders import held_folder
-from niwaki.shell import controls, resuming, settings, writing
-from niwaki.shell.app import Folder, app
+from niwaki.shell import arguments, controls, folders, held, picking, pictures, resuming, settings, writing
+from niwaki.shell.app import Folder, app, counted
+from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
 
 
@@ -29,6 +30,8 @@ from niwaki.shell.progress import progress_line
 def grow(
     context: typer.Context,
     model: resuming.Model = None,
+    values: arguments.Arguments = None,
+    preset: arguments.Preset = None,
     target: controls.TargetFile = None,
     avoid: controls.AvoidFiles = None,
     floor: controls.Floor = None,
@@ -49,6 +52,10 @@ def grow(
     guide: settings.GuideFile = None,
     polish: settings.Polish = None,
     polish_kernel: settings.PolishKernel = None,
+    origin: held.From = None,
+    number: held.OfRun = None,
+    lock: held.Lock = None,
+    reroll: held.Reroll = None,
     runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[
@@ -57,11 +64,13 @@ def grow(
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
     resume: resuming.Resume = None,
     output: Folder = None,
+    force: folders.Force = False,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
     fuse: writing.Fuse = None,
     frames: writing.Frames = None,
     size: writing.Size = None,
+    export: picking.Export = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
@@ -71,18 +80,25 @@ def grow(
             "--picture/--no-picture", help="Draw best.png, sheet.png and the pictures that were matched."
         ),
     ] = True,
+    quick: pictures.Quick = False,
     **given: Any,
 ) -> None:
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
+    clock = Clock()
     if resume is not None:
         search_left, found, flags, checkpoint = resuming.left(context, resume, "grow")
-        files = writing.Files.of_data(flags["files"])
+        wanted = Wanted.of_data(flags)
         with held_folder(resume) as folder:
-            with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
-                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
-            _end(result, found, folder, files, flags["picture"], as_json, checkpoint)
+            with clock.part("search"):
+                with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
+                    result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
+            _end(result, found, folder, wanted, as_json, checkpoint, clock)
         return
-    found = shell.references.find(resuming.required(context, model))
+    with clock.part("compile"):
+        found = shell.references.find(resuming.required(context, model))
+        own_values = arguments.read(found.model, values, preset)
+        found.model.program()
+    onto = held.Origin.of_flags(origin, number, lock, reroll)
     style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
         target,
@@ -103,9 +119,10 @@ def grow(
     onward = settings.polish(polish, polish_kernel)
     style = style or ("ink" if chosen.is_drawing else None)
     files = writing.Files.of_flags(formats, scale, fuse, frames, size, style)
-    aim = chosen.aim(found)
-    score = chosen.score(found, voxel, sigma)
-    drawing = chosen.drawing(found)
+    with clock.part("target"):
+        aim = chosen.aim(found)
+        score = chosen.score(found, voxel, sigma)
+        drawing = chosen.drawing(found)
     start: dict[str, Any] = {}
     if drawing is not None and controls.follows(found.model):
         start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
@@ -117,50 +134,89 @@ def grow(
     own = settings.guide(guide, found, [*_sketches(score), *(["match_volume"] if aim else [])], method, given)
     if own is not None:
         suits, method = {**suits, **search.GUIDED}, method or "smc"
+    with clock.part("target"):
+        asked = search.asked(
+            found.model,
+            aim,
+            **{**start, **own_values},
+            score=score,
+            method=settings.guided(settings.method(method, given, suits), own),
+            polish=onward,
+            seed=seed,
+            lock=None if onto is None else onto.held,
+            voxel=voxel,
+            sigma=0.02 if sigma is None else sigma,
+            rule=rule,
+            runs=runs,
+            max_steps=max_steps,
+        )
+    most = runs if given.get("diverse") is None else given["diverse"]
+    picking.exported(export, most)
     writes = output is not None or not as_json
     # Before the search: that a folder cannot be written to must not be the news at its end.
-    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
+    wanted = Wanted(files, picture, quick, export, None if onto is None else onto.data())
+    with folders.own_folder(output, force) if writes else nullcontext() as folder:
         kept = None
-        if folder is not None:
-            kept = resuming.begun(folder, "grow", found, files=asdict(files), picture=picture)
-        with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
-            result = nw.grow(
-                found.model,
-                aim,
-                **start,
-                score=score,
-                method=settings.guided(settings.method(method, given, suits), own),
-                polish=onward,
-                seed=seed,
-                threads=threads,
-                progress=progress,
-                voxel=voxel,
-                sigma=0.02 if sigma is None else sigma,
-                rule=rule,
-                runs=runs,
-                max_steps=max_steps,
-                checkpoint=kept,
-            )
-        _end(result, found, folder, files, picture, as_json, kept)
+        rerolls = onto is not None and bool(onto.reroll)
+        if folder is not None and not rerolls:
+            kept = resuming.begun(folder, "grow", found, **asdict(wanted))
+        with clock.part("search"):
+            if onto is not None and rerolls:
+                result = onto.rerolled(asked, given.get("particles"), threads)
+            else:
+                with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
+                    result = asked.run(threads=threads, progress=progress, checkpoint=kept)
+        _end(result, found, folder, wanted, as_json, kept, clock)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What to write of a result, kept in a checkpoint.
+
+    Attributes
+    ----------
+    files
+        The files of the best, and of those that are exported.
+    picture, quick
+        Whether pictures are drawn, and as drafts.
+    export
+        Numbers of results, as typed.
+    origin
+        What the search goes on from.
+    """
+
+    files: writing.Files
+    picture: bool
+    quick: bool
+    export: str | None
+    origin: dict[str, Any] | None
+
+    @classmethod
+    def of_data(cls, data: dict[str, Any]) -> Wanted:
+        """Read from JSON what `dataclasses.asdict` gave."""
+        return cls(**{**data, "files": writing.Files.of_data(data["files"])})
 
 
 def _end(
     result: nw.Result,
     found: shell.references.ModelReference,
     folder: Path | None,
-    files: writing.Files,
-    picture: bool,
+    wanted: Wanted,
     as_json: bool,
     checkpoint: nw.Checkpoint | None,
+    clock: Clock,
 ) -> None:
     """Write the files, where there is a folder for them, and say what was found."""
     if folder is not None:
+        data = shell.run_files.written(result, found)
+        if wanted.origin is not None:
+            data["origin"] = wanted.origin
         with resuming.ended(result, checkpoint):
-            _write(folder, result, found, files, picture)
+            _write(folder, result, data, wanted, clock)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     elif folder is not None:
-        _summary(result, folder)
+        _summary(result, folder, clock)
     if result.interrupted:
         if folder is not None:
             print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
@@ -175,34 +231,35 @@ def _sketches(score: nw.Score) -> list[str]:
 def _write(
     folder: Path,
     result: nw.Result,
-    found: shell.references.ModelReference,
-    files: writing.Files,
-    picture: bool,
+    data: dict[str, Any],
+    wanted: Wanted,
+    clock: Clock,
 ) -> None:
     """Write run.json first: the other files can be created again from it."""
     best: nw.Sample = result.best
-    data = shell.run_files.written(result, found)
     if best.primitives == 0:
         with shell.results.written(folder, data, ()):
             print(
                 "warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr
             )
         return
-    pictures = ["best.png", "sheet.png", *(f"{view.kind}.png" for view in result.score.views)]
-    with shell.results.written(folder, data, [*files.names, *(pictures if picture else ())]):
-        if picture:
-            styled: dict[str, Any] = {} if files.style is None else {"style": files.style}
-            square: dict[str, Any] = {} if files.style is None else {"size": (800, 800)}
-            best.save(folder / "best.png", **styled, **square)
-            draw.picture.save_image(lambda: result.sheet(**styled), folder / "sheet.png")
-            for view in result.score.views:
-                targets.views.save_view(folder / f"{view.kind}.png", best.scene, view, **styled)
-        files.write(best, folder)
+    files, drawn = wanted.files, pictures.Pictures(wanted.picture, wanted.quick)
+    numbers = picking.exported(wanted.export, len(result))
+    picked = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
+    names = [*files.names(), *(name for number, _ in picked for name in files.names(number))]
+    with shell.results.written(folder, data, [*names, *drawn.names(result, files.style)]):
+        with clock.part("pictures"):
+            drawn.write(result, folder, files.style)
+        with clock.part("files"):
+            files.write(best, folder)
+            for number, sample in picked:
+                files.write(sample, folder, number)
 
 
-def _summary(result: nw.Result, folder: Path) -> None:
+def _summary(result: nw.Result, folder: Path, clock: Clock) -> None:
     if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
         print(result.info)
-    for sample in result:
-        print(f"{results.caption(sample)}   {sample.primitives} primitives   {sample.seconds:.2f} s")
-    print(f"best: seed {result.best.seed}, log score {result.best.log_score:.2f}; files in {folder}")
+    for number, sample in enumerate(result, 1):
+        print(f"{results.caption(sample, number)}   {counted(sample.primitives, 'primitive')}")
+    print(f"best: #{result.samples.index(result.best) + 1}; files in {folder}")
+    print(clock)

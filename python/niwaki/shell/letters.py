@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -14,9 +13,9 @@ from rich.console import Console
 from niwaki import letters as writing
 from niwaki import search
 from niwaki.draw.limits import LARGEST
-from niwaki.errors.folders import held_folder
 from niwaki.errors.settings import count
 from niwaki.letters.word import PARTICLES, STYLES, TRIES
+from niwaki.shell import folders
 from niwaki.shell.app import Folder, app
 
 
@@ -24,6 +23,7 @@ from niwaki.shell.app import Folder, app
 def letters(
     text: Annotated[str, typer.Argument(metavar="TEXT", help="What to write.")],
     output: Folder = None,
+    force: folders.Force = False,
     style: Annotated[str, typer.Option("--style", help=f"{' or '.join(STYLES)}.")] = STYLES[0],
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which is printed.")] = None,
     particles: Annotated[int, typer.Option("-n", "--particles", help="Of each search.")] = PARTICLES,
@@ -45,7 +45,7 @@ def letters(
     count("--width", width, most=LARGEST)
     seed = search.fresh(seed)
     start = time.perf_counter()
-    with held_folder(output or Path("out")) as folder:
+    with folders.own_folder(output, force) as folder:
         with _shown(text) as progress:
             word = writing.write(
                 text,

@@ -8,17 +8,17 @@ from typing import Annotated, Any
 import typer
 
 from niwaki import shell
+from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
-from niwaki.shell import writing
+from niwaki.result import Result, Sample
+from niwaki.shell import folders, picking, pictures, writing
 from niwaki.shell.app import Folder, app
 
 
 @app.command()
 def replay(
     run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="The file that `niwaki grow` wrote.")],
-    number: Annotated[
-        int | None, typer.Option("--run", help="Which of its results, from 0; default: the best.")
-    ] = None,
+    number: picking.RunNumber = None,
     model: Annotated[
         Path | None,
         typer.Option(
@@ -32,33 +32,81 @@ def replay(
             help="Run the Python file that RUN.JSON names, where it is unchanged: for models with host functions.",
         ),
     ] = False,
+    anyway: Annotated[
+        bool,
+        typer.Option(
+            "--anyway",
+            help="Run the model's file as it is now: keep the choices that still fit, say which do not, draw new ones.",
+        ),
+    ] = False,
     output: Folder = None,
+    force: folders.Force = False,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
     fuse: writing.Fuse = None,
     frames: writing.Frames = None,
     size: writing.Size = None,
+    export: picking.Export = None,
     picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
+    quick: pictures.Quick = False,
 ) -> None:
     """Write the best result of a search again, byte for byte, in any format.
 
     The model is in RUN.JSON, and no Python file is run, unless the model calls host functions: see --trust.
     """
     data = shell.run_files.load(run)
-    with held_folder(output or Path("out")) as folder:
-        shell.results.refuse_another(folder, data)
+    place, count = picking.place(number, len(data["runs"]), data["best"]), len(data["runs"])
+    drawn = pictures.Pictures(picture, quick)
+
+    def files(sample: Sample) -> writing.Files:
+        style = shell.run_files.style(data, sample)
+        return writing.Files.of_flags(formats, scale, fuse, frames, size, style)
+
+    if anyway:
+        if export is not None:
+            reason = "the other results are of the model as it was"
+            raise InputError(
+                "flags-exclude",
+                flag="--anyway",
+                other="--export",
+                reason=reason,
+                cure="take one result, with `--run`",
+            )
+        changed = shell.anyway.replayed(data, place, model, run)
+        print(changed)
+        search = changed.sample.search
+        data = shell.run_files.written(Result(search, [changed.sample], search.seed), changed.found)
+        with folders.own_folder(output, force) as folder:
+            _write(folder, data, changed.sample, {}, files(changed.sample), drawn)
+        return
+
+    with held_folder(output or Path(folders.USUAL)) as folder:
+        if not force:
+            shell.results.refuse_another(folder, data)
         allowed = shell.trust.trusted(data, model, trust)
-        sample = shell.run_files.replayed(data, number, allowed, run)
-        files = writing.Files.of_flags(
-            formats, scale, fuse, frames, size, shell.run_files.style(data, sample)
-        )
-        data["shown"] = data["best"] if number is None else number
-        pictured = picture and sample.primitives
-        with shell.results.written(folder, data, [*files.names, *(["best.png"] if pictured else [])]):
-            for place in files.write(sample, folder):
-                print(place)
-            if pictured:
-                styled: dict[str, Any] = (
-                    {} if files.style is None else {"style": files.style, "size": (800, 800)}
-                )
-                print(sample.save(folder / "best.png", **styled))
+        sample = shell.run_files.replayed(data, place, allowed, run)
+        numbers = picking.exported(export, count)
+        others = {one: shell.run_files.replayed(data, one - 1, allowed, run) for one in numbers}
+        data["shown"] = place
+        _write(folder, data, sample, others, files(sample), drawn)
+
+
+def _write(
+    folder: Path,
+    data: dict[str, Any],
+    sample: Sample,
+    others: dict[int, Sample],
+    files: writing.Files,
+    drawn: pictures.Pictures,
+) -> None:
+    """Write the files of a run and those of others by their numbers, and say which."""
+    others = {number: one for number, one in others.items() if one.primitives}
+    pictured = drawn.wanted and sample.primitives > 0
+    names = [*files.names(), *(name for number in others for name in files.names(number))]
+    with shell.results.written(folder, data, [*names, *(["best.png"] if pictured else [])]):
+        found = files.write(sample, folder)
+        for number, one in others.items():
+            found += files.write(one, folder, number)
+        if pictured:
+            found.append(drawn.best(sample, folder, files.style))
+        print("\n".join(map(str, found)))

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -26,7 +27,7 @@ from niwaki.shell import run_files, writing
 
 RUN = "run.json"
 
-#: Files that commands write beside run.json: these alone are ever removed.
+#: Files that commands write beside run.json, but for those with a number.
 KNOWN = {
     *(f"best.{name}" for name in (*writing.FORMATS, "png")),
     *(f"growth.{name}" for name in writing.ANIMATIONS),
@@ -34,8 +35,28 @@ KNOWN = {
     "samples.csv",
 }
 
+#: Files by which a folder of `niwaki color` or `niwaki letters` is known; they have no run.json.
+OTHERS = {"colors.json", "word.png", "word.svg"}
+
 #: Those that show one run; the others show the search.
 OF_ONE_RUN = {name for name in KNOWN if name.startswith(("best.", "growth."))}
+
+#: Files of a run by its number: `run-3.glb`, `run-3.png`.
+_NUMBERED = re.compile(rf"run-[1-9][0-9]*\.({'|'.join((*writing.FORMATS, 'png'))})")
+
+
+def is_known(name: str) -> bool:
+    """Whether commands write files of this name beside run.json: these alone are ever removed."""
+    return name in KNOWN or _NUMBERED.fullmatch(name) is not None
+
+
+def present(folder: Path) -> str:
+    """The names of results that are in a folder, for people; empty where it has none."""
+    if not folder.is_dir():
+        return ""
+    names = [place.name for place in folder.iterdir() if place.name in {RUN, *OTHERS} or is_known(place.name)]
+    first = sorted(names, key=lambda name: (name != RUN, name))
+    return ", ".join(first[:3]) + (f" and {len(first) - 3} more" if len(first) > 3 else "")
 
 
 @contextmanager
@@ -49,12 +70,12 @@ def written(folder: Path, data: dict[str, Any], names: Iterable[str]) -> Iterato
     data
         What becomes run.json.
     names
-        The files that will be written beside it, of `KNOWN`.
+        The files that will be written beside it, which `is_known`.
     """
     names = tuple(names)
     former = _former(folder)
     listed: dict[str, str | None] = {
-        name: one for name, one in former.get("files", {}).items() if name in KNOWN
+        name: one for name, one in former.get("files", {}).items() if is_known(name)
     }
     same = _same_search(former, data)
     if same:
@@ -120,7 +141,7 @@ def _hashed(folder: Path, files: dict[str, str | None]) -> dict[str, str | None]
     return {
         name: one or _digest(folder / name)
         for name, one in sorted(files.items())
-        if name in KNOWN and (folder / name).is_file()
+        if is_known(name) and (folder / name).is_file()
     }
 
 

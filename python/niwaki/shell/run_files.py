@@ -85,9 +85,12 @@ def written(result: Result, found: ModelReference) -> dict[str, Any]:
 
 def numbers(sample: Sample) -> dict[str, Any]:
     """The scores of a run, as `--json` prints them; numbers that are not finite become null."""
+    fits = sample.fit
     found = {
         "log_score": sample.log_score,
         "log_prior": sample.log_prior,
+        "covered": None if fits is None else fits.covered,
+        "outside": None if fits is None else fits.outside,
         "similarity": sample.similarity,
         "primitives": sample.primitives,
         "seconds": sample.seconds,
@@ -176,25 +179,40 @@ def replayed(
             suggestion=f"such a number, or leave it out for the best, {data['best']}",
         )
     number = data["best"] if number is None else number
-    run = data["runs"][number]
+    search, given = searched(data, trust, path), choices(data["runs"][number], number, path)
     try:
-        search = _searched(data["search"], trust)
-        choices = {}
-        for place, part in enumerate(run["choices"]):
-            with inside(f".runs[{number}].choices[{place}].value"):
-                choices[part["address"]] = _chosen(part["value"])
-        with translated(search.model.name, choices=choices):
-            trace = search.task.replay(choices, None, not run["ended"])
-    except InputError as error:
-        raise _read_from(error, path) from error
-    except Unfit as error:
-        raise InputError("bad-run-file", path=path, reason=str(error)) from error
+        with translated(search.model.name, choices=given):
+            trace = search.task.replay(given, None, not data["runs"][number]["ended"])
     except MALFORMED as error:
         reason = (
             f"at `$.runs[{number}].choices` is something that is no list of choices of this model: {error}"
         )
         raise InputError("bad-run-file", path=path, reason=reason) from error
+    except InputError as error:
+        raise _read_from(error, path) from error
     return Sample.of_trace(trace, search)
+
+
+def searched(
+    data: dict[str, Any], trust: tuple[str, ...] = (), path: str | PathLike[str] = "run.json"
+) -> Search:
+    """The search of a run.json; `trust` and `path` as for `replayed`."""
+    try:
+        return _searched(data["search"], trust)
+    except InputError as error:
+        raise _read_from(error, path) from error
+
+
+def choices(run: dict[str, Any], number: int, path: str | PathLike[str]) -> dict[str, Any]:
+    """The choices of a run by address; its number and the file are for messages."""
+    found = {}
+    try:
+        for place, part in enumerate(run["choices"]):
+            with inside(f".runs[{number}].choices[{place}].value"):
+                found[part["address"]] = _chosen(part["value"])
+    except Unfit as error:
+        raise InputError("bad-run-file", path=path, reason=str(error)) from error
+    return found
 
 
 def _read_from(error: InputError, path: str | PathLike[str]) -> InputError:

@@ -16,12 +16,12 @@ import typer
 from rich.console import Console
 
 import niwaki as nw
-from niwaki import draw, kernels, shell
+from niwaki import kernels, shell
 from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
-from niwaki.shell import resuming, settings
+from niwaki.shell import arguments, folders, pictures, resuming, settings
 from niwaki.shell.app import Folder, app
 
 
@@ -30,6 +30,8 @@ from niwaki.shell.app import Folder, app
 def sample(
     context: typer.Context,
     model: resuming.Model = None,
+    values: arguments.Arguments = None,
+    preset: arguments.Preset = None,
     target: Annotated[
         str | None,
         typer.Option(
@@ -44,25 +46,29 @@ def sample(
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
     resume: resuming.Resume = None,
     output: Folder = None,
+    force: folders.Force = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
     ] = False,
     picture: Annotated[
         bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
     ] = True,
+    quick: pictures.Quick = False,
     **given: Any,
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     if resume is not None:
         search_left, found, flags, checkpoint = resuming.left(context, resume, "sample")
-        own = search_left.method
-        proposals = own.steps * own.chains if isinstance(own, Mh) else 0
+        left = search_left.method
+        proposals = left.steps * left.chains if isinstance(left, Mh) else 0
         with held_folder(resume) as folder:
             with _shown(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
                 result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
-            _end(result, found, folder, flags["picture"], as_json, checkpoint)
+            drawn = pictures.Pictures(flags["picture"], flags["quick"])
+            _end(result, found, folder, drawn, as_json, checkpoint)
         return
     found = shell.references.find(resuming.required(context, model))
+    own = arguments.read(found.model, values, preset)
     score = nw.Score()
     if target is not None:
         score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
@@ -71,33 +77,34 @@ def sample(
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
     proposals = method.steps * method.chains
     writes = output is not None or not as_json
-    with held_folder(output or Path("out")) if writes else nullcontext() as folder:
-        kept = None if folder is None else resuming.begun(folder, "sample", found, picture=picture)
+    with folders.own_folder(output, force) if writes else nullcontext() as folder:
+        kept = None
+        if folder is not None:
+            kept = resuming.begun(folder, "sample", found, picture=picture, quick=quick)
+        search = nw.Search(
+            found.model,
+            tuple(arguments.bound(found.model, own)),
+            score=score,
+            method=method,
+            seed=nw.search.fresh(seed),
+        )
         with _shown(found.reference, proposals) as progress, resuming.told(kept, "sample"):
-            result = nw.run(
-                found.model,
-                method=method,
-                score=score,
-                seed=seed,
-                threads=threads,
-                progress=progress,
-                checkpoint=kept,
-            )
-        _end(result, found, folder, picture, as_json, kept)
+            result = search.run(threads=threads, progress=progress, checkpoint=kept)
+        _end(result, found, folder, pictures.Pictures(picture, quick), as_json, kept)
 
 
 def _end(
     result: nw.Result,
     found: shell.references.ModelReference,
     folder: Path | None,
-    picture: bool,
+    drawn: pictures.Pictures,
     as_json: bool,
     checkpoint: nw.Checkpoint | None,
 ) -> None:
     """Write the files, where there is a folder for them, and say what was found."""
     if folder is not None:
         with resuming.ended(result, checkpoint):
-            _write(folder, result, found, picture)
+            _write(folder, result, found, drawn)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
     elif folder is not None:
@@ -108,19 +115,19 @@ def _end(
         raise typer.Exit(130)
 
 
-def _write(folder: Path, result: nw.Result, found: shell.references.ModelReference, picture: bool) -> None:
+def _write(
+    folder: Path, result: nw.Result, found: shell.references.ModelReference, drawn: pictures.Pictures
+) -> None:
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
     best = bests.best
-    pictures = ["best.png", "sheet.png"] if picture else []
-    names = ["samples.csv", *(["best.glb", *pictures] if best.primitives else [])]
+    style = "ink" if result.score.window is not None else None
+    names = ["samples.csv", *(["best.glb", *drawn.names(bests, style)] if best.primitives else [])]
     with shell.results.written(folder, shell.run_files.written(bests, found), names):
         write_whole(folder / "samples.csv", _table(result).encode())
         if "best.glb" in names:
             best.export(folder / "best.glb")
-        if "best.png" in names:
-            best.save(folder / "best.png")
-            draw.picture.save_image(lambda: bests.sheet(), folder / "sheet.png")
+            drawn.write(bests, folder, style)
 
 
 def _table(result: nw.Result) -> str:

@@ -9,6 +9,7 @@ import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, replace
+from functools import cache
 from typing import Annotated, Any, get_type_hints
 
 import typer
@@ -98,7 +99,7 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
 def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
     """The option of one setting; `shown` is the default in its help text."""
     owners = [method for method in methods if name in {field.name for field in fields(method)}]
-    kinds = [get_type_hints(owner)[name] for owner in owners]
+    kinds = [_hints(owner)[name] for owner in owners]
     plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in kinds)]
     typed = plain[0] if plain else str
     whose = (
@@ -116,10 +117,16 @@ def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> 
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 
+@cache
+def _hints(method: type[Method]) -> dict[str, Any]:
+    return get_type_hints(method)
+
+
 def _short(name: str) -> list[str]:
     return [_SHORT[name]] if name in _SHORT else []
 
 
+@cache
 def described(method: type[Method]) -> dict[str, str]:
     """The first sentence of each setting in a method's docstring."""
     found: dict[str, str] = {}

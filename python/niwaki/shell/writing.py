@@ -1,6 +1,7 @@
 """Which files a result becomes: `--format glb,stl,gif`, and the settings of each kind.
 
-The names are `best.` and the format; a moving picture is `growth.gif` or `growth.apng`. All settings are checked before
+The names are `best.` and the format; a moving picture is `growth.gif` or `growth.apng`. Of a result that is picked by
+its number they are `run-3.glb`, `run-3.gif`. All settings are checked before
 the search starts.
 """
 
@@ -105,34 +106,38 @@ class Files:
         fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in data.items()}
         return cls(**fields)
 
-    @property
-    def names(self) -> list[str]:
-        """The names of the files."""
-        return [f"{'growth' if name in ANIMATIONS else 'best'}.{name}" for name in self.formats]
+    def names(self, number: int | None = None) -> list[str]:
+        """The names of the files: of the best, or of the result of that number."""
+        return [self._name(form, number) for form in self.formats]
 
-    def write(self, sample: nw.Sample, folder: Path, target: nw.Target | None = None) -> list[Path]:
-        """Write each file, moving ones with the target as a ghost.
+    def write(self, sample: nw.Sample, folder: Path, number: int | None = None) -> list[Path]:
+        """Write each file, moving ones with the target as a ghost; the `number` is as for `names`.
 
         Where one cannot be written the others are, and then it is an error.
         """
         found, failed = [], None
         for name in self.formats:
             try:
-                found.append(self._written(sample, folder, name, target))
+                found.append(self._written(sample, folder / self._name(name, number), name))
             except NiwakiError as error:
                 failed = failed or error
         if failed is not None:
             raise failed
         return found
 
-    def _written(self, sample: nw.Sample, folder: Path, name: str, target: nw.Target | None) -> Path:
+    def _name(self, form: str, number: int | None) -> str:
+        if number is not None:
+            return f"run-{number}.{form}"
+        return f"{'growth' if form in ANIMATIONS else 'best'}.{form}"
+
+    def _written(self, sample: nw.Sample, place: Path, name: str) -> Path:
         if name in ANIMATIONS:
             settings = {"frames": self.frames, "size": self.size, "style": self.style}
             given: dict[str, Any] = {key: value for key, value in settings.items() if value is not None}
-            return sample.animate(folder / f"growth.{name}", target or sample.target, **given)
+            return sample.animate(place, **given)
         if name in SOLIDS:
-            return sample.export(folder / f"best.{name}", scale=self.scale, fuse=self.fuse)
-        return sample.export(folder / f"best.{name}", style=self.style if name in DRAWINGS else None)
+            return sample.export(place, scale=self.scale, fuse=self.fuse)
+        return sample.export(place, style=self.style if name in DRAWINGS else None)
 
 
 def _pixels(text: str | None) -> tuple[int, int] | None:

@@ -12,6 +12,7 @@ camera     the camera that sees an image
 images     which pixels of an image should be on
 pixels     the pixels of image files
 sketches   scores of a scene, as values that multiply
+fit        how a scene fits what it should be, in shares that cannot flatter
 views      a scene as the sketch of an image or a shadow sees it, as a picture
 outline    the outline of a room, from a file
 examples   targets and images of our own, made by code

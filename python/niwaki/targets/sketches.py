@@ -91,11 +91,18 @@ class View:
 
 @dataclass(frozen=True)
 class SketchCall:
-    """One sketch: the function of this module that creates it, its arguments, and its specification in the engine."""
+    """One sketch: the function of this module that creates it, its arguments, and its specification in the engine.
+
+    Attributes
+    ----------
+    grid : Target of the engine, or None
+        The cells of its mesh.
+    """
 
     function: str
     given: Mapping[str, Any]
     spec: _engine.SketchSpec
+    grid: _engine.Target | None = None
 
 
 @dataclass(frozen=True)
@@ -440,7 +447,7 @@ def _score(
     picture = seen if isinstance(seen, _engine.Picture) else None
     drawing = seen if isinstance(seen, _engine.Drawing) else None
     spec = _engine.SketchSpec(json.dumps({function: settings}), grid, picture, drawing)
-    return Score((SketchCall(function, given, spec),), target, () if view is None else (view,))
+    return Score((SketchCall(function, given, spec, grid),), target, () if view is None else (view,))
 
 
 def _wish(image: Image, weight_image: Image | None) -> tuple[NDArray[np.bool_], NDArray[np.uint8] | None]:

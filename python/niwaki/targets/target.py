@@ -135,6 +135,12 @@ class Target(Mesh):
             )
 
     @classmethod
+    def of_shapes(cls, *shapes: Shape) -> Target:
+        """A target made of shapes, which may overlap: `Target.of_shapes(box((0, 3, 0), (3, 6, 3)))`."""
+        vertices, faces = Scene([("target", shapes)]).merged(fine=False)
+        return cls(vertices, faces)
+
+    @classmethod
     def find(cls, source: str) -> Target:
         """The target of a `source`: a file, or `gallery:` and the name of an example."""
         example = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))

@@ -19,6 +19,7 @@ from niwaki.draw.picture import Camera as Eye
 from niwaki.draw.picture import picture, save_image
 from niwaki.draw.scene import Scene
 from niwaki.targets.camera import Camera
+from niwaki.targets.fit import Fit
 from niwaki.targets.sketches import View
 
 Rgb = tuple[int, int, int]
@@ -66,14 +67,13 @@ def view_sheet(
     wanted, drawn = view.image, view.mask(scene)
     rows, columns = wanted.shape
     size = (max(1, round(height * columns / rows)), height)
-    similarity = float((wanted == drawn).mean())
     made = {"image": "silhouette", "shadow": "shadow", "drawing": "touched"}[view.kind]
     panels = [
         (colored([(wanted, INK)], size), "wanted"),
         (colored([(drawn, INK)], size), made),
         (
             colored([(wanted & drawn, INK), (wanted & ~drawn, MISSING), (drawn & ~wanted, SURPLUS)], size),
-            f"difference: {100 * similarity:.1f} % of pixels agree",
+            f"difference: {Fit.of_masks(wanted, drawn)}",
         ),
         (
             through_camera(scene, view, size, samples=samples, style=style),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
+from niwaki._engine import Shape
 from niwaki.words.distributions import Distribution
 from niwaki.words.running import runner
 
@@ -133,11 +134,15 @@ def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sampl
 
 
 def flatten(shapes: Sequence[Any]) -> list[Any]:
-    """The shapes of one `emit` in order, with lists and tuples opened."""
+    """The shapes of one `emit` in order, with lists and tuples opened; anything else is a `TypeError`."""
     flat: list[Any] = []
-    for shape in shapes:
-        if isinstance(shape, (list, tuple)):
-            flat += flatten(shape)
-        else:
+    waiting = [*reversed(shapes)]
+    while waiting:
+        shape = waiting.pop()
+        if type(shape) in (list, tuple):
+            waiting.extend(reversed(shape))
+        elif isinstance(shape, Shape):
             flat.append(shape)
+        else:
+            raise TypeError(f"`emit` takes shapes, found {shape!r}")
     return flat

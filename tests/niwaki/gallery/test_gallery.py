@@ -48,6 +48,7 @@ def test_plain_python_makes_the_same_scene(one: Entry) -> None:
     assert np.allclose(scene.merged()[0], here.scene.merged()[0], atol=1e-9)
 
 
+@pytest.mark.filterwarnings("ignore:the best result is an empty scene")
 @pytest.mark.parametrize("one", GALLERY, ids=named)
 def test_grows_and_grows_again(one: Entry) -> None:
     target = one.target()
@@ -62,6 +63,7 @@ def test_grows_and_grows_again(one: Entry) -> None:
         assert sample.log_score > nothing.log_score + 5.0
 
 
+@pytest.mark.filterwarnings("ignore:the best result is an empty scene")
 @pytest.mark.parametrize("one", DRAWERS, ids=named)
 def test_draws_and_draws_again(one: Entry) -> None:
     assert one.window is not None
@@ -120,7 +122,7 @@ def test_a_third_of_the_ships_run_through_themselves() -> None:
 
 
 def test_the_demo_leaves_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("niwaki.shell.demo.RUNS", 1)
+    monkeypatch.setattr("niwaki.shell.demo.RUNS", 2)
     demo(tmp_path)
     for one in GALLERY:
         for name in ("best.glb", "best.png", "sheet.png", "run.json"):

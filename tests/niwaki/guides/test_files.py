@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -63,6 +64,18 @@ def test_a_guide_comes_back_from_its_file(guide: Guide, tmp_path: Path) -> None:
     guide.save(tmp_path / "path.guide")
     again = Guide.load(tmp_path / "path.guide")
     assert again == guide and again.hash == guide.hash and again.report == guide.report
+
+
+def test_numbers_of_a_description_that_are_too_large_do_not_fit(guide: Guide) -> None:
+    length = int.from_bytes(guide.data[:8], "little")
+    header = json.loads(guide.data[8 : 8 + length])
+    network = json.loads(header["__metadata__"]["niwaki"])
+    about = json.loads(network["text"])
+    about["sites"][0]["parameters"] = [2**32 - 1, 1]
+    header["__metadata__"]["niwaki"] = json.dumps({**network, "text": json.dumps(about)})
+    text = json.dumps(header).encode()
+    with pytest.raises(InputError, match="does not fit its network"):
+        Guide(len(text).to_bytes(8, "little") + text + guide.data[8 + length :])
 
 
 def test_a_search_with_a_guide_as_json(guide: Guide) -> None:

@@ -5,6 +5,8 @@ Nothing is allocated before: the searches here ask for 10^9 of everything, with 
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -157,3 +159,45 @@ def test_free_memory_is_the_least_of_all_limits(monkeypatch: Any, tmp_path: Path
     assert memory.free_memory() == 2500
     (tmp_path / "max").write_text("max\n")
     assert memory.free_memory() > 10**6
+
+
+@nw.model
+def large() -> list[float]:
+    x = nw.gaussian(0, 1)
+    return [x] * 20_000
+
+
+LONG: dict[str, Callable[[], Any]] = {
+    "importance": lambda: nw.run(large, nw.importance(10**7), seed=1),
+    "forward": lambda: nw.run(large, nw.forward(10**7), seed=1),
+    "smc": lambda: nw.run(stone, nw.smc(10**6), seed=1),
+    "mh": lambda: nw.run(stone, nw.mh(10**12), seed=1),
+    "hmc": lambda: nw.run(stone, nw.hmc(10**6), seed=1),
+}
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_a_search_stops_before_memory_ends(name: str, monkeypatch: Any) -> None:
+    left = iter([8 * GB] * 2)
+    monkeypatch.setattr(memory, "free_memory", lambda: next(left, 10**6))
+    with pytest.raises(InputError) as caught:
+        LONG[name]()
+    assert "error[memory-full]" in str(caught.value) and "only 1.0 MB of memory are free" in str(caught.value)
+
+
+def test_results_that_outgrow_a_limit_end_with_a_message() -> None:
+    text = f"""
+import resource, sys
+sys.path.insert(0, {str(Path(__file__).parent)!r})
+import niwaki as nw
+from test_room import large
+resource.setrlimit(resource.RLIMIT_AS, (2 * 2**30, 2 * 2**30))
+try:
+    nw.run(large, nw.importance(200_000), seed=1, threads=1)
+except nw.NiwakiError as error:
+    print(error.code)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", text], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.stdout == "memory-full\n", done.stderr

@@ -285,8 +285,8 @@ def test_chains_start_from_given_choices() -> None:
 def test_ctrl_c_gives_what_there_is() -> None:
     timer = threading.Timer(0.7, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
-    result = nw.run(point, nw.hmc(draws=2**31, steps=10, warmup=20, chains=2, step_size=0.01), 1.0, seed=1)
-    assert result.interrupted and 0 < len(result) < 2**31
+    result = nw.run(point, nw.hmc(draws=10**6, steps=1000, warmup=20, chains=2, step_size=0.01), 1.0, seed=1)
+    assert result.interrupted and 0 < len(result) < 10**6
     assert math.isfinite(result.best.log_score)
     assert result.log_density.shape == next(iter(result.draws.values())).shape
 

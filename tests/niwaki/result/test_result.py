@@ -69,7 +69,7 @@ def test_a_sample_has_value_choices_queries_and_scene(grown: nw.Result) -> None:
 
 def test_reprs_have_the_numbers(grown: nw.Result) -> None:
     assert repr(grown).startswith("<Result of tower: 3 samples, best log score ")
-    assert "similarity" in repr(grown.best) and "3 primitives" in repr(grown.best)
+    assert "% covered" in repr(grown.best) and "3 primitives" in repr(grown.best)
 
 
 def test_files_and_pictures(grown: nw.Result, tmp_path: Path) -> None:

@@ -155,6 +155,7 @@ def test_two_places_are_blamed_where_two_parts_collide() -> None:
     assert marks == {"^", "-"} and "with this" in str(found.value)
 
 
+@pytest.mark.filterwarnings("ignore:the target is far from where the model begins")
 def test_a_result_that_is_worse_than_nothing_is_a_warning() -> None:
     far = solid("far", [block((50.0, 0.0, 0.0), (52.0, 2.0, 2.0))])
     with pytest.warns(SearchWarning, match="less than an empty scene"):

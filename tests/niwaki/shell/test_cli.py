@@ -76,7 +76,7 @@ def test_pictures(tower: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     grown = run("grow", f"{tower}:tower", "--target", str(target), "-n", "10", "--seed", "1", "-o", str(out))
     assert grown.exit_code == 0, grown.output
-    assert {path.name for path in out.iterdir()} == {"best.glb", "best.png", "sheet.png", "run.json"}
+    assert {path.name for path in out.iterdir()} == {"best.glb", "best.png", "run.json"}
     assert (out / "best.png").read_bytes()[:4] == b"\x89PNG"
 
 
@@ -86,7 +86,16 @@ def test_json_prints_the_numbers_and_nothing_else(tmp_path: Path, monkeypatch: p
     assert printed.exit_code == 0
     data = json.loads(printed.stdout)
     assert list(data) == ["runs"] and len(data["runs"]) == 2
-    names = {"log_score", "log_prior", "similarity", "primitives", "seconds", "cpu_seconds"}
+    names = {
+        "log_score",
+        "log_prior",
+        "similarity",
+        "primitives",
+        "seconds",
+        "cpu_seconds",
+        "covered",
+        "outside",
+    }
     assert all(set(one) == names for one in data["runs"])
     assert not list(tmp_path.iterdir())
 

@@ -159,7 +159,7 @@ def test_two_runs_at_once_do_not_share_a_folder(tmp_path: Path) -> None:
     ends = [(child.communicate()[1], child.returncode) for child in children]
     codes = sorted(code for _, code in ends)
     assert codes[0] == 0 and set(codes) <= {0, 2}
-    assert all("folder-in-use" in text for text, code in ends if code == 2)
+    assert all("folder-in-use" in text or "folder-has-results" in text for text, code in ends if code == 2)
     found = json.loads((tmp_path / "out" / "run.json").read_text())
     glb = (tmp_path / "out" / "best.glb").read_bytes()
     assert found["files"] == {"best.glb": hashlib.sha256(glb).hexdigest()}
@@ -177,7 +177,7 @@ def test_a_replay_keeps_a_folder_of_one_run(tmp_path: Path) -> None:
     # Another format of the same run joins; another run of the same search takes its place.
     assert run("replay", one / "run.json", "-o", one, "--format", "obj", "--no-picture").exit_code == 0
     assert names(one) == {"run.json", "best.glb", "best.obj"}
-    words = ["replay", one / "run.json", "-o", one, "--run", 1 - best, "--format", "ply", "--no-picture"]
+    words = ["replay", one / "run.json", "-o", one, "--run", 2 - best, "--format", "ply", "--no-picture"]
     assert run(*words).exit_code == 0
     assert names(one) == {"run.json", "best.ply"}
     found = run_files.load(one / "run.json")

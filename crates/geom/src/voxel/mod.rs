@@ -63,7 +63,7 @@ impl Voxels {
     }
 
     /// Cells `64 * column ..` of row (y, z), the lowest x in the lowest bit. (y, z) must lie in the box.
-    #[inline]
+    #[inline(always)]
     pub fn word(&self, column: usize, y: usize, z: usize) -> u64 {
         let (first, last) = match &self.kind {
             Kind::Block => (self.cells.low[0], self.cells.high[0]),

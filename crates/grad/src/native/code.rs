@@ -2,7 +2,7 @@
 
 use super::layout::{Layout, test_of};
 use crate::density::Density;
-use crate::graph::Id;
+use crate::graph::{Id, small};
 use crate::operation::Op;
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::types::{F64, F64X2};
@@ -29,7 +29,7 @@ pub(super) struct Code<'a, 'b> {
 
 /// Byte offset of a number.
 fn offset(place: u32) -> i32 {
-    i32::try_from(u64::from(place) * 8).unwrap_or(i32::MAX)
+    i32::try_from(u64::from(place) * 8).expect("`Native::compile` refuses what is further on")
 }
 
 /// Flags of valid, aligned memory.
@@ -59,7 +59,7 @@ impl<'a, 'b> Code<'a, 'b> {
             (Some(x), _) if x.to_bits() == 0 => self.b.ins().f64const(0.0),
             (_, Some(k)) => match self.inputs.get(k) {
                 Some(x) => *x,
-                None => self.load(self.x, k as u32),
+                None => self.load(self.x, small(k)),
             },
             _ => self.load(self.scratch, self.layout.place[id.index()]),
         }

@@ -5,7 +5,7 @@
 //! start of the scratch is shorter than one that reads from further on, and both are shorter than the constant's bits.
 
 use crate::density::Density;
-use crate::graph::Id;
+use crate::graph::{Id, small};
 use crate::operation::Op;
 
 /// Operations in one function of machine code.
@@ -75,7 +75,7 @@ fn needed(density: &Density, roots: impl Iterator<Item = Id>) -> Vec<bool> {
     roots.for_each(|id| needed[id.index()] = true);
     for at in (0..needed.len()).rev() {
         if needed[at] {
-            reads(density, Id(at as u32)).for_each(|arg| needed[arg.index()] = true);
+            reads(density, Id(small(at))).for_each(|arg| needed[arg.index()] = true);
         }
     }
     needed
@@ -115,14 +115,14 @@ impl Program {
     /// Allocates places from `size` on for arguments and results of calls.
     fn place_calls(&mut self, density: &Density, place: &mut [u32], size: &mut u32) {
         for batch in &mut self.batches {
-            let n = batch.ids.len() as u32;
+            let n = small(batch.ids.len());
             batch.from = *size;
-            batch.to = *size + n * batch.op.arity() as u32;
+            batch.to = *size + n * small(batch.op.arity());
             *size = batch.to + n;
             for (k, id) in batch.ids.iter().enumerate() {
-                place[id.index()] = batch.to + k as u32;
+                place[id.index()] = batch.to + small(k);
                 for (j, arg) in density.graph().node(*id).args().enumerate() {
-                    self.arguments.push((arg, batch.from + j as u32 * n + k as u32));
+                    self.arguments.push((arg, batch.from + small(j) * n + small(k)));
                 }
             }
         }
@@ -148,7 +148,7 @@ impl Layout {
         };
         let segments = || layout.slope.segments.iter().chain(&layout.rest.segments).map(|(_, ids)| ids);
         for (at, ids) in segments().enumerate() {
-            ids.iter().for_each(|id| layout.segment[id.index()] = at as u32);
+            ids.iter().for_each(|id| layout.segment[id.index()] = small(at));
         }
         // Constants that instructions read, or that are results.
         let mut uses = vec![0_u32; graph.len()];
@@ -161,9 +161,9 @@ impl Layout {
             graph.nodes().map(|(id, _)| id).filter(|id| uses[id.index()] > 0).collect();
         constants.sort_by_key(|id| (std::cmp::Reverse(uses[id.index()]), *id));
         for (at, id) in constants.iter().enumerate() {
-            layout.place[id.index()] = at as u32;
+            layout.place[id.index()] = small(at);
         }
-        let mut size = constants.len() as u32;
+        let mut size = small(constants.len());
         layout.slope.place_calls(density, &mut layout.place, &mut size);
         layout.rest.place_calls(density, &mut layout.place, &mut size);
         layout.place_instructions(density, &mut size);
@@ -213,7 +213,7 @@ impl Layout {
         for (at, ids) in segments.enumerate() {
             for arg in ids.iter().flat_map(|id| reads(density, *id)) {
                 let from = segment[arg.index()];
-                if from != NOWHERE && from != at as u32 {
+                if from != NOWHERE && from != small(at) {
                     put(arg);
                 }
             }

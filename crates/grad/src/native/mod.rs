@@ -29,6 +29,9 @@ use layout::Layout;
 use std::sync::Arc;
 use write::{Writer, Written};
 
+/// An instruction reaches numbers within 2 GiB.
+const LARGEST: usize = 1 << 28;
+
 /// `(x, g, scratch)`.
 type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64);
 
@@ -163,7 +166,7 @@ impl Native {
     /// Compiles a density.
     ///
     /// # Errors
-    /// A processor that Cranelift does not know, or memory that may not be executed: use the tape then.
+    /// A density of more than 2^28 numbers, a processor that Cranelift does not know, or memory that may not be executed: use the tape then.
     pub fn compile(density: &Density) -> Result<Native, String> {
         let (mut native, draft) = Native::of_gradient(density)?;
         native.complete(draft.compile(density)?);
@@ -176,6 +179,9 @@ impl Native {
     /// As for [`Native::compile`].
     pub(crate) fn of_gradient(density: &Density) -> Result<(Native, Draft), String> {
         let mut layout = Layout::new(density);
+        if layout.scratch.len().max(density.dim()) > LARGEST {
+            return Err("more numbers than an instruction can reach".into());
+        }
         let slope = Routine::slope(density, &layout).map_err(|error| error.to_string())?;
         let scratch = std::mem::take(&mut layout.scratch);
         let flags = std::mem::take(&mut layout.flags);
@@ -254,7 +260,7 @@ impl Native {
         // SAFETY: the code reads and writes one number of each for each coordinate, and stays within the scratch that
         // was laid out with it.
         let taken = unsafe { entry(x, g, scratch, p, variance.as_ptr(), &[kick, step], u64::from(steps)) };
-        taken as u32
+        u32::try_from(taken).expect("at most `steps`")
     }
 }
 

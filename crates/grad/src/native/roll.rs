@@ -7,6 +7,7 @@
 use super::code::Code;
 use super::layout::Layout;
 use super::write::{Writer, Written, guards_hold};
+use crate::graph::small;
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::types::{F64, I64};
 use cranelift_codegen::ir::{BlockArg, InstBuilder, Value};
@@ -39,7 +40,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     let &[x, g, _, p, variance, sizes, n] = given else { unreachable!("seven parameters") };
     let dim = code.density.dim();
     let read = |code: &mut Code<'_, '_>, at: Value| -> Vec<Value> {
-        (0..dim as u32).map(|k| code.load(at, k)).collect()
+        (0..small(dim)).map(|k| code.load(at, k)).collect()
     };
     let (kick, step) = (code.load(sizes, 0), code.load(sizes, 1));
     let scales: Vec<Value> = read(code, variance).into_iter().map(|s| code.b.ins().fmul(step, s)).collect();
@@ -103,7 +104,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
     code.b.switch_to_block(exit);
     for (at, numbers) in [x, p, g].into_iter().zip(last.chunks(dim)) {
         for (k, number) in numbers.iter().enumerate() {
-            code.store(*number, at, k as u32);
+            code.store(*number, at, small(k));
         }
     }
     code.b.ins().return_(&[taken]);

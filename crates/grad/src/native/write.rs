@@ -4,6 +4,7 @@ use super::code::Code;
 use super::layout::{Batch, FUNCTION, Layout, Program};
 use super::{Memory, Step};
 use crate::density::{Comparison, Density};
+use crate::graph::small;
 use crate::operation::Op;
 use cranelift_codegen::ir::condcodes::FloatCC;
 use cranelift_codegen::ir::types::I64;
@@ -65,9 +66,9 @@ impl<'a> Writer<'a> {
         let mut late = Vec::new();
         for (k, id) in density.gradient().iter().enumerate() {
             if layout.is_instruction(*id) {
-                outputs[id.index()].push(k as u32);
+                outputs[id.index()].push(small(k));
             } else {
-                late.push((*id, k as u32));
+                late.push((*id, small(k)));
             }
         }
         self.write_program(&layout.slope, &outputs)?;
@@ -152,7 +153,7 @@ impl<'a> Writer<'a> {
                 })?;
             }
             for b in now {
-                let n = b.ids.len() as u32;
+                let n = small(b.ids.len());
                 self.plan.push(Planned::Calls(Step::Calls { op: b.op, from: b.from, to: b.to, n }));
             }
         }

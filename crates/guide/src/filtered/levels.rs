@@ -78,6 +78,7 @@ impl<T: Real> Level<T> {
 
     /// The cells of the window around a place, in shares of the image from its upper left corner: where they stand in the
     /// outputs.
+    #[expect(clippy::cast_possible_truncation, reason = "nine images at most from the corner")]
     fn cells(&self, at: [f64; 2]) -> [Option<usize>; CELLS] {
         let middle = |share: f64, count: usize| (share.clamp(-9.0, 9.0) * count as f64).floor() as isize;
         let (column, row) = (middle(at[0], self.columns), middle(at[1], self.rows));

@@ -155,6 +155,7 @@ impl<T: Real> Filtered<T> {
     /// # Panics
     ///
     /// If there is no such site or feature.
+    #[expect(clippy::cast_possible_truncation, reason = "rounded to the precision of the network")]
     pub fn answer<'v>(
         &self,
         target: &Levels<T>,

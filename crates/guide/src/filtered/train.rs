@@ -157,6 +157,7 @@ pub fn train_filtered_along<T: Real>(
         }
         (way.border)(&|| Stored::of(&net.weights, &adam, &best, (sum, count), &history));
         let mut stream = Stream::new(with.seed, 1, u128::from(step), 0);
+        #[expect(clippy::cast_possible_truncation, reason = "less than the number of traces")]
         let mut pick = || ((u128::from(stream.next_u64()) * traces.len() as u128) >> 64) as usize;
         let chosen: Vec<usize> = parts.iter().map(|_| pick()).collect();
         let one = |(part, pick): (&mut Part<T>, &usize)| {

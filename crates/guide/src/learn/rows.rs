@@ -78,7 +78,7 @@ impl Rows {
             }
             Lesson::Finite { value, log_priors } => {
                 self.numbers.extend_from_slice(log_priors);
-                Kind::Finite { value: *value as u32, values: log_priors.len() as u32 }
+                Kind::Finite { value: small(*value), values: small(log_priors.len()) }
             }
             Lesson::Count { between, log_prior } => {
                 self.numbers.extend([between.0, between.1, *log_prior]);
@@ -86,9 +86,9 @@ impl Rows {
             }
         };
         self.rows.push(Row {
-            site: site as u32,
-            window: window as u32,
-            features: (at, features.len() as u32),
+            site: small(site),
+            window: small(window),
+            features: (at, small(features.len())),
             numbers,
             kind,
         });
@@ -96,7 +96,7 @@ impl Rows {
 
     /// Adds the rows of other traces, of networks of the same form.
     pub fn append(&mut self, other: &Rows) {
-        let windows = self.seen.len().checked_div(self.windows).unwrap_or(0) as u32;
+        let windows = small(self.seen.len().checked_div(self.windows).unwrap_or(0));
         let (features, numbers) = (self.features.len(), self.numbers.len());
         self.rows.extend(other.rows.iter().map(|row| Row {
             window: row.window + windows,
@@ -177,6 +177,11 @@ impl Rows {
             Kind::Count => Known::Count { between: (n[0], n[1]), log_prior: n[2] },
         }
     }
+}
+
+/// A number of rows, windows or features as a row has it: 2^32 of them would take 16 GB or more.
+fn small(n: usize) -> u32 {
+    u32::try_from(n).expect("fewer than 2^32 rows")
 }
 
 #[cfg(test)]

@@ -200,6 +200,7 @@ impl<T: Real> State<T> {
     /// The rows of the next step.
     fn batch(&self, rows: &Rows, with: &Training) -> Vec<usize> {
         let mut stream = Stream::new(with.seed, 1, u128::from(self.step()), 0);
+        #[expect(clippy::cast_possible_truncation, reason = "less than the number of rows")]
         let row = |bits: u64| ((u128::from(bits) * rows.len() as u128) >> 64) as usize;
         (0..with.batch).map(|_| row(stream.next_u64())).collect()
     }

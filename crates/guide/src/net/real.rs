@@ -42,6 +42,7 @@ impl Real for f32 {
     const ZERO: f32 = 0.0;
     const ONE: f32 = 1.0;
     #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded to the precision of the network")]
     fn from_f64(x: f64) -> f32 {
         x as f32
     }

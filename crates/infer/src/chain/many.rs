@@ -49,6 +49,7 @@ impl<R: Rules> Chains<R> {
         known: Option<&HashMap<u128, Value>>,
         checkpoint: Option<&Checkpoint>,
     ) -> Result<Chains<R>, Failure> {
+        let task = &task.shared_by(count);
         let chains = (0..count as u64).into_par_iter().map(|number| {
             if let Some(stored) = checkpoint.map_or(Ok(None), |own| own.left(number))? {
                 return Ladder::restored(task, settings, number, stored);
@@ -110,6 +111,7 @@ impl<R: Rules> Chains<R> {
         begun.for_each(|(number, chain)| store(number, chain));
         let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.best_score())).collect();
         let progress = Mutex::new((each, false));
+        let task = &task.shared_by(self.chains.len());
         self.chains
             .par_iter_mut()
             .enumerate()

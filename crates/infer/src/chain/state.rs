@@ -64,8 +64,8 @@ impl Answers<f64> for Fresh<'_> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.hosts.call(constant, args, steps)
     }
 }
 

@@ -38,7 +38,7 @@ pub fn model(task: &Task) -> Result<Model, Failure> {
         args: task.args.iter().map(|arg| arg.convert(&Var::from_f64)).collect(),
         held: task.held.as_ref().map(|held| Arc::new(held.convert(&Var::from_f64))),
         limits: task.limits,
-        host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args)),
+        host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args, &mut 0)),
         scope: Scope::default(),
         invalid: task.invalid.clone(),
     })

@@ -83,7 +83,7 @@ impl GuideForm {
     /// How many inputs there are beside the windows.
     pub fn features(&self) -> usize {
         let of_variables = self.variables.iter().map(|own| own.first as usize + own.kind.len());
-        let of_sites = self.sites.iter().map(|own| (own.parameters.0 + own.parameters.1) as usize);
+        let of_sites = self.sites.iter().map(|own| own.parameters.0 as usize + own.parameters.1 as usize);
         let of_part = self.part.map(|first| first as usize + OF_PART.len());
         of_variables.chain(of_sites).chain(of_part).max().unwrap_or(0)
     }

@@ -73,7 +73,7 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
             1 => 0,
             _ => {
                 let path = order.next();
-                let known = one.state.runnable().iter().position(|own| Some(one.state.path_of(*own)) == path);
+                let known = one.state.runnable().iter().position(|own| Some(one.state.path_of(own)) == path);
                 known.unwrap_or(0)
             }
         };

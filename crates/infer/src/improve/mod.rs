@@ -141,6 +141,7 @@ impl Improve {
     ) -> Result<(Vec<Run>, Improved), Failure> {
         let particles = (SHARE * self.particles as f64).ceil() as usize;
         let own = Improve { particles, diverse: None, ..self.clone() };
+        let task = &task.shared_by(wanted);
         let (mut found, mut failed, mut searches, mut chosen) = (vec![], None, 0, vec![]);
         for _ in 0..BATCHES {
             let missing = wanted - chosen.len();

@@ -84,6 +84,7 @@ pub fn populations(
     plan: &[usize],
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
+    let task = &task.shared_by(plan.len().min(AT_ONCE));
     let (results, stopped) = side_by_side(plan.len(), watch, |number, watch| {
         let (particles, seed) = (plan[number], population_seed(settings.seed, number));
         let own = Settings { particles, seed, ..settings.clone() };
@@ -91,6 +92,9 @@ pub fn populations(
     });
     combine(plan, results, stopped)
 }
+
+/// Of more populations than this, not all are in memory at once.
+const AT_ONCE: usize = 64;
 
 /// Whether so many searches share the threads: where there are fewer, they run one by one, each on all threads.
 fn is_shared(count: usize) -> bool {

@@ -39,6 +39,7 @@ mod partial_run;
 mod pimh;
 mod population;
 pub mod rejuvenation;
+mod resident;
 mod settings;
 mod shared;
 mod smc;

@@ -154,7 +154,7 @@ impl PartialRun {
             let runnable = state.runnable();
             let mut picked = None;
             if runnable.len() > 1 {
-                let hash = |hash, future: &FutureId| join(hash, state.path_of(*future));
+                let hash = |hash, future: FutureId| join(hash, state.path_of(future));
                 let among = runnable.iter().fold(runnable.len() as u128, hash);
                 let which = match recorder.next_mark() {
                     None => pick(&state),
@@ -163,7 +163,7 @@ impl PartialRun {
                 };
                 picked = Some((which, among));
             }
-            let Some(future) = runnable.get(picked.map_or(0, |(which, _)| which)).copied() else {
+            let Some(future) = runnable.get(picked.map_or(0, |(which, _)| which)) else {
                 return Err(Box::new(machine.waiting_cycle(&state)).into());
             };
             recorder.steps.push(Step::Ran { path: state.path_of(future), pick: picked });
@@ -318,8 +318,8 @@ impl<C: Chooser> Answers<f64> for Recorder<'_, C> {
         Ok(())
     }
 
-    fn host(&mut self, constant: u16, args: &[Value]) -> Result<Value, Fault> {
-        self.with.task.hosts.call(constant, args)
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.with.task.hosts.call(constant, args, steps)
     }
 }
 
@@ -407,5 +407,5 @@ impl Particle {
 
 /// The place of the future with that path among those that can run.
 fn place(state: &State, path: u128) -> Option<usize> {
-    state.runnable().iter().position(|future| state.path_of(*future) == path)
+    state.runnable().iter().position(|future| state.path_of(future) == path)
 }

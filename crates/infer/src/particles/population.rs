@@ -3,6 +3,7 @@
 
 use super::copies::{Copies, Indexed, copy};
 use super::rejuvenation::{MoveCounts, Mover};
+use super::resident::{Growth, Resident, counted, too_large};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::tempered::Tempered;
@@ -59,6 +60,8 @@ pub(super) struct Population<'a> {
     apart: Vec<Task>,
     /// The copies of the last resampling that are not made yet.
     copies: Copies,
+    /// The memory that they take.
+    resident: Resident,
     /// The log weights at a barrier; kept from one to the next, so that none allocates.
     logs: Vec<f64>,
 }
@@ -74,7 +77,7 @@ impl<'a> Population<'a> {
     pub fn start(task: &Task, settings: &'a Settings, serial: bool) -> Result<Self, Failure> {
         settings.check()?;
         let n = settings.particles;
-        let task = share_memory(task, n);
+        let task = task.clone();
         let machine = task.machine();
         let mut first = task.start(&machine, settings.order == Order::DepthFirst)?;
         if let Some(proposal) = &settings.proposal {
@@ -101,7 +104,7 @@ impl<'a> Population<'a> {
         };
         let threads = rayon::current_num_threads();
         let parallel = !serial && n > BATCH && threads > 1;
-        let own = |_| Task { program: Arc::new(task.program.apart()), ..task.clone() };
+        let own = |program| Task { program: Arc::new(program), ..one(&task, n) };
         Ok(Population {
             settings,
             particles,
@@ -117,8 +120,9 @@ impl<'a> Population<'a> {
             mover: Mover::of(&task, settings)?,
             moved: MoveCounts::default(),
             parallel,
-            apart: (0..if parallel { threads } else { 0 }).map(own).collect(),
+            apart: task.program.apart(if parallel { threads } else { 0 }).into_iter().map(own).collect(),
             copies: Copies::default(),
+            resident: Resident::default(),
             logs: Vec::with_capacity(n),
             task,
         })
@@ -127,15 +131,29 @@ impl<'a> Population<'a> {
     /// Runs every particle to its next barrier, except the one whose index is `held`.
     pub fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
         let (task, settings, seed) = (&self.task, self.settings, self.settings.seed);
+        let limit = task.limits.bytes;
+        let room = self.resident.room(limit);
+        let mut growth = Growth::default();
         if !self.parallel {
             self.copies.make(&mut self.particles, seed);
-            let (mut machine, mut sight) = (task.machine(), Sight::default());
-            let mut others = self.particles.iter_mut().enumerate().filter(|(index, _)| Some(*index) != held);
-            return others.try_for_each(|(_, p)| advance(p, &mut machine, task, settings, &mut sight));
+            let own = one(task, self.particles.len());
+            let (mut machine, mut sight) = (own.machine(), Sight::default());
+            let others = self.particles.iter_mut().enumerate().filter(|(index, _)| Some(*index) != held);
+            for (_, p) in others {
+                let run = |p: &mut Particle, machine: &mut Machine<'_>| {
+                    advance(p, machine, &own, settings, &mut sight)
+                };
+                counted(p, &mut machine, limit, &mut growth, run)?;
+                if growth.up > room {
+                    return Err(too_large(task));
+                }
+            }
+            return self.resident.grown(growth, task, &self.particles);
         }
         // Of several faults, that of the first particle is reported, so that threads do not matter. Particles after
         // a failed one need not run: an endless model would use up its budget once for each.
         let (failed, fault) = (AtomicUsize::new(usize::MAX), Mutex::new(None));
+        let all = Mutex::new(growth);
         let threads = self.apart.len();
         let size = (self.particles.len() / (TASKS * threads)).clamp(1, BATCH);
         let batches = self.copies.batches(&mut self.particles, seed, size, threads);
@@ -143,27 +161,46 @@ impl<'a> Population<'a> {
         share(batches, |thread| {
             let task = &apart[thread];
             let (mut machine, mut sight) = (task.machine(), Sight::default());
-            let (failed, fault) = (&failed, &fault);
+            let (failed, fault, all) = (&failed, &fault, &all);
             move |mut batch: Vec<Indexed<'_>>| {
                 copy(&mut batch, seed);
+                let mut growth = Growth::default();
                 for Indexed { index, particle, .. } in batch {
                     particle.home = thread;
-                    if Some(index) == held || index > failed.load(Ordering::Relaxed) {
+                    if Some(index) == held || index > failed.load(Ordering::Relaxed) || growth.up > room {
                         continue;
                     }
-                    if let Err(own) = advance(particle, &mut machine, task, settings, &mut sight)
-                        && failed.fetch_min(index, Ordering::Relaxed) > index
-                    {
-                        let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
-                        if first.as_ref().is_none_or(|(before, _)| *before > index) {
-                            *first = Some((index, own));
+                    let run = |p: &mut Particle, machine: &mut Machine<'_>| {
+                        advance(p, machine, task, settings, &mut sight)
+                    };
+                    match counted(particle, &mut machine, limit, &mut growth, run) {
+                        Ok(()) => {}
+                        Err(own) if failed.fetch_min(index, Ordering::Relaxed) > index => {
+                            let mut first = fault.lock().unwrap_or_else(PoisonError::into_inner);
+                            if first.as_ref().is_none_or(|(before, _)| *before > index) {
+                                *first = Some((index, own));
+                            }
                         }
+                        Err(_) => {}
                     }
+                }
+                let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
+                all.add(growth);
+                if all.up > room {
+                    // The others need not run.
+                    failed.store(0, Ordering::Relaxed);
                 }
             }
         });
         self.copies.clear();
-        fault.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), |(_, own)| Err(own))
+        let growth = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if growth.up > room {
+            return Err(too_large(task));
+        }
+        match fault.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            Some((_, own)) => Err(own),
+            None => self.resident.grown(growth, task, &self.particles),
+        }
     }
 
     /// Makes the copies of the last resampling.
@@ -329,9 +366,13 @@ fn advance(
     Ok(())
 }
 
-/// Divides the memory budget of the task among the particles.
-fn share_memory(task: &Task, n: usize) -> Task {
-    let bytes = (task.limits.bytes / n).max(1 << 20);
+/// Parts of a population's budget of memory that one particle may use while it runs, if its own share is smaller.
+const PARTS: usize = 64;
+
+/// The task of one particle: between two barriers it may grow to its share of the memory, or to a small part of all. What
+/// all have together is counted at barriers ([`Resident`]).
+fn one(task: &Task, n: usize) -> Task {
+    let bytes = (task.limits.bytes / n).max(task.limits.bytes / PARTS);
     Task { limits: Limits { bytes, ..task.limits }, ..task.clone() }
 }
 

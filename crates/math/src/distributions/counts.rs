@@ -62,6 +62,7 @@ pub(super) fn poisson_log_density<S: Scalar>(rate: S, k: i64) -> S {
 
 /// The kept sampler's draw.
 #[inline(never)]
+#[expect(clippy::cast_possible_truncation, reason = "counts beyond the largest integer are replaced by it")]
 pub(super) fn poisson_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     rand_distr::Poisson::new(rate).map_or(0, |d| d.sample(rng) as i64)
 }

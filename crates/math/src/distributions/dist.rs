@@ -118,6 +118,27 @@ impl<S: Scalar> Dist<S> {
         })
     }
 
+    /// Bytes that its parameters take beside it. Parameters that are shared count for each distribution.
+    pub fn bytes(&self) -> usize {
+        let real = size_of::<S>();
+        let weights = |w: &Weights<S>| 64 + w.len() * (2 * real + size_of::<f64>());
+        match self {
+            Dist::Categorical(w) => weights(w),
+            Dist::Dirichlet(a) => 16 + a.len() * real,
+            Dist::MultivariateGaussian(g) => {
+                let n = g.mean.len();
+                128 + n * (2 * size_of::<Vec<S>>() + real) + (n * n + n * (n + 1) / 2) * real
+            }
+            // Mixtures are flat: a component is no mixture.
+            Dist::Mixture(m) => {
+                let component = |dist: &Dist<S>| size_of::<Dist<S>>() + dist.bytes();
+                32 + weights(&m.weights) + m.components.iter().map(component).sum::<usize>()
+            }
+            Dist::Delta(Draw::Vector(x)) => 16 + x.len() * real,
+            _ => 0,
+        }
+    }
+
     /// Log density of `x`, nats; minus infinity outside the support and for values of another kind.
     ///
     /// Kinds are Python's: 1 is accepted for 1.0 or true, and 3.0 for 3.

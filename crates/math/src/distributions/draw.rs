@@ -32,6 +32,7 @@ impl<S: Scalar> Draw<S> {
 
     /// As a whole number. As in Python, true is 1, and 3.0 is 3.
     #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "a whole number of at most 2^53")]
     pub fn as_int(&self) -> Option<i64> {
         match self {
             Draw::Int(i) => Some(*i),

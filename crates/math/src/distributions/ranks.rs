@@ -113,6 +113,10 @@ impl Dist {
     /// The first `k` whose [`Dist::normal_score`] is `z` or more: a Gaussian `z` gives a draw of the distribution.
     ///
     /// The search starts at a guess from mean and deviation, and doubles its steps.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a first guess: what is out of range becomes an end of it"
+    )]
     pub fn at_normal_score(&self, z: f64) -> Option<i64> {
         let guess = match *self {
             Dist::Poisson { rate } => rate + rate.sqrt() * z,

@@ -30,6 +30,7 @@ pub(super) fn discrete_uniform_log_density(lo: i64, hi: i64, x: i64) -> f64 {
 /// The high half of a product of 64 bits with the range; the few products that would make some values more
 /// likely than others are drawn again (Lemire 2019, alg. 5).
 #[inline]
+#[expect(clippy::cast_possible_truncation, reason = "the two halves of a product")]
 pub(super) fn discrete_uniform_sample(lo: i64, hi: i64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     let span = (hi.wrapping_sub(lo) as u64).wrapping_add(1);
     if span == 0 {
@@ -57,6 +58,7 @@ pub(super) fn geometric_log_density<S: Scalar>(p: S, x: i64) -> S {
 
 /// By inversion; counts beyond the largest `i64` are replaced by it.
 #[inline]
+#[expect(clippy::cast_possible_truncation, reason = "counts beyond the largest integer are replaced by it")]
 pub(super) fn geometric_sample(p: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     (open_unit(rng).ln() / (-p).ln_1p()).floor() as i64
 }

@@ -35,14 +35,24 @@ impl Program<f64> {
             classes: self.classes.clone(),
             functions: self.functions.iter().map(function).collect(),
             entry: self.entry,
+            others: Vec::new(),
         }
     }
 }
 
 impl<S: Scalar> Program<S> {
-    /// The same program for another thread: it has its own classes and small constants, whose references are counted
-    /// at every step, so that processors do not wait for each other's counts. Large constants are shared.
-    pub fn apart(&self) -> Program<S> {
+    /// The same program for each of so many threads: each copy has its own classes and small constants, whose references
+    /// are counted at every step, so that processors do not wait for each other's counts. Large constants are shared.
+    pub fn apart(&self, threads: usize) -> Vec<Program<S>> {
+        let mut copies: Vec<Program<S>> = (0..threads).map(|_| self.copy()).collect();
+        let small = |value: &&Value<S>| matches!(value, Value::Str(_) | Value::Dist(_) | Value::Function(_));
+        let constants = copies.iter().chain([self]).flat_map(|program| &program.functions);
+        let all: Vec<Value<S>> = constants.flat_map(|f| &f.constants).filter(small).cloned().collect();
+        copies.iter_mut().for_each(|copy| copy.others.clone_from(&all));
+        copies
+    }
+
+    fn copy(&self) -> Program<S> {
         let mut program = self.clone();
         program.classes.iter_mut().for_each(|class| *class = Arc::new((**class).clone()));
         for constant in program.functions.iter_mut().flat_map(|f| &mut f.constants) {

@@ -17,7 +17,7 @@ pub use disassemble::disassemble;
 pub use verify::{VerifyError, verify};
 
 use crate::core::{Name, Span};
-use crate::value::{Class, Value};
+use crate::value::{Census, Class, Value};
 use niwaki_math::{Family, Scalar};
 
 /// Where an instruction reads or writes a value.
@@ -484,9 +484,17 @@ pub struct Program<S: Scalar = f64> {
     pub functions: Vec<Function<S>>,
     /// Where a run starts.
     pub entry: FunctionId,
+    /// Of a copy for a thread: the constants of all copies. A particle may hold those of the thread that ran it before.
+    pub(crate) others: Vec<Value<S>>,
 }
 
 impl<S: Scalar> Program<S> {
+    /// Its constants, which are not counted as what a run holds.
+    pub fn leave_out(&self, census: &mut Census<'_, S>) {
+        let constants = self.functions.iter().flat_map(|f| &f.constants);
+        constants.chain(&self.others).for_each(|value| census.leave_out(value));
+    }
+
     /// A function by its number.
     #[inline]
     pub fn function(&self, id: FunctionId) -> &Function<S> {

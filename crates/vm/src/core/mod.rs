@@ -4,6 +4,7 @@
 //! from Python as text ([`read`] turns characters into nested lists, [`parse`] turns those into the types of
 //! this file, [`mod@print`] goes back), so that tests, fuzzers and bug reports run real programs without Python.
 
+pub(crate) mod deep;
 pub mod parse;
 pub mod print;
 pub mod read;
@@ -37,7 +38,7 @@ pub struct Span {
 }
 
 /// A whole program.
-#[derive(Clone, Debug, Default)]
+#[derive(Default)]
 pub struct Module {
     /// Source files, by the number that functions refer to.
     pub files: Vec<String>,

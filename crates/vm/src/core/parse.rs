@@ -1,12 +1,20 @@
 //! Nested lists to core form.
 
+use super::deep::with_stack;
 use super::read::{CoreError, Sexp, read};
 use super::*;
 
 type Result<T> = std::result::Result<T, CoreError>;
 
 /// Parses the text of a whole module.
+///
+/// # Errors
+/// Text that is not core form, or nested too deeply.
 pub fn parse(text: &str) -> Result<Module> {
+    with_stack(|| parse_here(text)).unwrap_or_else(|error| Err(CoreError::new(format!("no thread: {error}"))))
+}
+
+fn parse_here(text: &str) -> Result<Module> {
     let sexp = read(text)?;
     let Form { head, items, .. } = form(&sexp)?;
     if head != "module" {
@@ -18,11 +26,11 @@ pub fn parse(text: &str) -> Result<Module> {
         let Form { head, span, items: args, .. } = form(item)?;
         match head {
             "file" => {
-                number(arg(args, 0, head)?)?;
+                in_order(arg(args, 0, head)?, module.files.len(), head)?;
                 module.files.push(text_of(arg(args, 1, head)?)?.to_string());
             }
             "class" => module.classes.push(Class {
-                id: small(arg(args, 0, head)?)?,
+                id: in_order(arg(args, 0, head)?, module.classes.len(), head)?,
                 kind: match args.get(3) {
                     Some(Sexp::Atom("namedtuple")) => ClassKind::NamedTuple,
                     _ => ClassKind::Dataclass,
@@ -33,7 +41,13 @@ pub fn parse(text: &str) -> Result<Module> {
                     .map(|s| Ok(text_of(s)?.to_string()))
                     .collect::<Result<_>>()?,
             }),
-            "const" => module.constants.push((number(arg(args, 0, head)?)?, expr(arg(args, 1, head)?)?)),
+            "const" => {
+                let at = number(arg(args, 0, head)?)?;
+                if at > usize::from(u16::MAX) {
+                    return Err(CoreError::new(format!("({head} {at} ...): there are at most 65536")));
+                }
+                module.constants.push((at, expr(arg(args, 1, head)?)?));
+            }
             "fn" => module.functions.push(function(span, args)?),
             "entry" => entry = Some(name(arg(args, 0, head)?)?),
             other => return Err(CoreError::new(format!("unknown item `{other}` in a module"))),
@@ -158,7 +172,11 @@ fn compound(sexp: &Sexp<'_>) -> Result<Expr> {
         "dict" => {
             let (keys, values) = (exprs(list(at(0)?)?)?, tail(1)?);
             if keys.len() != values.len() {
-                return Err(CoreError::new(format!("{} keys of {} values", keys.len(), values.len())));
+                let found = format!("{} keys and {} values", keys.len(), values.len());
+                return Err(CoreError::new(format!("a dict with {found}")));
+            }
+            if !keys.iter().all(|key| matches!(key.kind, ExprKind::Literal(_))) {
+                return Err(CoreError::new("a dict's keys must be literals"));
             }
             ExprKind::Dict(keys, values)
         }
@@ -204,7 +222,7 @@ struct Form<'s, 'a> {
 
 fn form<'s, 'a>(sexp: &'s Sexp<'a>) -> Result<Form<'s, 'a>> {
     let Sexp::List(items) = sexp else {
-        return Err(CoreError::new(format!("expected a list, found {sexp:?}")));
+        return Err(CoreError::new(format!("expected a list, found {}", short(sexp))));
     };
     let Some(Sexp::Atom(head)) = items.first() else {
         return Err(CoreError::new("a list that does not start with a word"));
@@ -238,7 +256,7 @@ fn arg<'s, 'a>(args: &'s [Sexp<'a>], i: usize, head: &str) -> Result<&'s Sexp<'a
 fn list<'s, 'a>(sexp: &'s Sexp<'a>) -> Result<&'s [Sexp<'a>]> {
     match sexp {
         Sexp::List(items) => Ok(items),
-        other => Err(CoreError::new(format!("expected a list, found {other:?}"))),
+        other => Err(CoreError::new(format!("expected a list, found {}", short(other)))),
     }
 }
 
@@ -255,36 +273,40 @@ fn name(sexp: &Sexp<'_>) -> Result<Name> {
 }
 
 fn number(sexp: &Sexp<'_>) -> Result<usize> {
-    text_of(sexp)?.parse().map_err(|_| CoreError::new(format!("expected a number, found {sexp:?}")))
+    text_of(sexp)?.parse().map_err(|_| CoreError::new(format!("expected a number, found {}", short(sexp))))
 }
 
-/// The number of a file or class.
+/// A number that fits in 32 bits.
 fn small(sexp: &Sexp<'_>) -> Result<u32> {
-    let found = number(sexp)?;
-    u32::try_from(found).map_err(|_| CoreError::new(format!("the number {found} is too large")))
+    let value = number(sexp)?;
+    u32::try_from(value).map_err(|_| CoreError::new(format!("the number {value} is too large")))
+}
+
+/// The number of an item, which must be the next one.
+fn in_order(sexp: &Sexp<'_>, next: usize, head: &str) -> Result<u32> {
+    let found = small(sexp)?;
+    if found as usize == next {
+        return Ok(found);
+    }
+    Err(CoreError::new(format!("({head} {found} ...) where {head} {next} is next")))
+}
+
+/// An S-expression in a message.
+fn short(sexp: &Sexp<'_>) -> String {
+    match sexp {
+        Sexp::Atom(text) => format!("`{}`", text.chars().take(40).collect::<String>()),
+        Sexp::Text(text) => format!("the string {:?}", text.chars().take(40).collect::<String>()),
+        Sexp::List(items) => format!("a list of {}", items.len()),
+    }
 }
 
 fn var(sexp: &Sexp<'_>) -> Result<Name> {
     match sexp {
         Sexp::Atom(a) if a.starts_with('$') => Ok(Name::from(&a[1..])),
-        other => Err(CoreError::new(format!("expected a variable, found {other:?}"))),
+        other => Err(CoreError::new(format!("expected a variable, found {}", short(other)))),
     }
 }
 
 fn vars(items: &[Sexp<'_>]) -> Result<Vec<Name>> {
     items.iter().map(var).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_and_dictionaries_that_do_not_fit_are_errors() {
-        let module = |item: &str| format!("(module {item} (fn \"m\" (params) (return 1)) (entry \"m\"))");
-        assert!(parse(&module("(class 0 \"P\" (\"a\"))")).is_ok());
-        assert!(parse(&module("(class 4294967296 \"P\" (\"a\"))")).is_err());
-        assert!(parse(&module("(const 0 (dict (1 2) 3))")).is_err());
-        assert!(parse("(module (fn \"m\" (file 4294967296) (params) (return 1)) (entry \"m\"))").is_err());
-    }
 }

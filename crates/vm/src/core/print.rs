@@ -1,10 +1,15 @@
 //! Core form to text, one statement a line. [`super::parse`] reads it.
 
+use super::deep::with_stack;
 use super::*;
 use std::fmt::Write;
 
 /// The text of a module. Places are left out; `parse(print(m))` has the same meaning as `m`.
 pub fn print(module: &Module) -> String {
+    with_stack(|| print_here(module)).unwrap_or_else(|_| print_here(module))
+}
+
+fn print_here(module: &Module) -> String {
     let mut out = String::from("(module");
     for (i, file) in module.files.iter().enumerate() {
         let _ = write!(out, "\n  (file {i} {})", quoted(file));

@@ -38,7 +38,7 @@ impl std::fmt::Display for CoreError {
 
 impl std::error::Error for CoreError {}
 
-/// Lists nested deeper than this are refused: later passes recurse over expressions.
+/// Lists nested deeper than this are refused: later passes call themselves for each level.
 pub const MAX_DEPTH: usize = 2000;
 
 /// Reads one S-expression and nothing after it.
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn nests_strings_and_comments() {
         let s = read("(a \"x\\n\\u00e9\\ud83d\\ude00\" ; note\n (b 1.5))").unwrap();
-        let Sexp::List(items) = s else { panic!("a list") };
+        let Sexp::List(items) = &s else { panic!("a list") };
         assert_eq!(items[1], Sexp::Text("x\n\u{e9}\u{1F600}".into()));
         assert_eq!(items[2], Sexp::List(vec![Sexp::Atom("b"), Sexp::Atom("1.5")]));
     }

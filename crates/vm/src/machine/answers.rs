@@ -128,6 +128,9 @@ impl<S: Scalar> At<'_, S> {
 
 /// Answers the machine's questions.
 pub trait Answers<S: Scalar> {
+    /// Whether they remember the choices of a run: a run that makes choices without end takes memory then.
+    const LOGS: bool = false;
+
     /// The value of a random choice.
     ///
     /// # Errors
@@ -165,9 +168,9 @@ pub trait Answers<S: Scalar> {
     /// As for [`Answers::choice`].
     fn query(&mut self, at: &At<'_, S>, key: &Value<S>, value: &Value<S>) -> Result<(), Fault>;
 
-    /// A call of a pure host function.
+    /// A call of a pure host function. `steps` are those of the run so far; the function may add its own.
     ///
     /// # Errors
     /// As for [`Answers::choice`].
-    fn host(&mut self, constant: u16, args: &[Value<S>]) -> Result<Value<S>, Fault>;
+    fn host(&mut self, constant: u16, args: &[Value<S>], steps: &mut u64) -> Result<Value<S>, Fault>;
 }

@@ -7,6 +7,7 @@ use crate::code::{FunctionId, Mode, Place};
 use crate::fault::Fault;
 use crate::value::{Closure, Value};
 use niwaki_math::Scalar;
+use std::sync::Arc;
 
 impl<S: Scalar> Machine<'_, S> {
     /// The state of a run of a closure of the program; otherwise as [`Machine::start`].
@@ -49,7 +50,8 @@ impl<S: Scalar> Machine<'_, S> {
         let inputs =
             args.iter().cloned().chain((args.len()..needed).map(default)).chain(captures.iter().cloned());
         let unmet = Numbers::below(self.held.map_or(0, Held::len));
-        let mut state = State { depth_first, unmet, ..State::empty() };
+        let given = self.given(args, captures);
+        let mut state = State { depth_first, unmet, given, ..State::empty() };
         let root = state.new_node(self.program, function, NodeId::NONE, 0, address::ROOT);
         let at = state.nodes[root.0 as usize].registers as usize;
         // A pure function has its inputs in scratch: it is given them when it runs.
@@ -63,5 +65,12 @@ impl<S: Scalar> Machine<'_, S> {
         let id = state.new_future(Status::Runnable(root), false);
         state.runnable.push(id);
         Ok(state)
+    }
+
+    /// What a run is given, where that takes memory.
+    fn given(&self, args: &[Value<S>], captures: &[Value<S>]) -> Option<Arc<[Value<S>]>> {
+        let given = args.iter().chain(captures).filter(|value| !value.is_plain());
+        let given: Arc<[Value<S>]> = given.cloned().collect();
+        (!given.is_empty()).then_some(given)
     }
 }

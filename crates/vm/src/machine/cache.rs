@@ -11,6 +11,9 @@ use niwaki_math::{Dist, Family, Scalar};
 /// Entries of the table; the address in memory selects one.
 const ENTRIES: usize = 512;
 
+/// Bytes that it may hold in any case.
+const LEAST: usize = 1 << 20;
+
 /// A family, its parameters, and the distribution.
 type Entry<S> = (Family, Value<S>, Dist<S>);
 
@@ -18,15 +21,28 @@ type Entry<S> = (Family, Value<S>, Dist<S>);
 pub(super) struct DistCache<S: Scalar> {
     /// Empty until the first one is looked up: many machines run for one barrier or one proposal only.
     entries: Vec<Option<Entry<S>>>,
-}
-
-impl<S: Scalar> Default for DistCache<S> {
-    fn default() -> Self {
-        DistCache { entries: Vec::new() }
-    }
+    /// Bytes of the entries made since it was last emptied, and how many there may be.
+    bytes: usize,
+    most: usize,
 }
 
 impl<S: Scalar> DistCache<S> {
+    /// A cache of that many bytes at most; of a small run it may hold more than the run itself.
+    pub fn holding(bytes: usize) -> Self {
+        DistCache { entries: Vec::new(), bytes: 0, most: bytes.max(LEAST) }
+    }
+
+    /// Bytes of an entry, or more: the parameter, which it keeps from being freed, and the distribution.
+    fn bytes_of(value: &Value<S>) -> usize {
+        3 * value.own_bytes()
+    }
+
+    /// Whether the distribution of that parameter may be in it.
+    #[inline]
+    pub fn is_room_for(&self, value: &Value<S>) -> bool {
+        Self::bytes_of(value) <= self.most
+    }
+
     /// The entry for a value that has an address in memory.
     #[inline]
     pub fn index(&self, value: &Value<S>) -> Option<usize> {
@@ -48,8 +64,7 @@ impl<S: Scalar> DistCache<S> {
         if self.entries.is_empty() {
             self.entries.resize(ENTRIES, None);
         }
-        let entry = &mut self.entries[index];
-        let is_it = match entry {
+        let is_it = match &self.entries[index] {
             Some((of, known, _)) => {
                 *of == family
                     && match (known, value) {
@@ -61,11 +76,19 @@ impl<S: Scalar> DistCache<S> {
             None => false,
         };
         if !is_it {
-            *entry = None;
+            self.entries[index] = None;
         }
-        match entry {
+        if !is_it {
+            let added = Self::bytes_of(value);
+            if self.bytes + added > self.most {
+                self.entries.fill(None);
+                self.bytes = 0;
+            }
+            self.bytes += added;
+        }
+        match &mut self.entries[index] {
             Some((.., dist)) => Ok(dist),
-            None => {
+            entry => {
                 let dist = make_dist(family, std::slice::from_ref(value))?;
                 Ok(&entry.insert((family, value.clone(), dist)).2)
             }

@@ -2,6 +2,7 @@
 //! `interpret` they would take processor registers from every other instruction.
 
 use super::Machine;
+use super::budget::{self, Price};
 use super::keep::{Keep, put};
 use super::registers::Registers;
 use super::state::State;
@@ -60,6 +61,8 @@ impl<S: Scalar> Machine<'_, S> {
             }
             Op::Dist { to, family, args } => {
                 gather!(args);
+                let price = budget::of_dist(family, &self.buffer);
+                self.charge_passing(state, keep, price)?;
                 (to, Value::Dist(Arc::new(builtins::make_dist(family, &self.buffer)?)))
             }
             Op::Unpack { from, to } => {
@@ -109,6 +112,7 @@ impl<S: Scalar> Machine<'_, S> {
                     ));
                 }
                 let rest = n + 1 - count;
+                self.charge(state, keep, Price { steps: (rest / 8) as u64, bytes: 40 * rest })?;
                 for (k, o) in f.operands[to.range()].iter().enumerate() {
                     let item = match k.cmp(&star) {
                         Ordering::Less => iter_get(&value, k),
@@ -130,6 +134,9 @@ impl<S: Scalar> Machine<'_, S> {
             }
             other => unreachable!("`interpret` carries out {other:?} itself"),
         };
+        if !matches!(op, Op::Field { .. }) {
+            self.charge(state, keep, Price { steps: 0, bytes: value.own_bytes() })?;
+        }
         put(keep, state, &mut self.scratch, r, to, value);
         Ok(())
     }

@@ -1,14 +1,16 @@
 //! The loop over instructions. It is long because it is one table.
 
 use super::answers::Answers;
+use super::budget::{self, Price};
 use super::keep::{Keep, put};
 use super::question::Halt;
 use super::registers::Registers;
-use super::state::{FutureId, NodeId, State};
+use super::state::{FutureId, NodeId, State, make_room};
 use super::suspend::After;
 use super::{Here, Machine, PureCall, Stop, operate};
 use crate::builtins;
 use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
+use crate::core::readable;
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
@@ -113,8 +115,8 @@ impl<S: Scalar> Machine<'_, S> {
         macro_rules! step {
             () => {{
                 state.steps += 1;
-                if state.steps > self.limits.steps {
-                    check!(Err(self.out_of_steps()));
+                if state.steps > state.alarm {
+                    check!(self.look(state, keep));
                 }
             }};
         }
@@ -144,6 +146,17 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
+        // A value that was made.
+        macro_rules! made {
+            ($value:expr) => {{
+                let value = $value;
+                if !value.is_plain() {
+                    let price = Price { steps: 0, bytes: budget::of_result(&value) };
+                    check!(self.charge(state, keep, price));
+                }
+                value
+            }};
+        }
         // The compiler knows this operation, so it removes the cases of `operate` for the others.
         macro_rules! arithmetic {
             ($op:expr, $to:expr, $a:expr, $b:expr) => {{
@@ -161,7 +174,7 @@ impl<S: Scalar> Machine<'_, S> {
                 {
                     slot!($to, store_int, Value::Int, z);
                 } else {
-                    put!($to, check!(operate::values($op, a, b)));
+                    put!($to, check!(self.operate(state, keep, r!(), $op, ($a, $b))));
                 }
             }};
         }
@@ -174,12 +187,12 @@ impl<S: Scalar> Machine<'_, S> {
                 id = function;
                 f = program.function(id);
                 code = &f.code;
-                self.reserve(scratch + f.scratch_registers as usize);
+                let deeper = self.reserve(scratch + f.scratch_registers as usize);
                 for (i, value) in self.buffer.drain(..).enumerate() {
                     self.scratch[scratch + i].store(value);
                 }
-                if self.scratch.len() * size_of::<Value<S>>() > self.limits.bytes {
-                    check!(Err(self.out_of_memory()));
+                if deeper {
+                    check!(self.afford(state, keep));
                 }
                 pc = 0;
                 continue;
@@ -200,18 +213,20 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Mul { to, a, b } => arithmetic!(Binary::Mul, to, a, b),
                 Op::Div { to, a, b } => arithmetic!(Binary::Div, to, a, b),
                 Op::Binary { op, to, a, b } => {
-                    let (a, b) = (get!(a), get!(b));
-                    if let (Value::Int(x), Value::Int(y)) = (a, b)
+                    let (x, y) = (get!(a), get!(b));
+                    if let (Value::Int(x), Value::Int(y)) = (x, y)
                         && let Some(z) = operate::ints(op, *x, *y)
                     {
                         slot!(to, store_int, Value::Int, z);
+                    } else if op == Binary::Index {
+                        put!(to, check!(operate::values(op, x, y)));
                     } else {
-                        put!(to, check!(operate::values(op, a, b)));
+                        put!(to, check!(self.operate(state, keep, r!(), op, (a, b))));
                     }
                 }
                 Op::Neg { to, a } => {
                     let value = check!(ops::neg(get!(a)));
-                    put!(to, value);
+                    put!(to, made!(value));
                 }
                 Op::Not { to, a } => {
                     let value = check!(ops::truth(get!(a)));
@@ -229,7 +244,13 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                 }
                 Op::JumpUnlessCompare { op, a, b, target } => {
-                    if !check!(operate::holds(op, get!(a), get!(b))) {
+                    let (x, y) = (get!(a), get!(b));
+                    let holds = if x.is_plain() || y.is_plain() {
+                        check!(operate::holds(op, x, y))
+                    } else {
+                        check!(self.compare(state, keep, r!(), op, (a, b)))
+                    };
+                    if !holds {
                         goto!(target);
                     }
                 }
@@ -287,9 +308,15 @@ impl<S: Scalar> Machine<'_, S> {
                     let builtin = builtins::builtin::<S>(builtin);
                     let answer = if let [a] = f.operands[args.range()] {
                         // A single argument, as of `sqrt`, is read in place.
+                        if !get!(a).is_plain() {
+                            check!(self.charge_argument(state, keep, r!(), builtin, a));
+                        }
                         builtin.call(std::slice::from_ref(get!(a)))
                     } else {
                         gather!(args);
+                        if !self.buffer.iter().all(Value::is_plain) {
+                            check!(self.charge_arguments(state, keep, builtin));
+                        }
                         builtin.call(&self.buffer)
                     };
                     let value = check!(answer);
@@ -298,6 +325,9 @@ impl<S: Scalar> Machine<'_, S> {
                         std::mem::forget(value);
                         slot!(to, store_real, Value::Real, x);
                     } else {
+                        if !value.is_plain() {
+                            check!(self.charge_answer(state, keep, builtin, &value));
+                        }
                         put!(to, value);
                     }
                 }
@@ -306,8 +336,8 @@ impl<S: Scalar> Machine<'_, S> {
                     for value in &self.buffer {
                         check!(value.refuse_futures("given to what runs outside of the model"));
                     }
-                    let value = check!(answers.host(constant, &self.buffer));
-                    put!(to, value);
+                    let value = check!(answers.host(constant, &self.buffer, &mut state.steps));
+                    put!(to, made!(value));
                 }
                 Op::CallPure { to, function, args } => {
                     gather!(args);
@@ -331,7 +361,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::CheckSet { a, name } => {
                     if matches!(get!(a), Value::Unset) {
-                        let name = &f.names[name as usize];
+                        let name = readable(&f.names[name as usize]);
                         check!(Err(Fault::new(
                             "unassigned-variable",
                             format!("the variable `{name}` is read before it is assigned")
@@ -445,10 +475,23 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Reserves that many scratch registers.
+    /// Reserves that many scratch registers; whether they are more than the run has used before.
     #[inline]
-    fn reserve(&mut self, registers: usize) {
-        if self.scratch.len() < registers {
+    fn reserve(&mut self, registers: usize) -> bool {
+        let deeper = self.high < registers;
+        if deeper {
+            self.grow_scratch(registers);
+        }
+        deeper
+    }
+
+    #[inline(never)]
+    fn grow_scratch(&mut self, registers: usize) {
+        self.high = registers;
+        let len = self.scratch.len();
+        if len < registers {
+            make_room(&mut self.scratch, registers - len, || self.limits.bytes);
+            make_room(&mut self.pure, 1, || self.limits.bytes);
             self.scratch.resize(registers.max(64), Value::None);
         }
     }

@@ -11,7 +11,7 @@ use super::state::{NodeId, State};
 use super::suspend::After;
 use crate::code::{Args, Operand, SiteId};
 use crate::fault::Fault;
-use crate::value::Value;
+use crate::value::{Census, Value};
 use niwaki_math::Scalar;
 
 /// Where a run continues: at an instruction of an activation, or nowhere. One word, so that it fits a register.
@@ -105,6 +105,9 @@ pub(super) trait Keep<S: Scalar>: Sized {
 
     /// So many instructions were carried out.
     fn count(&mut self, instructions: u64);
+
+    /// Counts the bytes of what is kept, beside nodes and registers.
+    fn count_bytes<'v>(&'v self, census: &mut Census<'v, S>);
 }
 
 /// Puts a value into a register of the activation or of the machine.
@@ -183,4 +186,6 @@ impl<S: Scalar> Keep<S> for Dropped {
     }
 
     fn count(&mut self, _: u64) {}
+
+    fn count_bytes<'v>(&'v self, _: &mut Census<'v, S>) {}
 }

@@ -2,6 +2,7 @@
 
 use super::Machine;
 use super::address::{iteration_key, join};
+use super::keep::Dropped;
 use super::registers::Registers;
 use super::state::{FutureId, Node, NodeId, State};
 use super::suspend::After;
@@ -32,6 +33,7 @@ impl<S: Scalar> Machine<'_, S> {
             None => None,
         };
         let path = join(state.nodes[node.0 as usize].path, site.key);
+        let nodes = state.nodes.len();
         let header = state.new_node(self.program, l.header, node, u32::from(site_id.0), path);
         let at = state.nodes[header.0 as usize].registers as usize;
         r.gather(state, &self.scratch, l.captures, &mut self.buffer);
@@ -45,8 +47,8 @@ impl<S: Scalar> Machine<'_, S> {
         for (i, value) in first.into_iter().chain(self.buffer.drain(..)).enumerate() {
             state.registers[at + i].store(value);
         }
-        if state.bytes() > self.limits.bytes {
-            return Err(self.out_of_memory());
+        if state.nodes.len() > nodes {
+            self.afford(state, &Dropped)?;
         }
         Ok(After::Enter(inner, 0))
     }

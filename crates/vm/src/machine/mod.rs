@@ -5,7 +5,8 @@
 //!
 //! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given;
 //! * [`answers`]: the questions, and the trait of those who answer;
-//! * [`state`]: nodes, registers, futures; `begin`: those of a run that has not begun;
+//! * [`state`]: nodes, registers, futures; [`runnable`]: the futures that can run; `begin`: those of a run that has not begun;
+//! * `budget`: what an operation costs in steps and bytes, and the audit of a run's memory;
 //! * `parts`: what activations emitted last, for guides;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
@@ -18,6 +19,7 @@
 pub mod address;
 pub mod answers;
 mod begin;
+mod budget;
 mod cache;
 mod construct;
 pub mod held;
@@ -30,6 +32,7 @@ mod operate;
 mod parts;
 mod question;
 mod registers;
+pub mod runnable;
 pub mod stack;
 pub mod state;
 mod suspend;
@@ -45,19 +48,48 @@ use niwaki_geom::Shape;
 use niwaki_math::{LastLog, Scalar};
 use stack::RunFault;
 use state::{FutureId, NodeId, State, Status};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How much a run may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Calls, iterations and backward jumps, of one run.
+    /// Calls, iterations and backward jumps, of one run; an operation on many elements counts one for every 8 of them.
     pub steps: u64,
-    /// Bytes of nodes and registers, of one run.
+    /// Bytes of nodes, registers and values, of one run.
     pub bytes: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
         Limits { steps: 20_000_000, bytes: 1 << 30 }
+    }
+}
+
+/// The steps that many runs may take together. Whether they are too many does not depend on the order of the runs.
+#[derive(Debug)]
+pub struct Together {
+    most: u64,
+    taken: AtomicU64,
+}
+
+impl Together {
+    /// That many steps.
+    pub fn new(most: u64) -> Self {
+        Together { most, taken: AtomicU64::new(0) }
+    }
+
+    /// The steps taken so far.
+    pub fn taken(&self) -> u64 {
+        self.taken.load(Ordering::Relaxed)
+    }
+
+    /// Whether more were taken than there were.
+    pub fn is_spent(&self) -> bool {
+        self.taken() > self.most
+    }
+
+    fn take(&self, steps: u64) {
+        self.taken.fetch_add(steps, Ordering::Relaxed);
     }
 }
 
@@ -99,7 +131,10 @@ pub struct Machine<'p, S: Scalar = f64> {
     program: &'p Program<S>,
     limits: Limits,
     held: Option<&'p Held<S>>,
+    together: Option<&'p Together>,
     scratch: Vec<Value<S>>,
+    /// How many scratch registers were used since they were emptied.
+    high: usize,
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
     shapes: Vec<Shape>,
@@ -115,11 +150,13 @@ impl<'p, S: Scalar> Machine<'p, S> {
             program,
             limits,
             held: None,
+            together: None,
             scratch: Vec::new(),
+            high: 0,
             pure: Vec::new(),
             buffer: Vec::new(),
             shapes: Vec::new(),
-            cache: DistCache::default(),
+            cache: DistCache::holding(limits.bytes / 16),
             logs: LastLog::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
         }
@@ -128,6 +165,23 @@ impl<'p, S: Scalar> Machine<'p, S> {
     /// The machine with choices held, where there are any.
     pub fn holding(self, held: Option<&'p Held<S>>) -> Self {
         Machine { held, ..self }
+    }
+
+    /// The machine with steps that its runs share, where there are any.
+    pub fn within(self, together: Option<&'p Together>) -> Self {
+        Machine { together, ..self }
+    }
+
+    /// Takes the steps of a part of a run from those that are shared.
+    #[inline]
+    fn take_steps(&self, steps: u64) -> Result<(), Fault> {
+        if let Some(together) = self.together {
+            together.take(steps);
+            if together.is_spent() {
+                return Err(self.out_of_steps());
+            }
+        }
+        Ok(())
     }
 
     /// The program that it runs.
@@ -156,15 +210,21 @@ impl<'p, S: Scalar> Machine<'p, S> {
         future: FutureId,
         answers: &mut A,
     ) -> Result<Stop, Box<RunFault>> {
-        self.pure.clear();
-        let Status::Runnable(node) = state.futures[future.0 as usize].status else {
+        self.empty_scratch();
+        self.set_ceiling(state);
+        let Some(Status::Runnable(node)) = state.futures.get(future.0 as usize).map(|f| &f.status) else {
             return Err(Box::new(
                 self.report(state, Fault::new("not-runnable", "this future cannot run now")),
             ));
         };
-        let pc = state.nodes[node.0 as usize].pc as usize;
-        match self.interpret(state, &mut Dropped, future, (node, pc), answers) {
+        let node = *node;
+        let (pc, before) = (state.nodes[node.0 as usize].pc as usize, state.steps);
+        let stop = self.interpret(state, &mut Dropped, future, (node, pc), answers);
+        match stop {
             Ok(stop) => {
+                if let Err(fault) = self.take_steps(state.steps - before) {
+                    return Err(Box::new(self.report(state, fault)));
+                }
                 if let Some(held) = self.held
                     && state.has_ended()
                     && let Some(number) = state.unmet.first()
@@ -187,7 +247,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         answers: &mut A,
     ) -> Result<(), Box<RunFault>> {
         while !state.has_ended() {
-            let Some(next) = state.runnable().first().copied() else {
+            let Some(next) = state.runnable().first() else {
                 return Err(Box::new(self.waiting_cycle(state)));
             };
             self.resume(state, next, answers)?;

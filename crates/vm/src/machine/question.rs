@@ -6,6 +6,8 @@
 use super::Machine;
 use super::address::join;
 use super::answers::{Answer, Answers, At, Factor};
+use super::budget;
+use super::keep::Dropped;
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use crate::builtins::{make_dist, quick_dist, value_to_draw};
@@ -13,6 +15,9 @@ use crate::code::{Args, Site, SiteKind, Source};
 use crate::fault::Fault;
 use crate::value::{Value, index, ops};
 use niwaki_math::{Dist, Family, Scalar};
+
+/// Bytes of a choice in a log: its address and value, and a share of the blocks that they are stored in.
+const LOGGED: usize = 36;
 
 #[cold]
 fn no_dist<S: Scalar>(value: &Value<S>) -> Fault {
@@ -137,7 +142,10 @@ impl<S: Scalar> Machine<'_, S> {
                 if let [only] = r.f.operands[args.range()]
                     && let Some(index) = self.cache.index(r.get(state, &self.scratch, only))
                 {
-                    return self.cache.dist(index, family, r.get(state, &self.scratch, only));
+                    let value = r.get(state, &self.scratch, only);
+                    if self.cache.is_room_for(value) {
+                        return self.cache.dist(index, family, value);
+                    }
                 }
                 Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
             }
@@ -158,6 +166,11 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         site: &Site,
     ) -> Result<(), Halt> {
+        if let SiteKind::Sample(Source::Family(family)) = site.kind
+            && budget::has_rows(family)
+        {
+            self.charge_rows(state, &Dropped, r, site.args, family)?;
+        }
         let (program, mut owned) = (self.program, None);
         let held = self.held;
         let dist = self.dist(state, r, site, site.args, &mut owned)?;
@@ -172,11 +185,29 @@ impl<S: Scalar> Machine<'_, S> {
         }
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
             Answer::Go(value) => {
+                if A::LOGS {
+                    state.logged += LOGGED;
+                }
+                if !value.is_plain() {
+                    self.charge_choice::<A>(state, &value)?;
+                }
                 state.registers[r.own + site.to.index()].store(value);
                 Ok(())
             }
             Answer::Pause => Err(Halt::Paused),
         }
+    }
+
+    /// Charges a chosen value that takes memory, with its entry in the log.
+    #[inline(never)]
+    fn charge_choice<A: Answers<S>>(&self, state: &mut State<S>, value: &Value<S>) -> Result<(), Fault> {
+        let bytes = budget::of_result(value);
+        if A::LOGS {
+            state.logged += bytes;
+        } else {
+            state.charged += bytes;
+        }
+        self.afford(state, &Dropped)
     }
 
     /// An activation is left: a held choice in it that was not met never will be.
@@ -217,6 +248,11 @@ impl<S: Scalar> Machine<'_, S> {
                 let value = get!(last).clone();
                 let mut owned = None;
                 let args = Args { len: last as u16, ..site.args };
+                if let SiteKind::Observe(Source::Family(family)) = site.kind
+                    && budget::has_rows(family)
+                {
+                    self.charge_rows(state, &Dropped, r, args, family)?;
+                }
                 let dist = self.dist(state, r, site, args, &mut owned)?;
                 let log = log_density(dist, &value)?;
                 if site.is_read {

@@ -8,6 +8,7 @@ use crate::core::{Name, Span};
 use crate::fault::Fault;
 use crate::passes::place::reads_and_writes;
 use niwaki_math::Scalar;
+use std::collections::VecDeque;
 
 /// One call of a stack.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,6 +61,47 @@ const OF_KIND: [&str; 10] = [
 /// Calls kept at each end of a deep stack.
 const ENDS: usize = 8;
 
+/// The two ends of a stack. The calls of an endless recursion would take more memory than the run.
+#[derive(Default)]
+struct Ends {
+    inner: Vec<Call>,
+    outer: VecDeque<Call>,
+    omitted: usize,
+    /// The last call added was a loop's body of this function.
+    body_of: Option<Name>,
+}
+
+impl Ends {
+    /// Adds the call around the one added last.
+    fn add(&mut self, call: Call) {
+        let is_body = call.function.contains('/');
+        let name = match call.function.split_once('/') {
+            Some((name, _)) => Name::from(name),
+            None => call.function.clone(),
+        };
+        // A loop's body is no call of its own to the person who wrote it.
+        let inside = self.body_of.take().is_some_and(|inner| inner == name);
+        self.body_of = is_body.then(|| name.clone());
+        if inside {
+            return;
+        }
+        let call = Call { function: name, ..call };
+        if self.inner.len() < ENDS {
+            return self.inner.push(call);
+        }
+        if self.outer.len() == ENDS {
+            self.outer.pop_front();
+            self.omitted += 1;
+        }
+        self.outer.push_back(call);
+    }
+
+    /// The calls, and how many were left out between them.
+    fn outermost_first(self) -> (Vec<Call>, usize) {
+        (self.outer.into_iter().rev().chain(self.inner.into_iter().rev()).collect(), self.omitted)
+    }
+}
+
 impl<S: Scalar> Machine<'_, S> {
     /// The fault with the call stack at the place where the machine is.
     pub(super) fn report(&self, state: &State<S>, fault: Fault) -> RunFault {
@@ -69,9 +111,10 @@ impl<S: Scalar> Machine<'_, S> {
             Call { function: f.name.clone(), file: f.file, span: f.spans.get(pc).copied().unwrap_or(f.span) }
         };
         // Innermost first: pure calls, then activations up to the future's own.
-        let mut calls = vec![call(self.here.function, self.here.pc)];
+        let mut calls = Ends::default();
+        calls.add(call(self.here.function, self.here.pc));
         for pure in self.pure.iter().rev() {
-            calls.push(call(pure.caller, pure.pc - 1));
+            calls.add(call(pure.caller, pure.pc - 1));
         }
         let mut at = self.here.node;
         while at != NodeId::NONE {
@@ -83,27 +126,11 @@ impl<S: Scalar> Machine<'_, S> {
             let f = self.program.function(parent.function);
             if f.mode != Mode::Loop {
                 let site = &f.sites[n.site as usize];
-                calls.push(call(parent.function, site.next as usize - 1));
+                calls.add(call(parent.function, site.next as usize - 1));
             }
             at = n.parent;
         }
-        // A loop's body is no call of its own to the person who wrote it.
-        let mut stack: Vec<Call> = Vec::new();
-        for (i, c) in calls.iter().enumerate() {
-            let name = Name::from(c.function.split('/').next().unwrap_or(&c.function));
-            if i > 0
-                && stack.last().is_some_and(|inner: &Call| inner.function == name)
-                && self.is_body(&calls[i - 1])
-            {
-                continue;
-            }
-            stack.push(Call { function: name, ..c.clone() });
-        }
-        stack.reverse();
-        let omitted = stack.len().saturating_sub(2 * ENDS);
-        if omitted > 0 {
-            stack.drain(ENDS..ENDS + omitted);
-        }
+        let (stack, omitted) = calls.outermost_first();
         let path = if omitted > 0 { String::new() } else { state.path(self.program, self.here.node) };
         RunFault { fault, stack, omitted, path }
     }
@@ -134,10 +161,6 @@ impl<S: Scalar> Machine<'_, S> {
         if met { Fault::not_forced(fault.message.clone()) } else { fault }
     }
 
-    fn is_body(&self, call: &Call) -> bool {
-        call.function.contains('/')
-    }
-
     pub(super) fn out_of_steps(&self) -> Fault {
         let n = self.limits.steps;
         Fault::new("step-budget", format!("the model took more than {n} steps without ending"))
@@ -146,8 +169,9 @@ impl<S: Scalar> Machine<'_, S> {
 
     pub(super) fn out_of_memory(&self) -> Fault {
         let megabytes = self.limits.bytes >> 20;
-        Fault::new("memory-budget", format!("the model needs more than {megabytes} MB for its calls"))
-            .with_help("check that every recursion ends, or raise `max_memory`")
+        let needs = format!("the model needs more than {megabytes} MB for its calls and values");
+        Fault::new("memory-budget", needs)
+            .with_help("check that every recursion ends and every list stays short, or raise `max_memory`")
     }
 
     /// The fault of futures that wait for each other.

@@ -16,10 +16,12 @@
 use super::address;
 use super::held::Numbers;
 use super::parts::Parts;
+use super::runnable::Runnable;
 use crate::code::{FunctionId, Mode, Program};
-use crate::value::Value;
+use crate::value::{Census, Value};
 use niwaki_math::Scalar;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Number of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,6 +35,11 @@ impl NodeId {
 /// Number of a future; the root call is future 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FutureId(pub u32);
+
+impl FutureId {
+    /// No future.
+    pub const NONE: FutureId = FutureId(u32::MAX);
+}
 
 /// An activation.
 #[derive(Clone, Copy, Debug)]
@@ -70,9 +77,17 @@ pub(crate) enum Status<S: Scalar> {
 #[derive(Clone, Debug)]
 pub(crate) struct Future<S: Scalar> {
     pub status: Status<S>,
-    pub has_waiters: bool,
+    /// The future that waits for it, and the next one that waits for the same: a list, `NONE` at its end.
+    pub waiter: FutureId,
+    pub next_waiter: FutureId,
     /// No value holds its handle: its number is free once it has returned.
     pub detached: bool,
+}
+
+impl<S: Scalar> Future<S> {
+    fn new(status: Status<S>, detached: bool) -> Self {
+        Future { status, waiter: FutureId::NONE, next_waiter: FutureId::NONE, detached }
+    }
 }
 
 /// The state of one run of a program.
@@ -84,11 +99,21 @@ pub struct State<S: Scalar = f64> {
     pub(crate) free: Vec<NodeId>,
     pub(crate) futures: Vec<Future<S>>,
     pub(crate) free_futures: Vec<u32>,
-    pub(crate) runnable: Vec<FutureId>,
+    pub(crate) runnable: Runnable,
     pub(crate) unreturned: u32,
     /// Futures run where they are created.
     pub(crate) depth_first: bool,
     pub(crate) steps: u64,
+    /// Bytes of values: those that the last audit found, and all that was made since.
+    pub(crate) charged: usize,
+    /// Bytes of the choices that were logged.
+    pub(crate) logged: usize,
+    /// The next audit is due when [`State::bytes`] is above this.
+    pub(crate) ceiling: usize,
+    /// The limits are looked at when more steps than these are taken.
+    pub(crate) alarm: u64,
+    /// What the run was given: it belongs to the caller, and is not counted.
+    pub(crate) given: Option<Arc<[Value<S>]>>,
     /// Held choices that the run has not met.
     pub(crate) unmet: Numbers,
     /// Readable paths of the activations that futures began with, where they are kept.
@@ -110,10 +135,18 @@ impl<S: Scalar> Clone for State<S> {
         copy(&mut self.free, &source.free);
         copy(&mut self.futures, &source.futures);
         copy(&mut self.free_futures, &source.free_futures);
-        copy(&mut self.runnable, &source.runnable);
+        self.runnable.clone_from(&source.runnable);
         self.unreturned = source.unreturned;
         self.depth_first = source.depth_first;
         self.steps = source.steps;
+        self.charged = source.charged;
+        self.logged = source.logged;
+        self.ceiling = source.ceiling;
+        self.alarm = source.alarm;
+        let address = |given: &Option<Arc<[Value<S>]>>| given.as_ref().map(Arc::as_ptr);
+        if address(&self.given) != address(&source.given) {
+            self.given.clone_from(&source.given);
+        }
         self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
         self.parts.clone_from(&source.parts);
@@ -133,6 +166,20 @@ pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     }
 }
 
+/// From this many bytes on a vector that grows is given all the room that it may need.
+const LARGE: usize = 1 << 20;
+
+/// Makes room for more elements. A large vector gets room for `spare` bytes at once: pages that are not written take no
+/// memory, while a vector that doubles is in memory twice when it moves.
+#[inline]
+pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: impl FnOnce() -> usize) {
+    if vector.capacity() - vector.len() < more && vector.len() * size_of::<T>() >= LARGE {
+        let room = (spare() / size_of::<T>()).max(more);
+        // Where so much cannot be had, the vector grows as usual.
+        let _ = vector.try_reserve_exact(room);
+    }
+}
+
 impl<S: Scalar> State<S> {
     /// An empty state.
     pub(crate) fn empty() -> Self {
@@ -142,10 +189,15 @@ impl<S: Scalar> State<S> {
             free: Vec::new(),
             futures: Vec::new(),
             free_futures: Vec::new(),
-            runnable: Vec::new(),
+            runnable: Runnable::default(),
             unreturned: 0,
             depth_first: false,
             steps: 0,
+            charged: 0,
+            logged: 0,
+            ceiling: 0,
+            alarm: 0,
+            given: None,
             unmet: Numbers::default(),
             origins: None,
             parts: Parts::default(),
@@ -158,7 +210,7 @@ impl<S: Scalar> State<S> {
     }
 
     /// The futures that can run, in an order that is the same in every run.
-    pub fn runnable(&self) -> &[FutureId] {
+    pub fn runnable(&self) -> &Runnable {
         &self.runnable
     }
 
@@ -194,7 +246,7 @@ impl<S: Scalar> State<S> {
 
     /// The state of a run that has ended with this value.
     pub fn of_result(value: Value<S>) -> Self {
-        let root = Future { status: Status::Returned(value), has_waiters: false, detached: false };
+        let root = Future::new(Status::Returned(value), false);
         State { futures: vec![root], ..State::empty() }
     }
 
@@ -215,14 +267,44 @@ impl<S: Scalar> State<S> {
         })
     }
 
-    /// Steps taken so far: calls, iterations and backward jumps.
+    /// Steps taken so far: calls, iterations and backward jumps, and those of operations on many elements.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Bytes that nodes and registers hold.
+    /// Bytes that nodes, registers and values take, or more: values that were dropped since the last audit count, too.
+    #[inline]
     pub fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>() + self.registers.len() * size_of::<Value<S>>()
+        self.own_bytes().saturating_add(self.charged).saturating_add(self.logged)
+    }
+
+    /// Of [`State::bytes`], those of values and of logged choices.
+    #[inline]
+    pub fn value_bytes(&self) -> usize {
+        self.charged + self.logged
+    }
+
+    /// Bytes of nodes, registers and futures.
+    #[inline]
+    pub fn own_bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>()
+            + self.registers.len() * size_of::<Value<S>>()
+            + self.futures.len() * (size_of::<Future<S>>() + size_of::<FutureId>())
+    }
+
+    /// Counts the values that the run holds.
+    pub fn count<'v>(&'v self, census: &mut Census<'v, S>) {
+        self.registers.iter().for_each(|value| census.add(value));
+        for future in &self.futures {
+            if let Status::Returned(value) = &future.status {
+                census.add(value);
+            }
+        }
+    }
+
+    /// What the run was given, which is not counted as what it holds.
+    pub fn leave_out_given(&self, census: &mut Census<'_, S>) {
+        self.given.iter().flat_map(|given| given.iter()).for_each(|value| census.leave_out(value));
     }
 
     /// A node for an activation of `function`; what its registers hold means nothing.
@@ -258,6 +340,10 @@ impl<S: Scalar> State<S> {
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
+        let (taken, ceiling) = (self.bytes(), self.ceiling);
+        let spare = || ceiling.saturating_sub(taken);
+        make_room(&mut self.registers, count, spare);
+        make_room(&mut self.nodes, 1, spare);
         self.registers.resize(at + count, Value::None);
         self.nodes.push(Node { registers: at as u32, ..fresh });
         NodeId((self.nodes.len() - 1) as u32)
@@ -293,7 +379,7 @@ impl<S: Scalar> State<S> {
         if !matches!(status, Status::Returned(_)) {
             self.unreturned += 1;
         }
-        let future = Future { status, has_waiters: false, detached };
+        let future = Future::new(status, detached);
         let id = match self.free_futures.pop() {
             Some(id) => {
                 self.futures[id as usize] = future;
@@ -310,23 +396,36 @@ impl<S: Scalar> State<S> {
     /// A future has returned: those that waited for it can run.
     pub(crate) fn returned(&mut self, id: FutureId, value: Value<S>) {
         self.unreturned -= 1;
-        self.runnable.retain(|f| *f != id);
+        self.runnable.remove(id);
         let future = &mut self.futures[id.0 as usize];
-        let (waited_for, detached) = (future.has_waiters, future.detached);
+        let (mut waiter, detached) = (future.waiter, future.detached);
         future.status = if detached { Status::Free } else { Status::Returned(value) };
         if detached {
             self.free_futures.push(id.0);
         }
-        if waited_for {
-            for (i, future) in self.futures.iter_mut().enumerate() {
-                if let Status::Waiting(node, on) = future.status
-                    && on == id
-                {
-                    future.status = Status::Runnable(node);
-                    self.runnable.push(FutureId(i as u32));
-                }
+        // In the order of their numbers, whichever waited first.
+        let mut waiting = Vec::new();
+        while waiter != FutureId::NONE {
+            waiting.push(waiter);
+            waiter = self.futures[waiter.0 as usize].next_waiter;
+        }
+        waiting.sort_unstable_by_key(|waiter| waiter.0);
+        for waiter in waiting {
+            let future = &mut self.futures[waiter.0 as usize];
+            if let Status::Waiting(node, _) = future.status {
+                future.status = Status::Runnable(node);
+                self.runnable.push(waiter);
             }
         }
+    }
+
+    /// A future stops at this node, to continue when another has returned.
+    pub(super) fn wait(&mut self, future: FutureId, node: NodeId, wanted: FutureId) {
+        let first = std::mem::replace(&mut self.futures[wanted.0 as usize].waiter, future);
+        let own = &mut self.futures[future.0 as usize];
+        own.next_waiter = first;
+        own.status = Status::Waiting(node, wanted);
+        self.runnable.remove(future);
     }
 
     /// The component of a loop's node in addresses, its iteration left open: that of its site, or, of a loop that is run

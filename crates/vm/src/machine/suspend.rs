@@ -2,6 +2,8 @@
 
 use super::address::join;
 use super::answers::{Answer, Answers, At};
+use super::budget;
+use super::keep::Dropped;
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
@@ -62,6 +64,7 @@ impl<S: Scalar> Machine<'_, S> {
         match &site.kind {
             SiteKind::Query => {
                 get!(0).refuse_futures("the key of a query")?;
+                get!(0).refuse_as_key()?;
                 answers.query(&at!(), get!(0), get!(1))?;
                 Ok(After::Next)
             }
@@ -112,10 +115,8 @@ impl<S: Scalar> Machine<'_, S> {
                     state.registers[r.own + site.to.index()].store(value);
                     return Ok(After::Next);
                 }
-                state.futures[wanted as usize].has_waiters = true;
                 state.nodes[node.0 as usize].pc = site.resumes_at(pc) as u32;
-                state.futures[future.0 as usize].status = Status::Waiting(node, FutureId(wanted));
-                state.runnable.retain(|f| *f != future);
+                state.wait(future, node, FutureId(wanted));
                 Ok(After::Stop(Stop::Waiting))
             }
             SiteKind::Cell { .. } => {
@@ -125,6 +126,8 @@ impl<S: Scalar> Machine<'_, S> {
             }
             SiteKind::Append { .. } => {
                 let list = ops::append(get!(0).clone(), get!(1).clone())?;
+                state.charged += budget::of_append(&list);
+                self.afford(state, &Dropped)?;
                 state.registers[r.own + site.to.index()].store(list);
                 Ok(After::Next)
             }
@@ -208,8 +211,8 @@ impl<S: Scalar> Machine<'_, S> {
         let nodes = state.nodes.len();
         let created = state.new_node(self.program, function, node, u32::from(number.0), path);
         // A node that was used before takes no further bytes.
-        if state.nodes.len() > nodes && state.bytes() > self.limits.bytes {
-            return Err(self.out_of_memory());
+        if state.nodes.len() > nodes {
+            self.afford(state, &Dropped)?;
         }
         let at = state.nodes[created.0 as usize].registers as usize;
         for (i, o) in r.f.operands[site.args.range()].iter().enumerate() {
@@ -240,13 +243,14 @@ impl<S: Scalar> Machine<'_, S> {
         let path = join(n.path, site.key);
         let deferred = future.filter(|_| !state.depth_first);
         let parent = if deferred.is_some() { NodeId::NONE } else { node };
+        let nodes = state.nodes.len();
         let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
         let at = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in self.buffer.drain(..).enumerate() {
             state.registers[at + i].store(value);
         }
-        if state.bytes() > self.limits.bytes {
-            return Err(self.out_of_memory());
+        if state.nodes.len() > nodes {
+            self.afford(state, &Dropped)?;
         }
         let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
         if state.origins.is_some() {

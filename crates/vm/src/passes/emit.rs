@@ -3,11 +3,16 @@
 use super::liveness::LoopHeads;
 use super::scope::Keeping;
 use super::{CompileError, Unit, literal, place};
+use crate::builtins::make_dist;
 use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site, Visible};
 use crate::core::{self, ExprKind, Literal, Name, Span};
-use crate::value::Value;
+use crate::value::{self, Value};
 use niwaki_math::Scalar;
 use std::collections::HashMap;
+use std::sync::Arc;
+
+/// More instructions or operands in one function are refused: the passes take time by their number squared.
+const MOST_CODE: usize = 1 << 18;
 
 pub(crate) type Result<T> = std::result::Result<T, CompileError>;
 
@@ -63,7 +68,7 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub moment: u32,
     /// The variable that the current statement assigns.
     pub target: Option<Name>,
-    /// More constants, or more operands at one place, than an instruction can number.
+    /// A count does not fit into its place in an instruction.
     pub too_large: bool,
 }
 
@@ -135,8 +140,45 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                     f.name
                 ))),
             },
-            _ => Err(CompileError(format!("a default of `{}` must be an atom", f.name))),
+            _ => {
+                let value = self.fixed(e)?;
+                Ok(self.constant(value))
+            }
         }
+    }
+
+    /// The value of an expression that is made of constants and of functions without captures.
+    fn fixed(&self, e: &core::Expr) -> Result<Value<S>> {
+        use ExprKind::*;
+        let all = |items: &[core::Expr]| items.iter().map(|e| self.fixed(e)).collect::<Result<Vec<_>>>();
+        Ok(match &e.kind {
+            Literal(l) => literal(l),
+            Data(k) => {
+                let value = self.unit.data.get(*k).cloned();
+                value.ok_or_else(|| CompileError(format!("constant {k} is missing")))?
+            }
+            Closure(name, captures) if captures.is_empty() => {
+                let id = self.function_id(name)?;
+                if !self.definition(id).captures.is_empty() {
+                    return Err(CompileError(format!("a closure of `{name}` without its captures")));
+                }
+                Value::Function(Arc::new(value::Closure { function: id.0, captures: vec![] }))
+            }
+            Dist(family, args) => {
+                Value::Dist(Arc::new(make_dist(super::sites::family(family)?, &all(args)?)?))
+            }
+            Record(class, fields) => {
+                let class = Arc::new(self.unit.module.classes[*class].clone());
+                Value::Record(Arc::new(value::Record { class, fields: all(fields)? }))
+            }
+            List(items) => Value::list(all(items)?),
+            Tuple(items) => Value::tuple(all(items)?),
+            Dict(keys, values) => {
+                let pairs = all(keys)?.into_iter().zip(all(values)?).collect();
+                Value::Dict(Arc::new(value::Dict::new(pairs)))
+            }
+            _ => return Err(CompileError(format!("a default of `{}` is not made of constants", self.name))),
+        })
     }
 
     /// Resolves labels, chooses places for the registers and returns the function.
@@ -147,12 +189,6 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         defaults: Vec<Operand>,
         span: Span,
     ) -> Result<Function<S>> {
-        if self.too_large {
-            return Err(CompileError(format!(
-                "`{}` is too large: give it long lists from outside, as constants",
-                self.name
-            )));
-        }
         for op in &mut self.code {
             if let Op::Jump { target }
             | Op::JumpIf { target, .. }
@@ -164,7 +200,11 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                 *target = at.ok_or_else(|| CompileError("a jump to nowhere".into()))? as u32;
             }
         }
-        let sites = self.sites.len() as u16;
+        if self.too_large || self.operands.len().max(self.code.len()) > MOST_CODE {
+            return Err(self.is_too_large());
+        }
+        let (sites, params, captures) =
+            (self.sixteen(self.sites.len())?, self.sixteen(params)?, self.sixteen(captures)?);
         for op in &mut self.code {
             if let Op::Clear { to, .. } = op {
                 *to = sites.min(*to);
@@ -175,9 +215,9 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             file: self.file,
             span,
             mode: self.mode,
-            params: params as u16,
+            params,
             defaults,
-            captures: captures as u16,
+            captures,
             node_registers: 0,
             scratch_registers: 0,
             code: self.code,
@@ -216,13 +256,19 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     /// A fresh register, virtual until [`place`] decides.
     pub fn register(&mut self) -> Result<Operand> {
         if self.registers > Operand::MAX_INDEX {
-            return Err(CompileError(format!(
-                "`{}` is too large: split it into smaller functions",
-                self.name
-            )));
+            return Err(self.is_too_large());
         }
         self.registers += 1;
         Ok(Operand::new(Place::Node, self.registers - 1))
+    }
+
+    pub fn is_too_large(&self) -> CompileError {
+        CompileError(format!("`{}` is too large: split it into smaller functions", self.name))
+    }
+
+    /// A number as it is in an instruction.
+    pub fn sixteen(&self, number: usize) -> Result<u16> {
+        u16::try_from(number).map_err(|_| self.is_too_large())
     }
 
     /// From here on, the sites with numbers `from..to` are not on the path.
@@ -245,9 +291,9 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     }
 
     pub fn args(&mut self, operands: &[Operand]) -> Args {
-        self.too_large |= operands.len() > u16::MAX as usize;
         let start = self.operands.len() as u32;
         self.operands.extend_from_slice(operands);
+        self.too_large |= operands.len() > usize::from(u16::MAX);
         Args { start, len: operands.len() as u16 }
     }
 
@@ -285,12 +331,13 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             self.names.push(name.clone());
             self.names.len() - 1
         });
+        self.too_large |= at > usize::from(u16::MAX);
         at as u16
     }
 
     pub fn constant(&mut self, value: Value<S>) -> Operand {
-        self.too_large |= self.constants.len() > Operand::MAX_INDEX;
         self.constants.push(value);
+        self.too_large |= self.constants.len() > Operand::MAX_INDEX + 1;
         Operand::new(Place::Constant, (self.constants.len() - 1).min(Operand::MAX_INDEX))
     }
 

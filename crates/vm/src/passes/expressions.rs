@@ -89,26 +89,13 @@ impl<S: Scalar> Builder<'_, '_, S> {
             List(_) => crate::code::Op::List { to, args },
             Tuple(_) => crate::code::Op::Tuple { to, args },
             Dict(..) => crate::code::Op::Dict { to, args },
-            Record(class, fields) => {
-                let known = self.unit.module.classes.get(*class);
-                if known.is_none_or(|known| known.fields.len() != fields.len()) {
-                    return Err(CompileError(format!(
-                        "no class {class} with {} fields is defined",
-                        fields.len()
-                    )));
-                }
-                crate::code::Op::Record { to, class: *class as u16, args }
-            }
+            Record(class, _) => crate::code::Op::Record { to, class: self.sixteen(*class)?, args },
             Field(_, name) => crate::code::Op::Field { to, a: operands[0], name: self.name(name) },
             Method(..) => {
                 let id = builtin_id("method").ok_or_else(|| CompileError("methods are missing".into()))?;
                 crate::code::Op::Builtin { to, id, args }
             }
-            Host(k, _) => {
-                let constant = u16::try_from(*k)
-                    .map_err(|_| CompileError(format!("the number {k} of a host function is too large")))?;
-                crate::code::Op::Host { to, constant, args }
-            }
+            Host(k, _) => crate::code::Op::Host { to, constant: self.sixteen(*k)?, args },
             Closure(name, captures) => {
                 let id = self.function_id(name)?;
                 if captures.len() != self.definition(id).captures.len() {
@@ -116,7 +103,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                         "a closure of `{name}` with the wrong number of captures"
                     )));
                 }
-                crate::code::Op::Closure { to, function: id.0 as u16, args }
+                crate::code::Op::Closure { to, function: self.sixteen(id.0 as usize)?, args }
             }
             Dist(name, _) => crate::code::Op::Dist { to, family: super::sites::family(name)?, args },
             _ => return Err(CompileError(format!("an effect in the pure function `{}`", self.name))),
@@ -190,12 +177,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// The value of a built-in function of constants; one that fails is left for the run, which knows the call stack.
+    /// The value of a built-in function of constants that takes little time; one that fails is left for the run, which knows the call stack.
     fn computed(&self, name: &str, operands: &[Operand]) -> Option<Value<S>> {
         if binary(name).is_some() || operands.iter().any(|o| o.place() != Place::Constant) {
             return None;
         }
         let values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
+        // The run has bounds of time and memory, the compiler has none.
+        let is_long = |value: &Value<S>| matches!(value, Value::Range(range) if range.len > 1000);
+        if matches!(name, "method" | "format" | "fstr") || values.iter().any(is_long) {
+            return None;
+        }
         crate::builtins::builtin::<S>(builtin_id(name)?).call(&values).ok()
     }
 
@@ -205,7 +197,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let operands = self.exprs(items)?;
         let args = self.args(&operands);
         let to = self.register()?;
-        self.op(Op::CallPure { to, function: id.0 as u16, args });
+        let function = self.sixteen(id.0 as usize)?;
+        self.op(Op::CallPure { to, function, args });
         Ok(to)
     }
 

@@ -54,7 +54,10 @@ impl LoopHeads {
     }
 
     fn loop_head(&mut self, s: &Stmt, body: &[Stmt], after: Names) -> Names {
+        // What is live only grows from one visit to the next. Without what the last visit found, a loop in a loop in a
+        // loop would take time by two to the power of their number.
         let mut head = after.clone();
+        head.extend(self.0.get(&std::ptr::from_ref(s)).into_iter().flatten().cloned());
         if let StmtKind::While(test, _) = &s.kind {
             test.reads(&mut head);
         }

@@ -22,7 +22,9 @@ mod slices;
 mod statements;
 
 use crate::code::{Function, FunctionId, Mode, Program, verify};
-use crate::core::{ExprKind, Literal, Module, Name};
+use crate::core::deep::with_stack;
+use crate::core::visit::each_stmt;
+use crate::core::{Expr, ExprKind, Literal, Module, Name};
 use crate::fault::Fault;
 use crate::value::Value;
 use collections::Collections;
@@ -33,9 +35,6 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 pub use scope::Kept;
-
-/// Functions, and classes, of a program: instructions number them with 16 bits.
-const MOST: usize = 1 << 16;
 
 /// A model that cannot be compiled: a defect of the text or a limit of the machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,7 +71,7 @@ pub(crate) struct Unit<'m, S: Scalar> {
 ///
 /// # Errors
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
-/// machine (more than 16,384 registers or constants, or 65,535 arguments at one place).
+/// machine (more than 16,384 registers).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
     compile_keeping(module, data, Kept::Names(&[]))
 }
@@ -88,6 +87,16 @@ pub fn compile_keeping<S: Scalar>(
     data: Vec<Value<S>>,
     kept: Kept<'_>,
 ) -> Result<Program<S>, CompileError> {
+    with_stack(|| compile_here(module, data, kept))
+        .unwrap_or_else(|error| Err(CompileError(format!("no thread for the compiler: {error}"))))
+}
+
+fn compile_here<S: Scalar>(
+    module: &Module,
+    data: Vec<Value<S>>,
+    kept: Kept<'_>,
+) -> Result<Program<S>, CompileError> {
+    check_records(module)?;
     let effects = Effects::of(module);
     let collections = Collections::of(module, &effects);
     let mut unit =
@@ -115,22 +124,46 @@ pub fn compile_keeping<S: Scalar>(
         let compiled = Builder::function(&mut unit, f, mode)?;
         unit.functions[i] = Some(compiled);
     }
-    if unit.functions.len() > MOST || module.classes.len() > MOST {
-        return Err(CompileError(format!("more than {MOST} functions, loops or classes")));
-    }
     let entry = *unit
         .ids
         .get(&module.entry)
         .ok_or_else(|| CompileError(format!("the entry `{}` is not defined", module.entry)))?;
+    let main = &module.functions[entry.0 as usize];
+    if !main.captures.is_empty() {
+        return Err(CompileError(format!("the entry `{}` captures variables", main.name)));
+    }
     let mut program = Program {
         files: module.files.clone(),
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
+        others: Vec::new(),
     };
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
     Ok(program)
+}
+
+/// Every record is of a known class and has all of its fields.
+fn check_records(module: &Module) -> Result<(), CompileError> {
+    let mut wrong = None;
+    let mut look = |e: &Expr| {
+        e.each(&mut |e| {
+            if let ExprKind::Record(class, fields) = &e.kind {
+                let found = module.classes.get(*class).map(|known| known.fields.len());
+                if found != Some(fields.len()) {
+                    wrong = Some((*class, fields.len()));
+                }
+            }
+        });
+    };
+    for f in &module.functions {
+        f.defaults.iter().for_each(&mut look);
+        each_stmt(&f.body, &mut |s| s.expressions().into_iter().for_each(&mut look));
+    }
+    wrong.map_or(Ok(()), |(class, fields)| {
+        Err(CompileError(format!("there is no class {class} of {fields} fields")))
+    })
 }
 
 /// The value of a literal.
@@ -145,8 +178,8 @@ pub(crate) fn literal<S: Scalar>(l: &Literal) -> Value<S> {
 }
 
 /// The value of a constant written in the text: literals, lists, tuples and distributions of them.
-fn constant<S: Scalar>(e: &crate::core::Expr) -> Result<Value<S>, CompileError> {
-    let all = |items: &[crate::core::Expr]| items.iter().map(constant).collect::<Result<Vec<_>, _>>();
+fn constant<S: Scalar>(e: &Expr) -> Result<Value<S>, CompileError> {
+    let all = |items: &[Expr]| items.iter().map(constant).collect::<Result<Vec<_>, _>>();
     Ok(match &e.kind {
         ExprKind::Literal(l) => literal(l),
         ExprKind::List(items) => Value::list(all(items)?),
@@ -172,7 +205,7 @@ mod tests {
     }
 
     fn entry(body: &str) -> String {
-        format!("(module (class 0 \"P\" (\"a\" \"b\")) (fn \"m\" (params $x) (return {body})) (entry \"m\"))")
+        format!("(module (fn \"m\" (params $x) (return {body})) (entry \"m\"))")
     }
 
     #[test]
@@ -180,15 +213,8 @@ mod tests {
         let text = "(module (const 99999999999 0) (fn \"m\" (params) (return 1)) (entry \"m\"))";
         assert_eq!(error(text), "constant 99999999999 of 1: they are numbered from 0");
         assert_eq!(error(&entry("(data 99999999999)")), "constant 99999999999 is missing");
-        // With 16 bits the first is the number 1.
-        assert_eq!(error(&entry("(host 65537 1)")), "the number 65537 of a host function is too large");
-    }
-
-    #[test]
-    fn a_record_has_a_class_and_its_fields() {
-        for body in ["(record 1 1 2)", "(record 65536 1 2)", "(record 0 1)", "(record 0 1 2 3)"] {
-            assert!(error(&entry(body)).starts_with("no class"), "{body}");
-        }
+        // With 16 bits it is the number 1.
+        assert!(error(&entry("(host 65537 1)")).contains("is too large"));
     }
 
     #[test]

@@ -27,8 +27,10 @@ impl<S: Scalar> Builder<'_, '_, S> {
     pub fn site(&mut self, e: &Expr) -> Result<Option<Operand>> {
         use ExprKind::*;
         let target = self.target.clone();
-        let choice_label =
-            |family: &Name| target.clone().filter(|t| !t.starts_with('%')).unwrap_or(family.clone());
+        let choice_label = |family: &Name| match target.as_deref().map(readable) {
+            None | Some("") => family.clone(),
+            Some(name) => Name::from(name),
+        };
         let fixed = |s: &str| Name::from(s);
         Ok(Some(match &e.kind {
             Call(f, args) if self.is_effectful(f) => {
@@ -101,7 +103,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     /// The name of a function value in an address: the variable that holds it, or the function itself.
     fn callee(&self, f: &Expr) -> Name {
         match &f.kind {
-            ExprKind::Var(x) if !x.starts_with('%') => x.clone(),
+            ExprKind::Var(x) if !readable(x).is_empty() => Name::from(readable(x)),
             ExprKind::Closure(name, _) => short(name).into(),
             ExprKind::Field(_, name) => name.clone(),
             _ => Name::from("apply"),
@@ -195,7 +197,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         label: (&Option<Name>, Name),
         operands: &[Operand],
     ) -> Result<Operand> {
-        let target = self.target.clone().unwrap_or_else(|| Name::from(""));
+        // Not the number of a second variable of the name: it depends on the text around the function.
+        let target = Name::from(self.target.as_deref().map_or("", readable));
         let args = if operands.is_empty() { Args::NONE } else { self.args(operands) };
         let to = self.register()?;
         let key = self.occurrence(&format!("{}|{what}|{target}", self.name));

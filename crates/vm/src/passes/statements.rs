@@ -8,7 +8,7 @@ use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
 use crate::core::visit::{Names, assigned, in_order_of_assignment, returns};
-use crate::core::{Expr, LOOK, Literal, Name, Stmt, StmtKind};
+use crate::core::{Expr, LOOK, Literal, Name, Stmt, StmtKind, readable};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Builder<'_, '_, S> {
@@ -50,7 +50,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let names: Vec<&Name> = a.iter().chain(std::iter::once(r)).chain(c).collect();
                 let registers = names.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
                 let to = self.args(&registers);
-                self.op(Op::UnpackStar { from, to, star: a.len() as u16 });
+                self.op(Op::UnpackStar { from, to, star: self.sixteen(a.len())? });
                 names.iter().zip(registers).for_each(|(x, at)| self.assign(x, at));
                 true
             }
@@ -341,7 +341,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
         let capture_at: Vec<Operand> = captured.iter().map(|x| self.env[x].at).collect();
         let carried_at: Vec<Operand> = carried.iter().map(|x| self.current(x)).collect();
-        let label = each.map_or(Name::from("while"), |(x, _)| x.clone());
+        let label = each.map_or(Name::from("while"), |(x, _)| Name::from(readable(x)));
         let what = Name::from(format!("loop {label}"));
 
         let (header, function) = self.iteration(s, &label, &carried, &captured)?;
@@ -399,6 +399,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
         b.carried = carried.to_vec();
         b.loops.push(LoopContext::Lifted);
         let element = if each.is_some() { Some(b.register()?) } else { None };
+        if captured.len() >= Operand::MAX_INDEX {
+            return Err(b.is_too_large());
+        }
         for (i, x) in captured.iter().enumerate() {
             b.env.insert(x.clone(), Binding { at: Operand::new(Place::Outer, i + 1), ..self.env[x] });
         }

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::census::{Census, block, shared};
 use super::{Scalar, Value, compare, release};
 
 /// An immutable tuple.
@@ -49,6 +50,20 @@ impl<S: Scalar> Tuple<S> {
             TupleBody::Four(items) => items,
             TupleBody::Other(items) => items,
         }
+    }
+
+    pub(super) fn count<'v>(&'v self, census: &mut Census<'v, S>) {
+        if census.add_shared(&self.0) {
+            match &*self.0 {
+                TupleBody::Other(items) => census.add_items(items, items.len()),
+                _ => census.add_in_place(self.items()),
+            }
+        }
+    }
+
+    pub(super) fn own_bytes(&self) -> usize {
+        let beside = if let TupleBody::Other(items) = &*self.0 { items.len() } else { 0 };
+        shared::<TupleBody<S>>() + block(beside * size_of::<Value<S>>())
     }
 
     /// Its address in memory: no other tuple has it while this one exists.
@@ -166,6 +181,12 @@ pub struct Dict<S: Scalar = f64> {
 impl<S: Scalar> Dict<S> {
     /// Below this many keys a search is as fast as an index.
     const SEARCHED: usize = 8;
+
+    pub(super) fn count<'v>(&'v self, census: &mut Census<'v, S>) {
+        census.add_items(&self.keys, self.keys.len());
+        census.add_items(&self.values, self.values.len());
+        census.add_bytes(block(self.index.len() * size_of::<(u64, u32)>()));
+    }
 
     /// A dictionary from pairs; a later pair with an equal key replaces the value of an earlier one, as in Python.
     /// The keys must be hashable: anything but lists and dictionaries.

@@ -268,6 +268,27 @@ pub fn hash<S: Scalar>(value: &Value<S>) -> u64 {
     state
 }
 
+impl<S: Scalar> Value<S> {
+    /// Refuses what cannot be the key of a query.
+    ///
+    /// # Errors
+    /// A list, a dict, a shape, a function or a distribution, or a tuple or record that holds one.
+    pub fn refuse_as_key(&self) -> Result<(), Fault> {
+        let mut work = vec![self];
+        while let Some(value) = work.pop() {
+            match value {
+                Value::Tuple(tuple) => work.extend(tuple.items()),
+                Value::Record(record) => work.extend(&record.fields),
+                Value::List(_) | Value::Dict(_) | Value::Shape(_) | Value::Function(_) | Value::Dist(_) => {
+                    return Err(Fault::type_mismatch(format!("{} cannot be a key", value.described())));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

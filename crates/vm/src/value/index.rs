@@ -154,6 +154,22 @@ pub fn missing_key<S: Scalar>(key: &Value<S>) -> Fault {
         .with_help("`d.get(key, default)` answers for every key")
 }
 
+/// How many elements `x[lo:hi:step]` has, where it makes a value of them.
+pub fn slice_len<S: Scalar>(
+    value: &Value<S>,
+    lo: &Value<S>,
+    hi: &Value<S>,
+    step: &Value<S>,
+) -> Option<usize> {
+    let len = length(value)?;
+    let range = bounds(len, lo, hi, step).ok()?;
+    match value {
+        Value::List(_) if range.len == len && range.step == 1 => None,
+        Value::Range(_) => None,
+        _ => Some(range.len),
+    }
+}
+
 /// `x[lo:hi:step]`; absent bounds are `None`.
 pub fn slice<S: Scalar>(
     value: &Value<S>,

@@ -15,6 +15,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use super::census::{Census, block, shared};
 use super::{Scalar, Value, release};
 
 const BITS: u32 = 5;
@@ -117,6 +118,25 @@ impl<S: Scalar> List<S> {
         }
         body.tail = items.collect();
         body.len += body.tail.len();
+        List(Arc::new(body))
+    }
+
+    /// The list so many times over; the elements are not stored anywhere else meanwhile.
+    pub fn repeated(&self, times: usize) -> List<S> {
+        let mut body = Body { len: 0, shift: 0, root: None, tail: Vec::new() };
+        let total = self.len() * times;
+        let mut items = (0..times).flat_map(|_| self.iter());
+        while body.len < total {
+            let count = WIDTH.min(total - body.len);
+            let mut leaf = Vec::with_capacity(count);
+            leaf.extend(items.by_ref().take(count).cloned());
+            if body.len + count == total {
+                body.tail = leaf;
+            } else {
+                body.push_leaf(body.len, Arc::new(Node::Leaf(leaf)));
+            }
+            body.len += count;
+        }
         List(Arc::new(body))
     }
 
@@ -270,6 +290,29 @@ impl<S: Scalar> List<S> {
         changed
     }
 
+    /// Counts what the list takes; versions of it share nodes.
+    pub(super) fn count<'v>(&'v self, census: &mut Census<'v, S>) {
+        if census.add_shared(&self.0) {
+            let tail = &self.0.tail;
+            // A tail that grew in place has room for more, a copy of it has not: the same for both.
+            let room = if tail.is_empty() { 0 } else { tail.len().next_power_of_two().max(4) };
+            census.add_items(tail, room);
+            if let Some(root) = &self.0.root {
+                count_node(root, census);
+            }
+        }
+    }
+
+    /// The list is not to be counted, nor what a version of it shares with it: the upper levels are enough for that.
+    pub(super) fn leave_out(&self, census: &mut Census<'_, S>) {
+        census.note(self.address());
+        let Some(root) = &self.0.root else { return };
+        census.note(Arc::as_ptr(root) as usize);
+        if let Node::Branch(children) = &**root {
+            children.iter().for_each(|child| census.note(Arc::as_ptr(child) as usize));
+        }
+    }
+
     /// True when this list is not shared.
     #[inline]
     pub(super) fn has_one_owner(&self) -> bool {
@@ -282,6 +325,27 @@ impl<S: Scalar> List<S> {
             release::gather(&mut body.tail, work);
             if let Some(root) = body.root.take() {
                 gather_node(root, work);
+            }
+        }
+    }
+}
+
+/// Bytes of a list of so many elements, or a little more, without what the elements hold.
+pub(super) fn bytes_of<S: Scalar>(len: usize) -> usize {
+    let leaf = shared::<Node<S>>() + WIDTH * size_of::<Value<S>>();
+    // A leaf takes a place in a branch, and a branch one in thirty-two of that.
+    let leaves = len / WIDTH * (leaf + 2 * size_of::<usize>());
+    shared::<Body<S>>() + leaves + (len % WIDTH).next_power_of_two() * size_of::<Value<S>>()
+}
+
+/// The recursion is as deep as the trie, six levels at most.
+fn count_node<'v, S: Scalar>(node: &'v Arc<Node<S>>, census: &mut Census<'v, S>) {
+    if census.add_shared(node) {
+        match &**node {
+            Node::Leaf(items) => census.add_items(items, WIDTH),
+            Node::Branch(children) => {
+                census.add_bytes(block(children.len().next_power_of_two().max(4) * size_of::<usize>()));
+                children.iter().for_each(|child| count_node(child, census));
             }
         }
     }

@@ -9,6 +9,7 @@
 //! The scalar type is a parameter: `f64` when a model runs, a recording scalar when its gradient is wanted.
 
 pub mod aggregate;
+pub mod census;
 pub mod compare;
 pub mod format;
 mod futures;
@@ -24,7 +25,8 @@ pub mod text;
 use std::sync::Arc;
 
 pub use aggregate::{Class, ClassKind, Closure, Dict, Range, Record, Tuple, Vector};
-pub use compare::{equal, order};
+pub use census::Census;
+pub use compare::{equal, hash, order};
 pub use index::{iter_get, iter_len};
 pub use list::List;
 pub use niwaki_geom::Shape;

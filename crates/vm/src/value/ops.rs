@@ -338,13 +338,15 @@ fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
     }
     let Number::Int(count) = by else { return None };
     let count = usize::try_from(count).unwrap_or(0);
-    let repeat = |items: Vec<Value<S>>| -> Result<Vec<Value<S>>, Fault> {
-        fits(items.len().saturating_mul(count))?;
-        Ok(std::iter::repeat_n(items, count).flatten().collect())
-    };
     match value {
-        Value::List(list) => Some(repeat(list.iter().cloned().collect()).map(Value::list)),
-        Value::Tuple(tuple) => Some(repeat(tuple.items().to_vec()).map(Value::tuple)),
+        Value::List(list) => {
+            Some(fits(list.len().saturating_mul(count)).map(|()| Value::List(list.repeated(count))))
+        }
+        Value::Tuple(tuple) => Some(fits(tuple.items().len().saturating_mul(count)).map(|()| {
+            let mut items = Vec::with_capacity(tuple.items().len() * count);
+            (0..count).for_each(|_| items.extend_from_slice(tuple.items()));
+            Value::tuple(items)
+        })),
         Value::Str(text) => {
             Some(fits(text.len().saturating_mul(count)).map(|()| Value::Str(Text::from(text.repeat(count)))))
         }

@@ -1,5 +1,6 @@
 //! Strings: shared, one pointer wide, counted in code points as Python counts them.
 
+use super::census::{Census, block, shared};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -35,6 +36,20 @@ impl Text {
         }
         let byte = |at: usize| self.0.text.char_indices().nth(at).map_or(self.0.text.len(), |(byte, _)| byte);
         &self.0.text[byte(from)..byte(to)]
+    }
+
+    pub(super) fn count<S: super::Scalar>(&self, census: &mut Census<'_, S>) {
+        if census.is_first(&self.0) {
+            census.add_bytes(self.own_bytes());
+        }
+    }
+
+    pub(super) fn leave_out<S: super::Scalar>(&self, census: &mut Census<'_, S>) {
+        census.note(Arc::as_ptr(&self.0) as usize);
+    }
+
+    pub(super) fn own_bytes(&self) -> usize {
+        shared::<Body>() + block(self.0.text.len())
     }
 
     /// True when both are the same string in memory.

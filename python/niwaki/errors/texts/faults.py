@@ -246,8 +246,9 @@ FAULTS = (
         "step-budget",
         "the model ran longer than its budget of steps",
         "still running here",
-        why="a program that never ends would stop the whole search",
-        help="bound the recursion or the loop (give it a depth), or raise the budget of steps",
+        why="a program that never ends would stop the whole search; calls, iterations and every eight elements of an "
+        "operation on many are steps, and those of an `infer` count in the run around it",
+        help="bound the recursion or the loop (give it a depth), search with fewer runs inside, or raise `max_steps`",
         example="def grow():\n    grow()",
         cure="def grow(depth):\n    if depth > 0:\n        grow(depth - 1)",
     ),
@@ -255,7 +256,9 @@ FAULTS = (
         "memory-budget",
         "the model uses more memory than its budget",
         "growing here",
-        help="bound the recursion or the list, use fewer particles, or raise the budget of memory",
+        why="calls, values and choices count; particles have the budget together, several chains or populations an equal "
+        "share each, and an `infer` a quarter",
+        help="bound the recursion or the list, use fewer particles or chains, or raise `max_memory`",
         example="xs = [0]\nwhile True:\n    xs = xs + xs",
         cure="xs = [0] * 1000",
     ),

@@ -441,6 +441,15 @@ LANGUAGE = (
         cure="@model\ndef m(a, b):\n    return dot(a, b)\n",
     ),
     Message(
+        "nested-too-deeply",
+        "this is nested too deeply",
+        "more than 900 levels below the start of its function",
+        why="each term of a sum and each `elif` is one level below the one before it",
+        help="split it: give parts of it names, use `sum` of a list, a loop, or a function for each part",
+        example=f"@model\ndef m():\n    return {'-' * 1000}1\n",
+        cure="@model\ndef m():\n    return (-1) ** 1000\n",
+    ),
+    Message(
         "infer-method",
         "a method of `infer` must be known when the model is compiled",
         "found `{found}`",

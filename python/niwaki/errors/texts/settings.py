@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
+from niwaki.errors.texts.shell import SHELL
 
 SETTINGS = (
+    *SHELL,
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",
@@ -27,6 +29,14 @@ SETTINGS = (
         help="ask for fewer: at most {fit}",
         example="run(model, method=importance(10**9))",
         cure="run(model, method=importance(10**6))",
+    ),
+    Message(
+        "memory-full",
+        "the search was stopped, because only {free} of memory are free",
+        why="below {least} the system may end the process, and all that it has found would be lost",
+        help='keep fewer results (`keep="best"`, `thin`, a smaller count), lower `max_memory`, or end other programs',
+        example="run(model, method=importance(10**7))",
+        cure="run(model, method=smc(10**4))",
     ),
     Message(
         "machine-limit",

@@ -48,6 +48,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.depth_first = true;
+        state.given = template.given;
         kept.unmet = self.held.map_or(0, Held::len);
         kept.met = vec![0; kept.unmet];
         kept.open();

@@ -119,9 +119,7 @@ impl<S: Scalar> Kept<S> {
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
         let created = self.new_node(machine.program, state, function, node, u32::from(number.0), path);
-        if state.bytes() > machine.limits.bytes {
-            return Err(machine.out_of_memory());
-        }
+        machine.afford(state, self)?;
         self.write_slot(self.quiet, at, Slot { held: created.0, mark: 0, log: 0.0 });
         Ok(created)
     }

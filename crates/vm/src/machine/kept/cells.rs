@@ -10,6 +10,7 @@
 
 use super::super::Machine;
 use super::super::answers::Answers;
+use super::super::budget;
 use super::super::keep::Keep;
 use super::super::question::Halt;
 use super::super::registers::Registers;
@@ -35,6 +36,13 @@ pub(crate) struct Readers {
     /// The register that holds the element.
     pub register: u32,
     pub all: Vec<Reader>,
+}
+
+impl Readers {
+    /// Its bytes.
+    pub fn bytes(&self) -> usize {
+        size_of::<Readers>() + self.all.capacity() * size_of::<Reader>()
+    }
 }
 
 impl<S: Scalar> Kept<S> {
@@ -86,6 +94,7 @@ impl<S: Scalar> Kept<S> {
             }
         };
         let longer = ops::append(list, Value::Cell(cell))?;
+        state.charged += budget::of_append(&longer) + size_of::<Reader>();
         self.write_to(state, self.quiet, r.own + site.to.index(), longer);
         Ok(())
     }
@@ -119,6 +128,7 @@ impl<S: Scalar> Kept<S> {
                 self.readers.len() as u32 - 1
             }
         };
+        state.charged += size_of::<Readers>() + size_of::<u32>();
         self.journal.cells.push(id);
         self.write_slot(self.quiet, at, Slot { held: id, mark: 0, log });
         Some(Cell { register, readers: id })

@@ -78,7 +78,36 @@ impl<S: Scalar> Default for Journal<S> {
     }
 }
 
+/// Bytes that are counted for each activation that was created, beside what is stored.
+pub(crate) const MOVING: usize = 32;
+
 impl<S: Scalar> Journal<S> {
+    /// Bytes of its entries, without what values hold.
+    pub fn bytes(&self) -> usize {
+        fn of<T>(entries: &[T]) -> usize {
+            size_of_val(entries)
+        }
+        of(&self.registers)
+            + of(&self.slots)
+            + of(&self.ends)
+            + of(&self.loops)
+            + self.loops.iter().map(|cut| of(&cut.removed)).sum::<usize>()
+            + of(&self.created)
+            // Vectors that grow with the nodes are in memory twice while they move.
+            + self.created.len() * MOVING
+            + of(&self.removed)
+            + of(&self.emitted)
+            + of(&self.retracted)
+            + of(&self.births)
+            + of(&self.deaths)
+            + of(&self.reads)
+            + of(&self.moves)
+            + of(&self.cells)
+            + of(&self.dead_cells)
+            + of(&self.met)
+            + of(&self.anew)
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.registers.clear();

@@ -155,9 +155,7 @@ impl<S: Scalar> Kept<S> {
                 for (k, value) in element.into_iter().chain(machine.buffer.drain(..)).enumerate() {
                     state.registers[to + k].store(value);
                 }
-                if state.bytes() > machine.limits.bytes {
-                    return Err(machine.out_of_memory());
-                }
+                machine.afford(state, self)?;
                 self.counters.entered += 1;
                 return Ok(Next::Enter(created, 0));
             };

@@ -46,14 +46,14 @@ use super::answers::Answers;
 use super::keep::{Keep, Onward};
 use super::question::Halt;
 use super::registers::Registers;
-use super::state::{NodeId, State};
+use super::state::{NodeId, State, make_room};
 use super::suspend::After;
 use crate::code::{Args, Mode, Program, SiteId};
 use crate::fault::Fault;
-use crate::value::{Value, same};
+use crate::value::{Census, Value, same};
 use adapt::Sites;
 use cells::{Reader, Readers};
-use journal::Journal;
+use journal::{Journal, MOVING};
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
 use slices::Entry;
@@ -343,12 +343,25 @@ impl<S: Scalar> Kept<S> {
                 self.loops.push(Vec::new());
             } else {
                 node.slots = self.slots.len() as u32;
+                make_room(&mut self.slots, f.sites.len(), || state.ceiling.saturating_sub(state.bytes()));
                 self.slots.resize(self.slots.len() + f.sites.len(), Slot::EMPTY);
             }
+            state.charged += (f.sites.len() + 1) * size_of::<Slot>();
         }
+        state.charged += size_of::<NodeId>() + MOVING;
         self.journal.created.push(created);
         self.note(Step::Created(created));
         created
+    }
+
+    /// Bytes of what is kept, without values and the journal.
+    fn own_bytes(&self) -> usize {
+        self.slots.len() * size_of::<Slot>()
+            + self.choices.len() * size_of::<ChoiceAt>()
+            + self.loops.iter().map(|l| size_of_val(l) + l.capacity() * size_of::<NodeId>()).sum::<usize>()
+            + self.emits.len() * (size_of::<Option<Primitive>>() + 16)
+            + self.readers.iter().map(Readers::bytes).sum::<usize>()
+            + self.marks.len() * size_of::<u32>()
     }
 
     /// Releases a node, its slots empty.
@@ -386,6 +399,17 @@ impl<S: Scalar> Kept<S> {
 
 impl<S: Scalar> Keep<S> for Kept<S> {
     const KEEPS: bool = true;
+
+    fn count_bytes<'v>(&'v self, census: &mut Census<'v, S>) {
+        let journal = &self.journal;
+        census.add(&self.result);
+        self.result_before.iter().for_each(|value| census.add(value));
+        journal.registers.iter().for_each(|(_, value)| census.add(value));
+        journal.anew.iter().for_each(|(_, value)| census.add(value));
+        let primitives = self.emits.iter().flatten();
+        primitives.flat_map(|primitive| primitive.shapes()).for_each(|shape| census.add_shape(shape));
+        census.add_bytes(self.own_bytes() + journal.bytes());
+    }
 
     #[inline(always)]
     fn enter(&mut self, state: &State<S>, node: NodeId) {
@@ -519,12 +543,9 @@ impl<S: Scalar> Trace<S> {
         self.kept.choices.is_empty()
     }
 
-    /// Bytes that the trace holds, without shared values.
+    /// Bytes that the trace holds, without values.
     pub fn bytes(&self) -> usize {
-        self.state.bytes()
-            + self.kept.slots.len() * size_of::<Slot>()
-            + self.kept.choices.len() * size_of::<ChoiceAt>()
-            + self.kept.loops.iter().map(|l| l.capacity() * 4).sum::<usize>()
+        self.state.own_bytes() + self.kept.own_bytes()
     }
 
     /// From now on the steps of each run are noted.

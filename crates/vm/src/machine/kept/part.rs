@@ -15,6 +15,7 @@ use crate::value::Value;
 use niwaki_geom::Primitive;
 use niwaki_math::Scalar;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// A part of a trace. It is valid until the trace changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -143,6 +144,10 @@ impl<S: Scalar> Trace<S> {
         }
         let future = state.new_future(Status::Runnable(first), false);
         state.runnable.push(future);
+        // What it begins with belongs to this trace.
+        let given = state.registers.iter().chain(self.state.given.iter().flat_map(|given| given.iter()));
+        let given: Arc<[Value<S>]> = given.filter(|value| !value.is_plain()).cloned().collect();
+        state.given = (!given.is_empty()).then_some(given);
         state.unmet = self.held_within(program, part);
         state
     }

@@ -3,13 +3,14 @@
 use super::super::Machine;
 use super::super::address::join;
 use super::super::answers::{Answer, Answers, At};
+use super::super::budget;
 use super::super::question::{Halt, as_real};
 use super::super::registers::Registers;
-use super::super::state::{NodeId, State};
+use super::super::state::{NodeId, State, make_room};
 use super::super::suspend::After;
 use super::cells::Reader;
 use super::journal::Birth;
-use super::{Kept, Slot};
+use super::{ChoiceAt, Kept, Slot};
 use crate::code::{Args, Operand, Site, SiteId, SiteKind, Source};
 use crate::fault::Fault;
 use crate::value::{Value, ops, same};
@@ -70,6 +71,9 @@ fn observed_number<S: Scalar>(
     number_log_density(machine, state, r, *family, (*a, *b), x)
 }
 
+/// Bytes of a choice that is added: its place in the table, and what the journal notes of it.
+const CHOICE_BYTES: usize = 2 * size_of::<ChoiceAt>() + size_of::<Birth>();
+
 impl<S: Scalar> Kept<S> {
     /// Sets the log of a filled slot and brings the sums up to date.
     #[inline]
@@ -114,6 +118,7 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Query => {
                 let key = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]);
                 key.refuse_futures("the key of a query")?;
+                key.refuse_as_key()?;
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
@@ -145,6 +150,7 @@ impl<S: Scalar> Kept<S> {
             SiteKind::Emit => {
                 machine.collect_shapes(state, r, site)?;
                 let at = Kept::slot_at(state, node, number.0 as usize);
+                state.charged += 64 + machine.shapes.len() * size_of::<Shape>();
                 self.emit(at, &machine.shapes);
                 Ok(After::Next)
             }
@@ -180,6 +186,11 @@ impl<S: Scalar> Kept<S> {
                 self.set_log(self.quiet, at, log, true);
             }
             return Ok(false);
+        }
+        if let SiteKind::Sample(Source::Family(family)) = site.kind
+            && budget::has_rows(family)
+        {
+            machine.charge_rows(state, self, r, site.args, family)?;
         }
         let mut owned = None;
         let held = machine.held;
@@ -223,13 +234,19 @@ impl<S: Scalar> Kept<S> {
             self.journal.anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
+            make_room(&mut self.journal.births, 1, || state.ceiling.saturating_sub(state.bytes()));
             self.journal.births.push(Birth { address, node, site: number.0 });
             Slot::BORN | (self.journal.births.len() as u32 - 1)
         };
+        let is_plain = value.is_plain();
+        state.charged += CHOICE_BYTES + budget::of_result(&value);
         self.fresh.add(log);
         self.change.log_prior.add(log);
         self.write_slot(self.quiet, at, Slot { held, mark: family, log });
         self.write_to(state, self.quiet, place, value);
+        if !is_plain {
+            machine.afford(state, self)?;
+        }
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
     }
 
@@ -260,6 +277,11 @@ impl<S: Scalar> Kept<S> {
                     let mut owned = None;
                     let args = Args { len: last as u16, ..site.args };
                     let value = r.get(state, &machine.scratch, operand).clone();
+                    if let SiteKind::Observe(Source::Family(family)) = site.kind
+                        && budget::has_rows(family)
+                    {
+                        machine.charge_rows(state, self, r, args, family)?;
+                    }
                     let dist = machine.dist(state, r, site, args, &mut owned)?;
                     let log = log_density(dist, &value)?.value();
                     if site.is_read {

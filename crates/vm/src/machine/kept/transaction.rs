@@ -375,12 +375,18 @@ impl<S: Scalar> Machine<'_, S> {
         pc: usize,
         answers: &mut A,
     ) -> Result<Change, Box<RunFault>> {
-        self.pure.clear();
+        self.empty_scratch();
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.steps = 0;
+        self.set_ceiling(state);
+        self.set_alarm(state);
+        if state.bytes() > state.ceiling {
+            state.alarm = 0;
+        }
         kept.counters.entered += 1;
         kept.note(Step::Entered(node));
-        match self.interpret(state, kept, super::super::state::FutureId(0), (node, pc), answers) {
+        let stop = self.interpret(state, kept, super::super::state::FutureId(0), (node, pc), answers);
+        match stop.and_then(|stop| self.take_steps(state.steps).map(|()| stop)) {
             Ok(Stop::Impossible) => Ok(Change::Impossible),
             Ok(_) => Ok(Change::Done),
             Err(fault) => Err(Box::new(self.report(state, fault))),

@@ -1,0 +1,439 @@
+//! What an operation costs, and whether a run may still afford it.
+//!
+//! Values that are made are charged to the run ([`State::charged`]) and not given back when they are dropped: who drops
+//! the last copy may depend on other threads. When the sum reaches the ceiling, an audit counts what the run really holds, each
+//! shared part once, and the sum begins anew from there. So the count is exact where it decides, it is the same on any number
+//! of threads, and a run that drops what it makes is audited once for every so many bytes that it made.
+//!
+//! Operations on many elements have their price before they are carried out: what does not fit is refused before it is
+//! allocated.
+
+use super::keep::Keep;
+use super::registers::Registers;
+use super::state::State;
+use super::{Machine, operate};
+use crate::builtins::Builtin;
+use crate::code::{Args, Binary, Operand};
+use crate::fault::Fault;
+use crate::value::{Census, Value, index, ops};
+use niwaki_math::{Family, Scalar};
+
+/// Elements that cost one step.
+const ELEMENTS: usize = 8;
+
+/// Where a distribution is built for a question, this many times as many elements cost a step.
+const PARAMETERS_PER_STEP: u64 = 8;
+
+/// Steps between two looks at the limits.
+const LOOK: u64 = 256;
+
+/// Sequences no longer than this have no price beyond that of the value that is made.
+const SHORT: usize = 64;
+
+/// Most bytes that are charged for one element of a value that a function made: a larger one was there before.
+const ELEMENT_BYTES: usize = 128;
+
+/// The price of an operation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Price {
+    /// Steps.
+    pub steps: u64,
+    /// Bytes that are allocated at once.
+    pub bytes: usize,
+}
+
+impl Price {
+    fn of(elements: usize, bytes: usize) -> Price {
+        Price { steps: (elements / ELEMENTS) as u64, bytes }
+    }
+}
+
+/// How many elements a value has, if it is a sequence.
+#[inline]
+fn length<S: Scalar>(value: &Value<S>) -> usize {
+    match value {
+        Value::Str(text) => text.len() / 32,
+        Value::Tuple(tuple) => tuple.items().len(),
+        Value::List(list) => list.len(),
+        Value::Range(range) => range.len,
+        Value::Dict(dict) => dict.len(),
+        Value::Record(record) => record.fields.len(),
+        _ => 0,
+    }
+}
+
+/// The price of an operation of two values that are not both numbers.
+pub(super) fn of_binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Price {
+    let slot = size_of::<Value<S>>();
+    match (op, a, b) {
+        (Binary::Add, Value::List(xs), Value::List(ys)) => {
+            let added = if xs.is_empty() { 0 } else { ys.len() };
+            Price::of(added, b.own_bytes() + slot * (xs.len() % 32) + 64)
+        }
+        (Binary::Add, Value::Tuple(_) | Value::Str(_), Value::Tuple(_) | Value::Str(_)) => {
+            Price::of(length(a) + length(b), a.own_bytes() + b.own_bytes())
+        }
+        (Binary::Mul, sequence, Value::Int(times)) | (Binary::Mul, Value::Int(times), sequence)
+            if length(sequence) > 0 || matches!(sequence, Value::Str(_)) =>
+        {
+            let times = usize::try_from(*times).unwrap_or(0);
+            let count = length(sequence).saturating_mul(times);
+            let bytes = match sequence {
+                Value::Str(text) => text.len().saturating_mul(times) + 64,
+                // A list takes some more than its elements, for the nodes of its trie.
+                _ => count.saturating_mul(19).saturating_add(640),
+            };
+            Price::of(count, bytes)
+        }
+        (Binary::Add | Binary::Sub | Binary::Mul | Binary::Div, Value::Vector(_) | Value::Rotation(_), _)
+        | (Binary::Add | Binary::Sub | Binary::Mul | Binary::Div, _, Value::Vector(_) | Value::Rotation(_)) => {
+            Price { steps: 0, bytes: a.own_bytes().max(b.own_bytes()) }
+        }
+        (Binary::In, _, sequence) => Price::of(length(sequence), 0),
+        (Binary::Index, Value::Str(_), _) => Price { steps: 0, bytes: 64 },
+        (Binary::Index, ..) => Price::default(),
+        // Comparisons.
+        _ => Price::of(length(a).min(length(b)), 0),
+    }
+}
+
+/// The price of a call of a built-in function, above that of the value that it returns; zero for short arguments.
+#[inline]
+pub(super) fn of_builtin<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>]) -> Price {
+    let longest = args.iter().map(length).max().unwrap_or(0);
+    if longest <= SHORT { Price::default() } else { of_long(builtin, args, longest) }
+}
+
+#[inline(never)]
+fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -> Price {
+    let all: usize = args.iter().map(length).sum();
+    let each = |bytes: usize| Price::of(all, all.saturating_mul(bytes));
+    match builtin.name {
+        "append" | "len" | "is_none" | "not" | "bool" | "index" | "range" | "isnan" => Price::default(),
+        "in" | "eq" | "ne" | "lt" | "le" | "gt" | "ge" => Price::of(all, 0),
+        "add" => of_binary(Binary::Add, &args[0], &args[1]),
+        "mul" => of_binary(Binary::Mul, &args[0], &args[1]),
+        "slice" => {
+            let count = index::slice_len(&args[0], &args[1], &args[2], &args[3]).unwrap_or(0);
+            Price::of(count, 40 * count)
+        }
+        "sum" | "min" | "max" | "any" | "all" | "hypot" | "gcd" => each(24),
+        "zip" | "zip_strict" | "enumerate" => each(144),
+        // Of a string the elements are its characters.
+        "sorted" | "reversed" | "to_list" | "to_tuple" if matches!(args[0], Value::Str(_)) => {
+            Price::of(longest, longest.saturating_mul(32 * 96))
+        }
+        _ => each(80),
+    }
+}
+
+/// The price of building a distribution from its parameters.
+#[inline]
+pub(super) fn of_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Price {
+    let longest = args.iter().map(length).max().unwrap_or(0);
+    if longest <= SHORT && !matches!(family, Family::Mixture | Family::MultivariateGaussian) {
+        return Price::default();
+    }
+    let all: usize = args.iter().map(length).sum();
+    match family {
+        // The covariance is copied and factored.
+        Family::MultivariateGaussian => {
+            let squared = longest.saturating_mul(longest);
+            Price::of(squared.saturating_mul(1 + longest / 64), squared.saturating_mul(32))
+        }
+        Family::Mixture => Price::of(all, all.saturating_mul(160)),
+        _ => Price::of(all, all.saturating_mul(64)),
+    }
+}
+
+/// Whether distributions of a family have parameters of any length.
+#[inline]
+pub(super) const fn has_rows(family: Family) -> bool {
+    matches!(
+        family,
+        Family::Categorical
+            | Family::Dirichlet
+            | Family::MultivariateGaussian
+            | Family::Mixture
+            | Family::Delta
+    )
+}
+
+/// Bytes of a list that was made from another one by appending an element: its body, and a copy of its last leaf.
+pub(super) fn of_append<S: Scalar>(longer: &Value<S>) -> usize {
+    96 + (1 + length(longer) % 32) * size_of::<Value<S>>()
+}
+
+/// Bytes of a value that an operation made, with those of its elements that it may have made.
+#[inline]
+pub(super) fn of_result<S: Scalar>(value: &Value<S>) -> usize {
+    if value.is_plain() { 0 } else { of_made(value) }
+}
+
+#[inline(never)]
+fn of_made<S: Scalar>(value: &Value<S>) -> usize {
+    let element = |item: &Value<S>| item.own_bytes().min(ELEMENT_BYTES);
+    let of_elements = |items: &mut dyn Iterator<Item = &Value<S>>, count: usize| {
+        let some: usize = items.take(SHORT).map(element).sum();
+        if count <= SHORT { some } else { some.saturating_mul(count) / SHORT }
+    };
+    value.own_bytes()
+        + match value {
+            Value::List(list) => of_elements(&mut list.iter(), list.len()),
+            Value::Tuple(tuple) => of_elements(&mut tuple.items().iter(), tuple.items().len()),
+            _ => 0,
+        }
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Bytes that the machine itself holds for the run: scratch registers and calls of pure functions.
+    #[inline]
+    pub(super) fn own_bytes(&self) -> usize {
+        self.high * size_of::<Value<S>>() + self.pure.len() * size_of::<super::PureCall>()
+    }
+
+    /// A run that has not begun is audited when it may have used up its memory, not before.
+    #[inline]
+    pub(super) fn set_ceiling(&self, state: &mut State<S>) {
+        if state.ceiling == 0 {
+            state.ceiling = self.limits.bytes;
+            self.set_alarm(state);
+        }
+    }
+
+    /// The limits are looked at after so many more steps: what grows slowly has no other price.
+    #[inline]
+    pub(super) fn set_alarm(&self, state: &mut State<S>) {
+        state.alarm = self.limits.steps.min(state.steps.saturating_add(LOOK));
+    }
+
+    /// Looks at both limits.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn look<K: Keep<S>>(&self, state: &mut State<S>, keep: &K) -> Result<(), Fault> {
+        if state.steps > self.limits.steps {
+            return Err(self.out_of_steps());
+        }
+        self.set_alarm(state);
+        self.afford(state, keep)
+    }
+
+    /// Drops what a run before left in the scratch registers: what a run holds must not depend on it.
+    #[inline]
+    pub(super) fn empty_scratch(&mut self) {
+        self.pure.clear();
+        for value in &mut self.scratch[..self.high] {
+            if !value.is_plain() {
+                *value = Value::None;
+            }
+        }
+        // After a deep recursion, most of them are not needed again.
+        self.high = self.high.min(256);
+    }
+
+    /// Charges what an operation is about to make.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline]
+    pub(super) fn charge<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        price: Price,
+    ) -> Result<(), Fault> {
+        state.charged = state.charged.saturating_add(price.bytes);
+        state.steps = state.steps.saturating_add(price.steps);
+        if price.steps > 0 && state.steps > self.limits.steps {
+            return Err(self.out_of_steps());
+        }
+        if state.bytes() > state.ceiling {
+            return self.audit(state, keep, price.bytes);
+        }
+        Ok(())
+    }
+
+    /// Charges a price of which the bytes are given back at once: those of an operation, beside what it returns.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline]
+    pub(super) fn charge_passing<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        price: Price,
+    ) -> Result<(), Fault> {
+        if price == Price::default() {
+            return Ok(());
+        }
+        self.charge(state, keep, price)?;
+        state.charged -= price.bytes;
+        Ok(())
+    }
+
+    /// An operation of two values, with its price where it has one.
+    ///
+    /// # Errors
+    /// Too many steps or bytes, and as for [`operate::values`].
+    #[inline(never)]
+    pub(super) fn operate<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        op: Binary,
+        (a, b): (Operand, Operand),
+    ) -> Result<Value<S>, Fault> {
+        let (x, y) = (r.get(state, &self.scratch, a), r.get(state, &self.scratch, b));
+        if x.is_plain() && y.is_plain() {
+            return operate::values(op, x, y);
+        }
+        let price = of_binary(op, x, y);
+        self.charge(state, keep, price)?;
+        operate::values(op, r.get(state, &self.scratch, a), r.get(state, &self.scratch, b))
+    }
+
+    /// A comparison of two values that are not plain, with its price.
+    ///
+    /// # Errors
+    /// As for [`Machine::operate`].
+    #[inline(never)]
+    pub(super) fn compare<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        op: Binary,
+        operands: (Operand, Operand),
+    ) -> Result<bool, Fault> {
+        match self.operate(state, keep, r, op, operands)? {
+            Value::Bool(holds) => Ok(holds),
+            other => ops::truth(&other),
+        }
+    }
+
+    /// Charges the price of a built-in function of one argument.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline(never)]
+    pub(super) fn charge_argument<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        builtin: &Builtin<S>,
+        a: Operand,
+    ) -> Result<(), Fault> {
+        let price = of_builtin(builtin, std::slice::from_ref(r.get(state, &self.scratch, a)));
+        self.charge_passing(state, keep, price)
+    }
+
+    /// Charges the price of a built-in function of the arguments in the buffer.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline(never)]
+    pub(super) fn charge_arguments<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        builtin: &Builtin<S>,
+    ) -> Result<(), Fault> {
+        self.charge_passing(state, keep, of_builtin(builtin, &self.buffer))
+    }
+
+    /// Charges what a built-in function has made.
+    ///
+    /// # Errors
+    /// Too many bytes.
+    #[inline(never)]
+    pub(super) fn charge_answer<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        builtin: &Builtin<S>,
+        value: &Value<S>,
+    ) -> Result<(), Fault> {
+        // A longer list shares all but its end with the list before.
+        let bytes = if builtin.name == "append" { of_append(value) } else { of_made(value) };
+        self.charge(state, keep, Price { steps: 0, bytes })
+    }
+
+    /// Charges the building of a distribution by a question, which finds most of them in the cache: fewer steps.
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
+    #[inline(never)]
+    pub(super) fn charge_rows<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        args: Args,
+        family: Family,
+    ) -> Result<(), Fault> {
+        let operands = r.f.operands[args.range()].iter();
+        let prices = operands.map(|o| of_dist(family, std::slice::from_ref(r.get(state, &self.scratch, *o))));
+        let price = prices.reduce(|a, b| Price { steps: a.steps.max(b.steps), bytes: a.bytes.max(b.bytes) });
+        let price = price.unwrap_or_default();
+        self.charge_passing(state, keep, Price { steps: price.steps / PARAMETERS_PER_STEP, ..price })
+    }
+
+    /// The run has grown: an audit, where it is due.
+    ///
+    /// # Errors
+    /// Too many bytes.
+    #[inline]
+    pub(super) fn afford<K: Keep<S>>(&self, state: &mut State<S>, keep: &K) -> Result<(), Fault> {
+        if state.bytes() + self.own_bytes() > state.ceiling { self.audit(state, keep, 0) } else { Ok(()) }
+    }
+
+    /// Counts what a run holds between two questions, so that values that it has dropped do not count any more.
+    pub fn recount(&mut self, state: &mut State<S>) {
+        self.empty_scratch();
+        state.charged = self.values_of(state, &super::keep::Dropped);
+    }
+
+    fn values_of<K: Keep<S>>(&self, state: &State<S>, keep: &K) -> usize {
+        let mut census = Census::new();
+        self.leave_out_given(state, &mut census);
+        state.count(&mut census);
+        self.scratch[..self.high].iter().for_each(|value| census.add(value));
+        keep.count_bytes(&mut census);
+        census.bytes()
+    }
+
+    /// What belongs to the program and to the caller is not counted.
+    pub fn leave_out_given(&self, state: &State<S>, census: &mut Census<'_, S>) {
+        self.program.leave_out(census);
+        state.leave_out_given(census);
+    }
+
+    /// Counts what the run holds. `coming` of the bytes charged are not allocated yet.
+    ///
+    /// # Errors
+    /// They are more than the run may have.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn audit<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        coming: usize,
+    ) -> Result<(), Fault> {
+        let limit = self.limits.bytes;
+        let values = self.values_of(state, keep);
+        state.charged = values.saturating_add(coming);
+        let total = state.bytes().saturating_add(self.own_bytes());
+        if total > limit {
+            return Err(self.out_of_memory());
+        }
+        state.ceiling = state.bytes() + (limit - total).max(limit / 32);
+        Ok(())
+    }
+}

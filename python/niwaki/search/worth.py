@@ -1,0 +1,71 @@
+"""What is said of a result that is worth less than its search promised."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from niwaki import _engine
+from niwaki.draw.scene import Scene
+from niwaki.result import Sample
+from niwaki.targets.sketches import Score
+from niwaki.targets.target import Target
+
+#: A scene this many times as long as its target, or the other way round, has another unit.
+SIZES = 10.0
+
+
+class SearchWarning(UserWarning):
+    """A search gave a result, but one that is worth less than its settings promise."""
+
+
+def check_worth(task: _engine.Task, score: Score, best: Sample) -> None:
+    """Warn where the best is no better than nothing, has another size than its target, or is far from it."""
+    found = [_gain(task, best)]
+    if score.target is not None and best.primitives:
+        found += [_size(score.target, best.scene), _distance(score.target, best)]
+    for text in filter(None, found):
+        warnings.warn(text, SearchWarning, stacklevel=6)
+
+
+def _gain(task: _engine.Task, best: Sample) -> str:
+    gain = task.gain(best._run)
+    if gain > 0.0 or (gain == 0.0 and best.primitives):
+        return ""
+    than = f"scores {-gain:.1f} nats less than" if gain < 0.0 else "is"
+    return (
+        f"the best result {than} an empty scene: give more `seconds` or `rounds`, or look whether the model can "
+        "reach its target at all (`niwaki show MODEL`; `niwaki.run(model).best.save('scene.png')`)"
+    )
+
+
+def _size(target: Target, scene: Scene) -> str:
+    own, wanted = float(scene.size.max()), float(target.size.max())
+    if wanted / SIZES <= own <= wanted * SIZES:
+        return ""
+    times, small, large = (
+        (own / wanted, "target", "model") if own > wanted else (wanted / own, "model", "target")
+    )
+    return (
+        f"the {large} is {times:.0f} times as large as the {small}: {own:.3g} and the target {wanted:.3g} along the "
+        "longest side, scene units. A mesh is taken as it is in its file: scale it there, or the model"
+    )
+
+
+def _distance(target: Target, best: Sample) -> str:
+    first = Scene([best.parts[0]]).bounds
+    low, high = target.bounds
+    gap = np.maximum(np.maximum(first[0] - high, low - first[1]), 0.0)
+    away = float(np.linalg.norm(gap))
+    if away <= float(target.size.max()):
+        return ""
+    start, middle = ((bounds[0] + bounds[1]) / 2.0 for bounds in (first, target.bounds))
+    return (
+        f"the target is far from where the model begins: its first part is at {_point(start)}, {away:.3g} from the "
+        f"target, whose middle is at {_point(middle)}. Move the mesh, or let the model begin there"
+    )
+
+
+def _point(place: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
+    return f"({', '.join(f'{part:.3g}' for part in place)})"

@@ -1,0 +1,124 @@
+"""Going on from a result that is there: `--from out/run.json` with `--lock` or `--reroll`.
+
+--lock 'wing*'      other results with the same wings: their choices are held, all else is searched
+--reroll 'gun*'     the same result with other guns: all else stays as it is, to the bit
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+import niwaki as nw
+from niwaki import search, shell
+from niwaki.errors import InputError
+from niwaki.lang.compiled import translated
+from niwaki.result import parts
+from niwaki.shell import picking
+
+From = Annotated[
+    Path | None,
+    typer.Option("--from", metavar="RUN.JSON", help="A result to go on from, with --lock or --reroll."),
+]
+Lock = Annotated[
+    list[str] | None,
+    typer.Option("--lock", metavar="PATTERN", help="Keep what this matches, search the rest; repeatable."),
+]
+Reroll = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--reroll",
+        metavar="PATTERN",
+        help="Grow the parts that this matches again, keep the rest; repeatable.",
+    ),
+]
+OfRun = Annotated[
+    int | None, typer.Option("--run", metavar="N", help="With --from: its result #N; default: the best.")
+]
+
+#: Particles of each part that is grown again.
+PARTICLES = 200
+
+
+@dataclass(frozen=True)
+class Origin:
+    """What a search goes on from, checked.
+
+    Attributes
+    ----------
+    sample
+        The result, as it was.
+    lock, reroll
+        Patterns of what is held, and of the parts that are grown again.
+    """
+
+    path: Path
+    number: int
+    sample: nw.Sample
+    lock: tuple[str, ...]
+    reroll: tuple[str, ...]
+
+    @classmethod
+    def of_flags(
+        cls, path: Path | None, number: int | None, lock: list[str] | None, reroll: list[str] | None
+    ) -> Origin | None:
+        """The origin that the flags name; None without one."""
+        for flag, given in (("--lock", lock), ("--reroll", reroll), ("--run", number is not None)):
+            if given and path is None:
+                raise InputError("lock-without-run", flag=flag)
+        if path is None:
+            return None
+        if lock and reroll:
+            raise InputError(
+                "flags-exclude",
+                flag="--lock",
+                other="--reroll",
+                reason="`--reroll` keeps everything but its parts, `--lock` keeps its parts and nothing else",
+                cure="give one of them",
+            )
+        if not lock and not reroll:
+            reason = "it is the result of which something is kept"
+            raise InputError("flag-alone", flag="--from", other="`--lock` or `--reroll`", reason=reason)
+        data = shell.run_files.load(path)
+        place = picking.place(number, len(data["runs"]), data["best"])
+        # The model's own file has been run for this command; no other module is imported here.
+        known = {module for module, _, _ in shell.trust.hosts(data["search"]) if module in sys.modules}
+        sample = shell.run_files.replayed(data, place, tuple(sorted(known)), path)
+        return cls(path, place + 1, sample, tuple(lock or ()), tuple(reroll or ()))
+
+    @property
+    def held(self) -> dict[str, Any] | None:
+        """The choices of the locked parts, by address."""
+        return self.sample.held(*self.lock) if self.lock else None
+
+    def data(self) -> dict[str, Any]:
+        """The origin, for run.json."""
+        return {
+            "file": str(self.path.resolve()),
+            "hash": self.sample.search.hash,
+            "run": self.number,
+            "lock": list(self.lock),
+            "reroll": list(self.reroll),
+        }
+
+    def rerolled(self, asked: nw.Search, particles: int | None, threads: int | None) -> nw.Result:
+        """The result with other parts, once for each run of the search that was asked for."""
+        with translated(asked.model.name):
+            trace = asked.task.replay(self.sample.choices, asked.seed)
+        start = nw.Sample.of_trace(trace, asked, asked.seed)
+        usual = 1.0 if asked.score.window is not None else search.POWER
+        power = getattr(asked.method, "power", usual)
+        found = []
+        for number in range(asked.runs):
+            one, seed = start, (asked.seed + number) % 2**64
+            for pattern in self.reroll:
+                scene = [part.address for part in one.parts]
+                for part in parts.matching(pattern, one.choices, scene, asked.model.name):
+                    grown = one.regrow(part, particles or PARTICLES, power=power, seed=seed, threads=threads)
+                    one = grown.best
+            found.append(one)
+        return nw.Result(replace(asked, polish=None), found, asked.seed)

@@ -1,0 +1,60 @@
+"""The pictures of a result: the best, a sheet of all, and what each image or shadow sketch sees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+import niwaki as nw
+from niwaki import draw, targets
+
+Quick = Annotated[
+    bool,
+    typer.Option(
+        "--quick", help="Small pictures with one ray for each pixel, in some hundredths of a second."
+    ),
+]
+
+#: A draft: pixels of the best, of a cell of the sheet, and of a panel's height.
+DRAFT, CELL, PANEL = (320, 240), (240, 180), 180
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """Which pictures to draw, and whether as drafts."""
+
+    wanted: bool = True
+    quick: bool = False
+
+    def names(self, result: nw.Result, style: str | None) -> list[str]:
+        """The names of the files; one result has no sheet."""
+        if not self.wanted:
+            return []
+        views = [f"{view.kind}.png" for view in result.score.views]
+        return ["best.png", *(["sheet.png"] if len(result) > 1 else []), *views]
+
+    def write(self, result: nw.Result, folder: Path, style: str | None) -> None:
+        """Draw them; the `style` is that of a drawing."""
+        names = self.names(result, style)
+        if not names:
+            return
+        self.best(result.best, folder, style)
+        styled: dict[str, Any] = {} if style is None else {"style": style}
+        draft = {"samples": 1} if self.quick else {}
+        if "sheet.png" in names:
+            small = {"size": CELL} if self.quick and (result.score.target or not result.score.views) else {}
+            draw.picture.save_image(lambda: result.sheet(**styled, **draft, **small), folder / "sheet.png")
+        high = {"height": PANEL} if self.quick else {}
+        for view in result.score.views:
+            place = folder / f"{view.kind}.png"
+            targets.views.save_view(place, result.best.scene, view, **styled, **draft, **high)
+
+    def best(self, sample: nw.Sample, folder: Path, style: str | None) -> Path:
+        """Draw best.png alone."""
+        settings: dict[str, Any] = {} if style is None else {"style": style, "size": (800, 800)}
+        if self.quick:
+            settings |= {"samples": 1, "size": DRAFT if style is None else (DRAFT[1], DRAFT[1])}
+        return sample.save(folder / "best.png", **settings)

@@ -1,0 +1,93 @@
+"""`niwaki show`: runs of a model as they come, with no target, as a sheet."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+import niwaki as nw
+from niwaki import draw, methods, search, shell
+from niwaki.errors import InputError
+from niwaki.methods import Forward
+from niwaki.shell import arguments, controls
+from niwaki.shell.app import ModelName, app, counted
+from niwaki.shell.clock import Clock
+
+#: So many runs are tried for each that is shown: the others break a constraint of the model.
+TRIES = 50
+#: Pixels of a cell of the sheet, and rays for each where it changes.
+CELL, SAMPLES = (320, 240), 4
+
+
+@app.command()
+def show(
+    model: ModelName,
+    values: arguments.Arguments = None,
+    count: Annotated[int, typer.Option("-n", "--count", help="How many runs.")] = 6,
+    preset: arguments.Preset = None,
+    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is printed.")] = None,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="The picture: .png, .jpg or .webp.")
+    ] = Path("show.png"),
+    quick: Annotated[bool, typer.Option("--quick", help="One ray for each pixel, and smaller.")] = False,
+) -> None:
+    """Draw runs of MODEL side by side, as they come, with no target: what the model makes."""
+    clock = Clock()
+    methods.at_least_one("--count", count)
+    with clock.part("compile"):
+        found = shell.references.find(model)
+        given = {**_begin(found), **arguments.read(found.model, values, preset)}
+        found.model.program()
+    with clock.part("runs"):
+        result = _runs(found.model, given, count, search.fresh(seed))
+    for number, one in enumerate(result, 1):
+        made = counted(one.primitives, "primitive") if one.primitives else f"{one.value!r}"
+        print(f"#{number}   seed {one.seed}   {made}")
+    if not any(one.primitives for one in result):
+        print("no run emitted a shape, so there is no picture")
+        return
+    with clock.part("picture"):
+        style = {} if found.entry is None or found.entry.draws is None else {"style": found.entry.draws}
+        sheet: dict[str, Any] = {"size": CELL, "samples": SAMPLES, **style}
+        if quick:
+            sheet |= {"size": (CELL[0] // 2, CELL[1] // 2), "samples": 1}
+        shown = [(number, one) for number, one in enumerate(result, 1) if one.primitives]
+        captions = [f"#{number}   seed {one.seed}" for number, one in shown]
+        scenes = [one.scene for _, one in shown]
+        draw.picture.save_image(lambda: draw.sheet.sheet(scenes, captions, **sheet), output)
+    print(f"{output}   {clock}")
+
+
+def _begin(found: shell.references.ModelReference) -> dict[str, Any]:
+    """Where a model of the gallery begins that follows a drawing: where its own drawing does."""
+    entry = found.entry
+    if entry is None or entry.drawing_name is None or entry.window is None:
+        return {}
+    if not controls.follows(found.model):
+        return {}
+    drawing = controls.Controls(draws=True).drawing(found)
+    assert drawing is not None
+    return dict(zip(("x", "y", "ahead"), drawing.place(entry.window), strict=True))
+
+
+def _runs(model: nw.Model[..., Any], given: dict[str, Any], count: int, seed: int) -> nw.Result:
+    """The first possible runs of a seed and those that follow it."""
+    first = nw.Search(model, tuple(arguments.bound(model, given)), method=Forward(), seed=seed)
+    kept: list[nw.Sample] = []
+    causes: Counter[str] = Counter()
+    for number in range(TRIES * count):
+        one = replace(first, seed=(seed + number) % 2**64).run().best
+        if one.cause is None:
+            kept.append(one)
+        else:
+            causes[one.cause] += 1
+        if len(kept) == count:
+            break
+    if not kept:
+        listed = ", ".join(f"{cause} ({times})" for cause, times in causes.most_common())
+        raise InputError("every-run-impossible", name=model.name, count=TRIES * count, constraint=listed)
+    return nw.Result(first, kept, seed)
