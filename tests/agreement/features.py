@@ -251,6 +251,17 @@ def m():
     v = vec(gaussian(), gaussian(), gaussian())
     return r * v, r * s, r * s * v, r[0], len(r), list(r)[2], r == r, [row for row in s][1]
 """,
+    "emits": """
+def part(x):
+    emit(box((x, 9, 0), (1, 1, 1)), name="roof", color=hsv(0.1, 0.5, x))
+def m():
+    skin = (uniform(0, 1), 0.5, 0.25)
+    emit([box((2 * i, 1, 3), (0.5, 0.1, 2)) for i in range(3)], disc((0, 0, 9), 1, color=(1, 0, 0)), color=skin, name="wing")
+    emit(box((0, 1, 6), (2, 1, 2)) if flip() else (limb((0, 1, 6), (2, 1, 1), 0.3, 0.2),), color=skin, name="wing")
+    emit(cylinder((0, 20, 0), uniform(1, 2), 1), color=None, name="a-mast_2")
+    part(skin[0])
+    emit(box((0, 30, 0), (1, 1, 1)))
+""",
     "inference": """
 def inner(p, k=1):
     a, b = flip(p), flip(0.5)

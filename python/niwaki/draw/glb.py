@@ -1,22 +1,26 @@
-"""A scene as a GLB file: a node for each part, named by its address; equal parts share a mesh.
+"""A scene as a GLB file: nodes in the hierarchy of the model's calls; equal parts share a mesh.
 
 Written here rather than by a library, so that the same scene gives the same bytes (glTF 2.0, section 4 for the
-container, 3.6 for buffers, 3.5.3 for nodes). Each node also carries its address as an extra, because Blender cuts
-names after 63 bytes. Parts of equal geometry (`niwaki.draw.instances`) share its buffers; where their paints are
-equal too they share the whole mesh, so that a modelling program opens them as linked copies.
+container, 3.6 for buffers, 3.5.3 for nodes). The node of a part carries its address as an extra. Parts of equal
+geometry (`niwaki.draw.instances`) share its buffers; where their paints are equal too they share the whole mesh, so
+that a modelling program opens them as linked copies.
 
-Lengths are scene units, y is up, as glTF requires. A node's origin is the middle of its part.
+Lengths are scene units, y is up, as glTF requires. The origin of a part's node is the middle of the part; the nodes of
+calls stay at the scene's origin.
 """
 
 from __future__ import annotations
 
 import json
 import struct
+from collections import Counter
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki.draw.hierarchy import hierarchy
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
 from niwaki.draw.palette import Paint
 from niwaki.draw.parts import part_meshes
@@ -70,16 +74,20 @@ def glb(scene: Scene) -> bytes:
                 {**shared, "material": materials.setdefault(paint, len(materials)), "mode": TRIANGLES}
                 for shared, paint in zip(stored[instance.mesh], worn, strict=True)
             ]
-            written.append({"name": geometries[instance.mesh].part.address, "primitives": primitives})
+            written.append({"name": "", "primitives": primitives})
         nodes.append(_node(part.address, meshes[instance.mesh, worn], instance))
+    roots = hierarchy(nodes)
+    for node in nodes[: len(parts)]:
+        written[node["mesh"]]["name"] = written[node["mesh"]]["name"] or node["name"]
+    names = materials_named(materials)
     return _container(
         {
             "asset": {"version": "2.0", "generator": "niwaki"},
             "scene": 0,
-            "scenes": [{"nodes": list(range(len(nodes)))}],
+            "scenes": [{"nodes": roots}],
             "nodes": nodes,
             "meshes": written,
-            "materials": [_material(paint, k) for paint, k in materials.items()],
+            "materials": [_material(paint, name) for paint, name in zip(materials, names, strict=True)],
             "accessors": buffer.accessors,
             "bufferViews": buffer.views,
             "buffers": [{"byteLength": len(buffer.data)}],
@@ -106,14 +114,27 @@ def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
 def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
     node: dict[str, Any] = {"name": address, "mesh": mesh, "extras": {"address": address}}
     node["translation"] = instance.translation.tolist()
+    if instance.scale != 1.0:
+        node["scale"] = [instance.scale] * 3
     if not np.allclose(instance.rotation, np.eye(3), rtol=0.0, atol=1e-9):
         node["rotation"] = list(quaternion(instance.rotation))
     return node
 
 
-def _material(paint: Paint, number: int) -> dict[str, Any]:
+def materials_named(materials: Iterable[Paint]) -> list[str]:
+    """Names of materials, each once: the second "bark" is "bark 2"."""
+    counts: Counter[str] = Counter()
+    names = []
+    for paint in materials:
+        counts[paint.name] += 1
+        count = counts[paint.name]
+        names.append(paint.name if count == 1 else f"{paint.name} {count}")
+    return names
+
+
+def _material(paint: Paint, name: str) -> dict[str, Any]:
     return {
-        "name": f"paint {number}",
+        "name": name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [*(round(_linear(c), 6) for c in paint.color), 1.0],
             "metallicFactor": 0.0,

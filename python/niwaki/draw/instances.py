@@ -1,11 +1,13 @@
 """Which parts are one mesh in several places.
 
-Two parts are equal when a rotation and a translation take the vertices of one onto those of the other, number by
-number, within `TOLERANCE` of the part's extent (about what a 32-bit float keeps). So:
+Two parts are equal when one scale, a rotation and a translation take the vertices of one onto those of the other,
+number by number, within `TOLERANCE` of the part's extent (about what a 32-bit float keeps). So:
 
 1. parts with other triangles, or with the same ones in other pieces, are different;
-2. parts with other inner measures (singular values of the centred vertices, the farthest vertex) are different;
-3. the best rotation is Kabsch's (1976, through the singular value decomposition); its largest residual decides.
+2. parts with other inner measures (singular values of the centred vertices, as shares of the farthest vertex's
+   distance) are different;
+3. the scale is the ratio of those distances, and the best rotation is Kabsch's (1976, through the singular value
+   decomposition); its largest residual decides.
 
 Mirror images are different. So are solids that agree as sets of points but number their vertices differently, such as a
 box of size (1, 2, 1) and one of size (2, 1, 1): they are written twice, which costs bytes and nothing else.
@@ -37,13 +39,16 @@ class Instance:
     ----------
     mesh : int
         Number of the geometry it shares.
+    scale
+        Factor on the geometry's own coordinates, first.
     rotation : (3, 3) float64
-        From the geometry's own coordinates to the scene's.
+        From the geometry's own directions to the scene's.
     translation : (3,) float64
         Scene units, after the rotation.
     """
 
     mesh: int
+    scale: float
     rotation: NDArray[np.float64]
     translation: NDArray[np.float64]
 
@@ -85,9 +90,9 @@ def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]
         number, found = -1, None
         if bucket.numbers:
             apart = np.abs(np.array(bucket.measures) - measure).max(axis=1)
-            for k in np.nonzero(apart <= TOLERANCE * _extent(cloud))[0]:
+            for k in np.nonzero(apart <= TOLERANCE)[0]:
                 number = bucket.numbers[k]
-                found = rigid(clouds[number], cloud)
+                found = similar(clouds[number], cloud)
                 if found is not None:
                     break
         if found is None:
@@ -97,24 +102,27 @@ def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]
             clouds.append(cloud)
             bucket.numbers.append(number)
             bucket.measures.append(measure)
-            found = np.eye(3), np.zeros(3)
-        rotation, shift = found
-        placed.append(Instance(number, rotation, shift + rotation @ geometries[number].pivot))
+            found = 1.0, np.eye(3), np.zeros(3)
+        scale, rotation, shift = found
+        placed.append(Instance(number, scale, rotation, shift + scale * rotation @ geometries[number].pivot))
     return geometries, placed
 
 
-def rigid(
+def similar(
     first: NDArray[Any], second: NDArray[Any]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """The rotation and translation that take `first` to `second`, both (n, 3); None where there is none."""
+) -> tuple[float, NDArray[np.float64], NDArray[np.float64]] | None:
+    """The scale, rotation and translation that take `first` to `second`, both (n, 3); None where there are none."""
     here, there = first.mean(axis=0), second.mean(axis=0)
+    scale = _reach(second - there) / max(_reach(first - here), np.finfo(float).tiny)
+    if abs(scale - 1.0) <= TOLERANCE:
+        scale = 1.0
     left, _, right = np.linalg.svd((second - there).T @ (first - here))
     # A reflection has determinant -1: turn the least important axis, so that what comes out is a rotation.
     turn = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(left @ right)))])
     rotation = left @ turn @ right
-    shift = there - rotation @ here
-    residual = np.abs(first @ rotation.T + shift - second).max()
-    return (rotation, shift) if residual <= TOLERANCE * _extent(second) else None
+    shift = there - scale * rotation @ here
+    residual = np.abs(scale * first @ rotation.T + shift - second).max()
+    return (scale, rotation, shift) if residual <= TOLERANCE * _extent(second) else None
 
 
 def quaternion(rotation: NDArray[np.float64]) -> Quaternion:
@@ -146,10 +154,15 @@ def _triangles(part: PartMesh) -> bytes:
 
 
 def _measure(cloud: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What no rigid motion changes: spread along the principal axes, and the farthest vertex, (4,)."""
+    """What no motion and no scale changes: spread along the principal axes, as shares of the reach, (3,)."""
     centred = cloud - cloud.mean(axis=0)
     spread = np.linalg.svd(centred, compute_uv=False) / np.sqrt(len(cloud))
-    return np.array([*spread, *np.zeros(3 - len(spread)), np.linalg.norm(centred, axis=1).max()])
+    return np.array([*spread, *np.zeros(3 - len(spread))]) / max(_reach(centred), np.finfo(float).tiny)
+
+
+def _reach(centred: NDArray[np.float64]) -> float:
+    """The distance of the farthest vertex from the middle."""
+    return float(np.linalg.norm(centred, axis=1).max())
 
 
 def _extent(cloud: NDArray[np.float64]) -> float:

@@ -1,8 +1,9 @@
 """Colours for parts whose shapes have no colours.
 
 Two palettes: *machine* (warm greys, graphite for round shapes, a burnt orange accent) and *garden* (bark for
-limbs, pine greens for the rest), taken when a scene holds limbs. Each part's tone varies a little with its
-address and with nothing else, so that a part keeps its colour when others change.
+limbs, pine greens for the rest), taken when a scene holds a limb without a colour of its own. A shape with a colour is
+smooth in both. Each part's tone varies a little with its address and with nothing else, so that a part keeps its colour
+when others change.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
-#: Kinds of shapes that make a scene a garden, and that have bark.
+#: Kinds of shapes that have bark where they have no colour, and then make a scene a garden.
 WOODEN = ("limb", "segment")
 
 
@@ -33,6 +34,8 @@ class Paint:
 
     Attributes
     ----------
+    name
+        Of the material in files.
     color
         sRGB in [0, 1].
     gloss
@@ -43,6 +46,7 @@ class Paint:
         Size of the bumps of a rough surface, scene units.
     """
 
+    name: str
     color: Color
     gloss: float
     rough: float = 0.0
@@ -52,27 +56,33 @@ class Paint:
 def paints(scene: Scene, like: Scene | None = None) -> list[list[Paint]]:
     """Choose the paint of each shape of each part, in order; by the kinds and the size of `like` where it is given."""
     whole = scene if like is None else like
-    garden = any(shape.kind in WOODEN for part in whole.parts for shape in part.shapes)
+    garden = any(
+        shape.kind in WOODEN and shape.color is None for part in whole.parts for shape in part.shapes
+    )
     extent = whole.size.max() if len(whole) else 1.0
     return [[_paint(part, shape, garden, extent) for shape in part.shapes] for part in scene.parts]
 
 
 def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
-    own = None if shape.color is None else _triple(shape.color)
-    limb = shape.kind in WOODEN
     dice = zlib.crc32(part.address.encode())
+    if shape.color is not None:
+        return Paint(named(_triple(shape.color)), _triple(shape.color), 0.35)
+    if garden and shape.kind in WOODEN:
+        return Paint("bark", _vary(BARKS, dice, 0.012, 0.0), 0.05, 0.35, 0.012 * extent)
     if garden:
-        color = own or (_vary(BARKS, dice, 0.012, 0.0) if limb else _vary(PINES, dice, 0.04, 0.012))
-        return Paint(color, 0.05, 0.35, 0.012 * extent) if limb else Paint(color, 0.08, 0.8, 0.016 * extent)
-    if own is not None:
-        return Paint(own, 0.35)
+        return Paint("foliage", _vary(PINES, dice, 0.04, 0.012), 0.08, 0.8, 0.016 * extent)
     low, high = shape.aabb()
     sizes = sorted(b - a for a, b in zip(low, high, strict=True))
     if shape.kind.endswith("cylinder"):
-        return Paint(_vary(GRAPHITES, dice, 0.05, 0.0), 0.5)
+        return Paint("graphite", _vary(GRAPHITES, dice, 0.05, 0.0), 0.5)
     if sizes[0] < 0.035 * extent or dice % 7 == 0:
-        return Paint(_vary(ACCENTS, dice, 0.03, 0.004), 0.35)
-    return Paint(_vary(WARM_GREYS, dice, 0.05, 0.004), 0.35)
+        return Paint("accent", _vary(ACCENTS, dice, 0.03, 0.004), 0.35)
+    return Paint("warm grey", _vary(WARM_GREYS, dice, 0.05, 0.004), 0.35)
+
+
+def named(color: Color) -> str:
+    """A colour's name, as the web writes it."""
+    return "#" + "".join(f"{round(255 * min(max(part, 0.0), 1.0)):02x}" for part in color)
 
 
 def _vary(colors: tuple[Color, ...], dice: int, by: float, turn: float) -> Color:

@@ -34,7 +34,9 @@ def page(message: Message, found: str) -> str:
     """One page, Markdown."""
     title, why, cure = (text.format_map(_Shown()) for text in (message.title, message.why, message.help))
     parts = [f"# {message.code}", f"{_sentence(title)} {found}"]
-    if message.why not in ("", "{reason}"):
+    if message.about:
+        parts += ["## Why", message.about]
+    elif message.why not in ("", "{reason}"):
         parts += ["## Why", _sentence(why)]
     if message.example:
         parts += ["## Example", _block(message.example)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Sequence
+from typing import NoReturn
 
 from niwaki.errors.source import Span
 from niwaki.lang.body import Body
@@ -55,11 +56,7 @@ def bind(
     slots: list[int] = list(range(len(args)))
     for keyword in keywords:
         if keyword.arg not in names:
-            close = nearest(keyword.arg or "", names)
-            hint = (
-                f"did you mean `{close[0]}`?" if close else f"its parameters are {', '.join(names) or 'none'}"
-            )
-            body.refuse("unknown-keyword", keyword, place, name=name, keyword=keyword.arg, suggestion=hint)
+            unknown(body, keyword, name, names, place)
         slot = names.index(keyword.arg)
         if slot in slots:
             body.refuse("argument-twice", keyword, place, name=name, keyword=keyword.arg)
@@ -74,6 +71,15 @@ def bind(
     for slot, value in zip(slots, values, strict=True):
         bound[slot] = value
     return bound
+
+
+def unknown(
+    body: Body, keyword: ast.keyword, name: str, names: Sequence[str], place: Span | None = None
+) -> NoReturn:
+    """Refuse a keyword that is no parameter, with the nearest that is one."""
+    close = nearest(keyword.arg or "", names)
+    hint = f"did you mean `{close[0]}`?" if close else f"its parameters are {', '.join(names) or 'none'}"
+    body.refuse("unknown-keyword", keyword, place, name=name, keyword=keyword.arg, suggestion=hint)
 
 
 def wrong(

@@ -18,6 +18,7 @@ from niwaki.lang.arguments import bind, no_keywords, no_stars
 from niwaki.lang.body import Body
 from niwaki.lang.callees import applied, nested, operate, user_function
 from niwaki.lang.core import Expr, Form, literal
+from niwaki.lang.emits import emit
 from niwaki.lang.expressions import expressions, forbidden, keep_defaults, later, lowers, static
 from niwaki.lang.inference import infer
 from niwaki.lang.marks import Host, underlying
@@ -111,12 +112,7 @@ def effect(body: Body, node: ast.Call, word: Any) -> Expr:
     """`sample`, `observe`, `factor`, `condition`, `query`, `emit`, `force`."""
     head = vocabulary.EFFECTS[word]
     if head == "emit":
-        no_keywords(body, node, "emit")
-        if not node.args:
-            body.refuse(
-                "wrong-number-of-arguments", node, name="emit", expected="at least 1 argument", found="0"
-            )
-        return body.form("emit", expressions(body, node.args), node)
+        return emit(body, node)
     values = bind(body, node, node.args, node.keywords, vocabulary.parameters_of(word), head)
     return body.form(head, [value for value in values if value is not None], node)
 

@@ -15,6 +15,7 @@ from niwaki.errors.kinds import place
 from niwaki.errors.messages import MESSAGES
 from niwaki.errors.settings import MOST, bad, is_whole
 from niwaki.errors.source import Span
+from niwaki.lang import vocabulary
 from niwaki.lang.core import Core
 from niwaki.lang.lower import lower
 from niwaki.lang.marks import Marked, P, T
@@ -143,7 +144,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         nearest = ", ".join(f'"{one}"' for one in near) or "none"
         return InputError("missing-choice", address=fault.subject, nearest=nearest)
     if fault.kind == "run":
-        error = ModelFault.from_engine(fault.code, fault.message, fault.help, fault.stack, replay)
+        help = fault.help or vocabulary.shape_help(fault.message)
+        error = ModelFault.from_engine(fault.code, fault.message, help, fault.stack, replay)
         error.values |= {"omitted": fault.omitted, "invalid": fault.invalid}
         return error
     if fault.kind == "compile":
@@ -172,6 +174,7 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
             barrier=f"barrier {fault.barrier}" if fault.barrier else "the end",
             count=total,
             constraint=causes,
+            cure=_cure(fault),
             elsewhere=_elsewhere(fault.blame),
             attempts=_tried(fault.attempts),
         )
@@ -181,18 +184,49 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
     return InputError(fault.code, detail=fault.message)
 
 
+LOOSEN = "loosen the constraint, so that more runs meet it"
+
+#: What to do where a constraint forbids every run, by the name of the constraint.
+CURES = {
+    "floor": "move the floor below the model's first part, or start the model above it",
+    "avoid": "start the model beside the obstacle, or make the obstacle smaller",
+    "no_self_intersection": "put parts that belong together into one `emit`, or leave a gap between them",
+}
+
+
+#: A part that breaks a constraint alone, or with another, by the name of the constraint.
+BREAKS = {
+    "floor": "reaches below the floor",
+    "avoid": "reaches into the obstacle",
+    "no_self_intersection": "runs into another part",
+}
+
+#: Where one place forbids this share of the runs, more of them do not help.
+NEARLY_ALL = 0.9
+
+
+def _cure(fault: Any) -> str:
+    """What to do, by what forbids most runs: more particles only where runs die late and in many places."""
+    cause = fault.causes[0][0] if fault.causes else ""
+    first = CURES.get(cause, LOOSEN)
+    often = max((runs for *_, runs in fault.blame), default=0)
+    hopeless = fault.barrier <= 1 or (fault.looked_at and often >= NEARLY_ALL * fault.looked_at)
+    return first if hopeless else f"{first}; more particles may help, as runs die late and in many places"
+
+
 def _places(blame: list[Any], looked_at: int) -> list[tuple[Span, str]]:
     """Where the parts are emitted that break a constraint most often; `looked_at` is the number of runs."""
     if not blame:
         return []
     constraint, part, other, runs = blame[0]
-    often = f"{constraint} in {runs} of {looked_at} runs"
+    what = BREAKS.get(constraint, f"breaks {constraint}")
+    often = f"in {runs} of {looked_at} runs"
     first, second = place(part[1], *part[2]), None if other is None else place(other[1], *other[2])
     if second is None:
-        return [(first, f"breaks {often}")]
+        return [(first, f"{what} {often}")]
     if second == first:
-        return [(first, f"two of these break {often}")]
-    return [(first, f"breaks {often}"), (second, "with this")]
+        return [(first, f"one of these {what} of this line {often}")]
+    return [(first, f"{what} {often}"), (second, "the other part")]
 
 
 def _elsewhere(blame: list[Any]) -> str:

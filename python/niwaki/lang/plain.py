@@ -419,7 +419,7 @@ class PlainRun:
                 f"the host function `{host.name}` failed: {type(error).__name__}: {error}",
             )
         replay = f"seed={self.seed}" if self.seed is not None else ""
-        return ModelFault(code, text, stack=self.stack(error), replay=replay)
+        return ModelFault(code, text, vocabulary.shape_help(text), stack=self.stack(error), replay=replay)
 
 
 def _refuse_as_key(key: Any) -> None:

@@ -6,7 +6,7 @@
                `while[3]`; `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` where those call a function
     zc         a choice: the name that the enclosing assignment gives first, else the distribution's family
     layout     the seed of an `infer`: likewise the name that is assigned to, else `infer`
-    observe    and likewise `factor`, `condition`, `query`, `emit`
+    observe    and likewise `factor`, `condition`, `query`, `emit`; an `emit` with a `name` has that instead
 
 The model that is run adds nothing: the address of its own choice `zc` is "zc".
 
@@ -21,6 +21,7 @@ Here a label is written with empty brackets for a loop, `i[]#1`; the index goes 
 from __future__ import annotations
 
 import ast
+import re
 from collections import Counter
 from collections.abc import Iterable
 from types import FunctionType, ModuleType
@@ -125,6 +126,8 @@ class _Namer:
         elif value is words.choose:
             weighted = len(node.args) > 1 or bool(node.keywords)
             self.label(node, "end", self.target or ("categorical" if weighted else "discrete_uniform"))
+        elif value is words.emit:
+            self.label(node, "end", part_name(node) or "emit")
         elif value in vocabulary.EFFECTS:
             self.label(node, "end", vocabulary.EFFECTS[value])
         elif value is words.infer:
@@ -185,6 +188,13 @@ class _Namer:
             if isinstance(owner, ModuleType):
                 return underlying(getattr(owner, node.attr, MISSING))
         return MISSING
+
+
+def part_name(node: ast.Call) -> str | None:
+    """The name that an `emit` gives to its part, where it is one that an address can hold."""
+    given = next((keyword.value for keyword in node.keywords if keyword.arg == "name"), None)
+    text = given.value if isinstance(given, ast.Constant) else None
+    return text if isinstance(text, str) and re.fullmatch(r"[\w-]+", text) else None
 
 
 def first_name(target: ast.AST) -> str:

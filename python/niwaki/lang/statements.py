@@ -10,6 +10,7 @@ from niwaki import words
 from niwaki.lang import vocabulary
 from niwaki.lang.body import Block, Body
 from niwaki.lang.core import LOOK, Expr, Form, literal
+from niwaki.lang.emits import makes_a_shape
 from niwaki.lang.expressions import closure, expression, keep_defaults, static, variable
 from niwaki.lang.refuse import refuse
 from niwaki.lang.scope import Scope, Variable
@@ -57,6 +58,8 @@ def effect(body: Body, node: ast.Expr) -> None:
     """An expression for its effect; a docstring is nothing. `look` lasts: it assigns a variable of its own."""
     if isinstance(node.value, ast.Constant):
         return
+    if makes_a_shape(node.value, body):
+        body.refuse("not-emitted", node.value)
     value = expression(body, node.value)
     if isinstance(node.value, ast.Call) and static(body, node.value.func) is words.look:
         body.put(body.form("set", [LOOK, value], node))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import builtins
 import inspect
 import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -233,6 +234,19 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
     ).split()
     if hasattr(builtins, name)
 )
+
+
+def shape_help(message: str) -> str | None:
+    """What the points and sizes of a shape are, where a message says that one of them is no vector."""
+    found = re.match(r"`(\w+)` takes (a vector|vectors)\b", message)
+    word = next((one for one in SHAPES if found is not None and one.__name__ == found[1]), None)
+    if word is None:
+        return None
+    parameters = inspect.signature(word).parameters
+    names = [name for name, one in parameters.items() if str(one.annotation).startswith("VecLike")]
+    listed = " and ".join(f"`{name}`" for name in names)
+    are = "is a tuple" if len(names) == 1 else "are tuples"
+    return f"{listed} of `{word.__name__}` {are} of three numbers, such as `(0, 1, 0)`"
 
 
 def plain_default(value: Any) -> bool:

@@ -20,7 +20,7 @@ from niwaki import _engine, draw, targets
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
-from niwaki.lang.compiled import translated
+from niwaki.lang.compiled import LOOSEN, translated
 from niwaki.lang.models import Model
 from niwaki.methods import Method, Mh, at_least_one
 from niwaki.once import cached_property
@@ -315,7 +315,9 @@ class Result(Sequence[Sample]):
         if logs.max() == -math.inf:
             causes = Counter(sample.cause or "weights" for sample in self.samples)
             listed = ", ".join(f"{cause} ({count})" for cause, count in causes.most_common())
-            raise InputError("everything-impossible", barrier="the end", count=len(logs), constraint=listed)
+            raise InputError(
+                "everything-impossible", barrier="the end", count=len(logs), constraint=listed, cure=LOOSEN
+            )
         raw = np.exp(logs - logs.max())
         return np.asarray(raw / raw.sum())
 

@@ -1,7 +1,7 @@
 """The shell's commands, one a file; `app` lists them and loads each when it is used.
 
 app.py        the application, and what the commands share: arguments, folders
-progress.py   a line that says how a search goes on
+progress.py   how a search goes on, in lines
 arguments.py  the arguments of a model, as NAME=VALUE and presets
 controls.py   what the shape should be like, as flags
 settings.py   how to search, as flags

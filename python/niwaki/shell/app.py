@@ -15,7 +15,7 @@ from niwaki.errors import FileError
 
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
-    "models": "List the gallery: name, target, title.",
+    "models": "List the gallery: name, how to run it, target, title.",
     "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
     "replay": "Write the best result of a search again, in any format.",
@@ -66,6 +66,13 @@ ModelName = Annotated[
 ]
 Folder = Annotated[
     Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
+]
+
+Megabytes = Annotated[
+    int,
+    typer.Option(
+        "--max-memory", metavar="MB", min=1, help="Most memory of a run or a population, megabytes."
+    ),
 ]
 
 

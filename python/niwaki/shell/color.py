@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -13,6 +14,7 @@ from niwaki.draw.limits import LARGEST
 from niwaki.errors.settings import count as whole
 from niwaki.shell import folders
 from niwaki.shell.app import Folder, app
+from niwaki.shell.progress import coloring_line
 
 
 @app.command()
@@ -51,7 +53,10 @@ def color(
     _before(read, asked)
     start = time.perf_counter()
     with folders.own_folder(output, force) as folder:
-        found = coloring.color(read, asked, count, weight=weight, seed=seed, threads=threads)
+        with coloring_line(Path(drawing).name) as progress:
+            found = coloring.color(
+                read, asked, count, weight=weight, seed=seed, threads=threads, progress=progress
+            )
         seconds = time.perf_counter() - start
         written = coloring.files.write(found, folder, size)
     _summary(found, seconds, seed)

@@ -16,7 +16,7 @@ from niwaki import gallery, search, shell
 from niwaki import result as results
 from niwaki.errors.folders import held_folder
 from niwaki.shell import arguments, controls, folders, held, picking, pictures, resuming, settings, writing
-from niwaki.shell.app import Folder, app, counted
+from niwaki.shell.app import Folder, Megabytes, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
 
@@ -62,6 +62,7 @@ def grow(
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
     max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
+    max_memory: Megabytes = 1024,
     resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,
@@ -149,6 +150,7 @@ def grow(
             rule=rule,
             runs=runs,
             max_steps=max_steps,
+            max_memory=max_memory << 20,
         )
     most = runs if given.get("diverse") is None else given["diverse"]
     picking.exported(export, most)

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
 import niwaki as nw
 from niwaki import guides, search, shell, targets
@@ -21,6 +20,7 @@ from niwaki.methods import Guide
 from niwaki.search.checkpoint import begun_seed
 from niwaki.shell import controls, settings
 from niwaki.shell.app import ModelName, app, ensure_folder
+from niwaki.shell.progress import said
 
 group = typer.Typer(
     help="Train guides, and show what they see.",
@@ -190,24 +190,14 @@ def _line(number: int, traces: int, summary: dict[str, float]) -> str:
 
 @contextmanager
 def _shown(name: str) -> Iterator[Callable[[guides.Round], None]]:
-    """A line for each round on stderr, and a line of progress where stderr is a terminal."""
-    console = Console(stderr=True)
-
-    def judged(now: guides.Round) -> None:
-        print(_line(now.number, now.traces, now.summary()), file=sys.stderr)
-
-    if not console.is_terminal:
-        yield lambda now: judged(now) if now.is_judged else None
-        return
-    with console.status(f"training {name}") as status:
+    """A line for each round on stderr, and progress within a round."""
+    with said(f"training {name}") as tell:
 
         def show(now: guides.Round) -> None:
             if now.is_judged:
-                judged(now)
+                print(_line(now.number, now.traces, now.summary()), file=sys.stderr)
                 return
             what = f"step {now.step} of {now.steps}" if now.steps else f"{now.traces} traces of {now.wanted}"
-            status.update(
-                f"training {name}: round {now.number + 1} of {now.rounds}, {what}   (Ctrl-C keeps the best so far)"
-            )
+            tell(f"round {now.number + 1} of {now.rounds}, {what}")
 
         yield show

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from niwaki import letters as writing
 from niwaki import search
@@ -17,6 +14,7 @@ from niwaki.errors.settings import count
 from niwaki.letters.word import PARTICLES, STYLES, TRIES
 from niwaki.shell import folders
 from niwaki.shell.app import Folder, app
+from niwaki.shell.progress import said
 
 
 @app.command()
@@ -46,7 +44,7 @@ def letters(
     seed = search.fresh(seed)
     start = time.perf_counter()
     with folders.own_folder(output, force) as folder:
-        with _shown(text) as progress:
+        with said(f"writing {text}", keeps=False) as show:
             word = writing.write(
                 text,
                 style,
@@ -55,7 +53,7 @@ def letters(
                 tries=tries,
                 font=font,
                 threads=threads,
-                progress=progress,
+                progress=lambda done, wanted: show(f"{done} of {wanted} searches"),
             )
         seconds = time.perf_counter() - start
         files = [word.save(folder / "word.png", width), word.save(folder / "word.svg")]
@@ -64,14 +62,3 @@ def letters(
     print("  ".join(f"{one.letter.character} {one.similarity:.2f}" for one in word.letters))
     names = ", ".join(file.name for file in files)
     print(f"{len(word.letters)} letters in {seconds:.1f} s, seed {seed}; {names} in {folder}")
-
-
-@contextmanager
-def _shown(text: str) -> Iterator[Callable[[int, int], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda done, wanted: None
-        return
-    with console.status(f"writing {text}") as status:
-        yield lambda done, wanted: status.update(f"writing {text}: {done} of {wanted} searches")

@@ -1,4 +1,4 @@
-"""`niwaki models`: the gallery, a line each."""
+"""`niwaki models`: the gallery, a line each, with the command that runs it."""
 
 from __future__ import annotations
 
@@ -8,6 +8,12 @@ from niwaki.shell.app import app
 
 @app.command()
 def models() -> None:
-    """List the gallery: name, target, title."""
+    """List the gallery: name, how to run it, target, title."""
     for entry in entries():
-        print(f"{entry.name:<16} {entry.target_name or entry.drawing_name or '-':<16} {entry.title}")
+        grows = entry.target_name is not None or entry.draws is not None
+        target = entry.target_name or entry.drawing_name or "-"
+        print(f"{entry.name:<16} {'grow' if grows else 'sample':<7} {target:<16} {entry.title}")
+    print(
+        "\nniwaki grow NAME grows a model into its target; niwaki sample NAME samples one that has none, and "
+        "niwaki grow NAME --target FILE grows it into yours, where it has shapes"
+    )

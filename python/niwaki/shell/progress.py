@@ -1,8 +1,10 @@
-"""A line that says how a search goes on."""
+"""How a search goes on, on stderr: a line that changes on a terminal, and elsewhere a line every few seconds."""
 
 from __future__ import annotations
 
 import math
+import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -10,21 +12,52 @@ from rich.console import Console
 
 from niwaki import result
 
+#: Seconds between two lines where stderr is a file or a pipe: short runs say nothing, long ones show that they live.
+EVERY = 5.0
+
+
+@contextmanager
+def said(title: str, keeps: bool = True) -> Iterator[Callable[[str], None]]:
+    """Inside, a function that shows what it is given after the title; `keeps` where Ctrl-C keeps what there is."""
+    console = Console(stderr=True)
+    if console.is_terminal:
+        end = "   (Ctrl-C keeps the best so far)" if keeps else ""
+        with console.status(title) as status:
+            yield lambda text: status.update(f"{title}: {text}{end}")
+        return
+    last = time.monotonic()
+
+    def show(text: str) -> None:
+        nonlocal last
+        if time.monotonic() - last >= EVERY:
+            last = time.monotonic()
+            print(f"{title}: {text}", file=sys.stderr, flush=True)
+
+    yield show
+
 
 @contextmanager
 def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda _: None
-        return
-    with console.status(f"growing {name}") as status:
+    """Progress of `grow`."""
+    with said(f"growing {name}") as show:
+        yield lambda now: show(
+            f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended, best {_best(now)}"
+        )
 
-        def show(now: result.Progress) -> None:
-            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
-            status.update(
-                f"growing {name}: run {now.run + 1} of {now.runs}, step {now.done}, "
-                f"{now.ended} ended, best {best}   (Ctrl-C keeps the best so far)"
-            )
 
-        yield show
+@contextmanager
+def sampling_line(name: str, proposals: int) -> Iterator[Callable[[result.Progress], None]]:
+    """Progress of `sample`."""
+    with said(f"sampling {name}") as show:
+        yield lambda now: show(f"{now.done} of {proposals} proposals, best {_best(now)}")
+
+
+@contextmanager
+def coloring_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
+    """Progress of `color`."""
+    with said(f"coloring {name}", keeps=False) as show:
+        yield lambda now: show(f"{now.done} proposals, best {_best(now)}")
+
+
+def _best(now: result.Progress) -> str:
+    return f"{now.best:.2f}" if math.isfinite(now.best) else "-"

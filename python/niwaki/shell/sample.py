@@ -5,15 +5,12 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 
 import niwaki as nw
 from niwaki import kernels, shell
@@ -22,7 +19,8 @@ from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.methods import Mh
 from niwaki.shell import arguments, folders, pictures, resuming, settings
-from niwaki.shell.app import Folder, app
+from niwaki.shell.app import Folder, Megabytes, app
+from niwaki.shell.progress import sampling_line
 
 
 @app.command()
@@ -44,6 +42,7 @@ def sample(
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
+    max_memory: Megabytes = 1024,
     resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,
@@ -62,7 +61,7 @@ def sample(
         left = search_left.method
         proposals = left.steps * left.chains if isinstance(left, Mh) else 0
         with held_folder(resume) as folder:
-            with _shown(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
+            with sampling_line(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
                 result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
             drawn = pictures.Pictures(flags["picture"], flags["quick"])
             _end(result, found, folder, drawn, as_json, checkpoint)
@@ -87,8 +86,9 @@ def sample(
             score=score,
             method=method,
             seed=nw.search.fresh(seed),
+            max_memory=max_memory << 20,
         )
-        with _shown(found.reference, proposals) as progress, resuming.told(kept, "sample"):
+        with sampling_line(found.reference, proposals) as progress, resuming.told(kept, "sample"):
             result = search.run(threads=threads, progress=progress, checkpoint=kept)
         _end(result, found, folder, pictures.Pictures(picture, quick), as_json, kept)
 
@@ -165,21 +165,3 @@ def _summary(result: nw.Result, folder: Path) -> None:
     rate = counters["proposals"] / max(result.cpu_seconds, 1e-9)
     print(f"{counters['proposals']} proposals, {rate:,.0f} a second of processor time; seed {result.seed}")
     print(f"best: log score {result.best.log_score:.2f}; {len(result)} samples; files in {folder}")
-
-
-@contextmanager
-def _shown(name: str, proposals: int) -> Iterator[Callable[[nw.result.Progress], None]]:
-    """A line of progress on stderr; nothing where stderr is not a terminal."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda _: None
-        return
-    with console.status(f"sampling {name}") as status:
-
-        def show(now: nw.result.Progress) -> None:
-            best = f"{now.best:.2f}" if math.isfinite(now.best) else "-"
-            status.update(
-                f"sampling {name}: {now.done} of {proposals} proposals, best {best}   (Ctrl-C keeps the states so far)"
-            )
-
-        yield show

@@ -98,7 +98,7 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
 
 def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
     """The option of one setting; `shown` is the default in its help text."""
-    owners = [method for method in methods if name in {field.name for field in fields(method)}]
+    owners: list[Any] = [method for method in methods if name in {field.name for field in fields(method)}]
     kinds = [_hints(owner)[name] for owner in owners]
     plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in kinds)]
     typed = plain[0] if plain else str
@@ -118,7 +118,7 @@ def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> 
 
 
 @cache
-def _hints(method: type[Method]) -> dict[str, Any]:
+def _hints(method: Any) -> dict[str, Any]:
     return get_type_hints(method)
 
 

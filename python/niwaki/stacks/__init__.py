@@ -9,7 +9,7 @@ lays out on a board. Libraries of the extra `stacks` are imported when they are 
 
 from niwaki.stacks.arches import arch, symmetric_arch, symmetric_tri_arch, tri_arch, wheel
 from niwaki.stacks.cut_pieces import cut_arch, cut_lean, cut_stack, cut_top_heavy, tilt_arch, tilt_stack
-from niwaki.stacks.cut_sheet import Piece, Sheet, assembly, cut_sheet
+from niwaki.stacks.cut_sheet import Assembly, Piece, Sheet, assembly, cut_sheet
 from niwaki.stacks.judges import Balance, Simulation, balanced, simulated
 from niwaki.stacks.platforms import platforms
 from niwaki.stacks.starting import polished, start
@@ -17,6 +17,7 @@ from niwaki.stacks.structure import Structure, Touch, plain
 from niwaki.stacks.towers import every_step, lean, stack, top_heavy
 
 __all__ = [
+    "Assembly",
     "Balance",
     "Piece",
     "Sheet",

@@ -260,8 +260,39 @@ def _packed(
     return [found[number] for number in range(len(cuts))]
 
 
-def assembly(structure: Structure) -> str:
-    """Draw the structure from the front and from the right: SVG in millimetres, pieces numbered as on the boards.
+@dataclass(frozen=True)
+class Assembly:
+    """A structure from two sides.
+
+    Attributes
+    ----------
+    page : str
+        The SVG, in millimetres.
+    """
+
+    page: str
+
+    def svg(self) -> str:
+        """The drawing as SVG in millimetres."""
+        return self.page
+
+    def save(self, path: str | PathLike[str]) -> list[Path]:
+        """Write the drawing into an `.svg` file.
+
+        Raises
+        ------
+        FileError
+            Another format, or a place that cannot be written.
+        """
+        place = Path(path)
+        if place.suffix.lower() != ".svg":
+            shown = place.suffix or "no suffix"
+            raise FileError("file-format", place, suffix=shown, done="drawn", formats=".svg")
+        return [write_whole(place, self.page.encode())]
+
+
+def assembly(structure: Structure) -> Assembly:
+    """Draw the structure from the front and from the right, pieces numbered as on the boards.
 
     A piece has no number in a view in which a nearer one hides its middle.
     """
@@ -306,7 +337,7 @@ def assembly(structure: Structure) -> str:
             f"{escape(name)}</text>"
         )
         left += wide + 2.0 * edge
-    return svg_page(left - edge, height, body)
+    return Assembly(svg_page(left - edge, height, body))
 
 
 def label(points: Floats) -> tuple[tuple[float, float], float]:

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 from niwaki._engine import Shape
 from niwaki.words.distributions import Distribution
 from niwaki.words.running import runner
+from niwaki.words.shapes import painted
 
 __all__ = ["condition", "emit", "factor", "force", "future", "infer", "observe", "query"]
 
@@ -67,15 +68,19 @@ def query(key: str, value: Any) -> None:
     runner("query").query(key, value)
 
 
-def emit(*shapes: Any) -> None:
+def emit(*shapes: Any, name: str | None = None, color: Sequence[float] | None = None) -> None:
     """Add shapes to the scene. All shapes of one `emit` are one primitive and are not tested against one another.
 
     Parameters
     ----------
     shapes
         Shapes, or lists and tuples of shapes.
+    name
+        What addresses and files call the part, in place of `emit`: a constant of letters, digits, `_` and `-`.
+    color
+        `(r, g, b)` in [0, 1], for the shapes without a colour of their own.
     """
-    runner("emit").emit(shapes)
+    runner("emit").emit(shapes if color is None else [painted(shape, color) for shape in flatten(shapes)])
 
 
 def future(function: Callable[..., T], *args: Any) -> T:

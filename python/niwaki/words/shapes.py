@@ -7,6 +7,7 @@ plain-Python run a shape is the engine's own `Shape`.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -264,6 +265,14 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
         `(r, g, b)` in [0, 1].
     """
     return _make("disc", center, radius, color)
+
+
+def painted(shape: Any, color: Color) -> Any:
+    """A shape in this colour, where it has none of its own; what is no shape is given back."""
+    if not isinstance(shape, _engine.Shape) or shape.color is not None:
+        return shape
+    checked = _engine.Shape.disc((0.0, 0.0, 0.0), 1.0, tuple(color)).color
+    return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), "color": checked}))
 
 
 #: The functions for shapes; the engine has one of the same name for each.

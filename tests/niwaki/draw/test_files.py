@@ -32,12 +32,12 @@ def test_glb_has_a_node_for_each_part(tmp_path: Path) -> None:
     path = scene().export(tmp_path / "ship.glb")
     loaded = trimesh.load_scene(path)
     names = {loaded.graph[name][1] for name in loaded.graph.nodes_geometry}
-    assert set(loaded.graph.nodes_geometry) == {"ship/body", "ship/engine", "ship/wings"}
+    assert set(loaded.graph.nodes_geometry) == {"body", "engine", "wings"}
     assert len(names) == 3
     volumes = {name: loaded.geometry[loaded.graph[name][1]].volume for name in loaded.graph.nodes_geometry}
-    assert volumes["ship/body"] == pytest.approx(8.0, rel=1e-6)
-    assert volumes["ship/wings"] == pytest.approx(2.0, rel=1e-6)
-    assert volumes["ship/engine"] == pytest.approx(np.pi / 2, rel=5e-3)
+    assert volumes["body"] == pytest.approx(8.0, rel=1e-6)
+    assert volumes["wings"] == pytest.approx(2.0, rel=1e-6)
+    assert volumes["engine"] == pytest.approx(np.pi / 2, rel=5e-3)
     assert np.allclose(loaded.bounds, scene().bounds, atol=1e-6)
 
 

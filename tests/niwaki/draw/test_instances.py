@@ -1,10 +1,11 @@
-"""Claim: parts share a mesh exactly when a rotation and a translation take one onto the other; a node's place
-is that of its part."""
+"""Claim: parts share a mesh exactly when a scale, a rotation and a translation take one onto the other; a node's place
+is that of its part, and the nodes above it are the calls of its address."""
 
 from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import trimesh
 from niwaki import rotation
 from niwaki._engine import Shape
 from niwaki.draw.glb import glb
+from niwaki.draw.hierarchy import DEEPEST, hierarchy
 from niwaki.draw.instances import instances, quaternion
 from niwaki.draw.parts import part_meshes
 from niwaki.draw.scene import Scene
@@ -84,6 +86,74 @@ def test_what_is_equal_and_what_is_not() -> None:
     assert numbers(
         Shape.cylinder((0, 0, 0), 0.5, 2.0), Shape.cylinder((0, 0, 0), 0.5, 2.0, top_radius=0.4)
     ) == [0, 1]
+
+
+def test_a_part_and_a_larger_one_share_a_mesh(tmp_path: Path) -> None:
+    sizes = (1.0, 2.5, 1e-3, 7.0)
+    scene = Scene(
+        (
+            f"{k}",
+            [Shape.box((50.0 * k, 1, 2), (s, 2 * s, 3 * s), rotation=turned(k), bevel=0.0, color=(1, 0, 0))],
+        )
+        for k, s in enumerate(sizes)
+    )
+    found = document(glb(scene))
+    assert len(found["meshes"]) == 1
+    assert [node.get("scale", [1.0])[0] for node in found["nodes"]] == pytest.approx(sizes, rel=1e-9)
+    loaded = trimesh.load_scene(scene.export(tmp_path / "sizes.glb"), process=False)
+    for part, size in zip(part_meshes(scene), sizes, strict=True):
+        matrix, name = loaded.graph[part.address]
+        corners = trimesh.transform_points(loaded.geometry[name].vertices, matrix)
+        assert np.abs(corners - part.pieces[0].vertices).max() < 1e-6 * max(size, 50.0)
+
+
+ADDRESSES = (
+    "emit",
+    "body/emit",
+    "i[0]/wing/emit",
+    "i[1]/wing/emit",
+    "i[1]/wing/tip",
+    "i[1]/wing/tip#1",
+    "mast",
+)
+
+
+def tree(addresses: Sequence[str]) -> list[Any]:
+    """The names of nodes, each with those below it."""
+    nodes: list[dict[str, Any]] = [{"extras": {"address": address}} for address in addresses]
+
+    def shown(number: int) -> Any:
+        below = nodes[number].get("children")
+        name = nodes[number]["name"]
+        return name if below is None else [name, *map(shown, below)]
+
+    return [shown(number) for number in hierarchy(nodes)]
+
+
+def test_nodes_are_in_the_hierarchy_of_calls() -> None:
+    assert tree(ADDRESSES) == [
+        "emit",
+        "mast",
+        "body",
+        "i[0].wing",
+        ["i[1].wing", "wing", "tip", "tip#1"],
+    ]
+    deep = ["/".join(["grow"] * k + ["emit"]) for k in range(1, 3 * DEEPEST)]
+
+    def depth(found: Any) -> int:
+        return 1 + max(map(depth, found[1:])) if isinstance(found, list) else 1
+
+    assert max(map(depth, tree(deep))) <= DEEPEST + 2
+    assert "/" not in str(tree(deep))
+
+
+def test_materials_have_names() -> None:
+    own = Shape.limb((0, 0, 0), (0, 1, 0), 0.2, 0.1, color=(1.0, 0.5, 0.0))
+    bridge = document(glb(Scene([("limb", [own]), ("deck", [Shape.box((5, 0, 0), (4, 2, 3))])])))
+    assert [one["name"] for one in bridge["materials"]] == ["warm grey", "#ff8000"]
+    bark = Shape.limb((9, 0, 0), (9, 1, 0), 0.2, 0.1)
+    names = [one["name"] for one in document(glb(Scene([("a", [own]), ("b", [bark])])))["materials"]]
+    assert names == ["#ff8000", "bark"]
 
 
 def test_mirror_images_are_different() -> None:

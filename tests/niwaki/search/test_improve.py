@@ -152,7 +152,7 @@ def test_two_places_are_blamed_where_two_parts_collide() -> None:
         next(k for k, line in enumerate(lines) if text in line) for text in ("7.5 - i", "0.5 * width")
     )
     marks = {lines[first + 1].strip("| ")[0], lines[second + 1].strip("| ")[0]}
-    assert marks == {"^", "-"} and "with this" in str(found.value)
+    assert marks == {"^", "-"} and "the other part" in str(found.value)
 
 
 @pytest.mark.filterwarnings("ignore:the target is far from where the model begins")

@@ -101,7 +101,7 @@ def test_json_prints_the_numbers_and_nothing_else(tmp_path: Path, monkeypatch: p
 
 
 def test_models_lists_the_gallery() -> None:
-    assert re.search(r"^spaceship +ship +\w", run("models").stdout, re.MULTILINE)
+    assert re.search(r"^spaceship +grow +ship +\w", run("models").stdout, re.MULTILINE)
 
 
 def test_check_reports_and_refuses(tower: Path) -> None:

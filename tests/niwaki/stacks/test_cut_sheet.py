@@ -107,7 +107,7 @@ def test_svg_is_in_millimetres() -> None:
 
 def test_the_assembly_drawing_numbers_every_piece_that_is_seen() -> None:
     made = structure()
-    root = ET.fromstring(assembly(made))
+    root = ET.fromstring(assembly(made).svg())
     space = "{http://www.w3.org/2000/svg}"
     assert len(root.findall(f"{space}polygon")) == 2 * len(made)
     texts = [text.text for text in root.iter(f"{space}text")]
@@ -115,6 +115,21 @@ def test_the_assembly_drawing_numbers_every_piece_that_is_seen() -> None:
     assert sorted(front, key=str) == [str(k) for k in range(1, len(made) + 1)]
     # From the right the pieces of an arch hide one another.
     assert len(texts) - len(front) - 2 < len(made)
+
+
+def test_the_recipe_of_the_manual_gives_a_tower_that_stands(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("mujoco")
+    page = (Path(__file__).parents[3] / "docs" / "guide" / "structures.md").read_text()
+    recipe = page.partition("## Cutting")[2].partition("```python\n")[2].partition("```")[0]
+    monkeypatch.chdir(tmp_path)
+    known: dict[str, object] = {"nw": nw, "stacks": stacks}
+    exec(recipe, known)  # noqa: S102
+    pieces = known["pieces"]
+    assert isinstance(pieces, Structure)
+    assert stacks.balanced(pieces).holds and stacks.simulated(pieces).stands
+    assert {path.name for path in tmp_path.iterdir()} == {"tower.dxf", "tower.svg", "assembly.svg"}
 
 
 def test_boards_are_saved_one_to_a_file(tmp_path: Path) -> None:

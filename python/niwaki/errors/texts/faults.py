@@ -187,9 +187,32 @@ FAULTS = (
         "no such distribution",
         why="in a search such a run has probability zero; it is an error in a single run, and if every run of a search "
         "has it",
-        help="keep the parameter in the range that the page of the distribution gives",
+        help="keep the parameter in its range for all values of the choices that it depends on, for instance with `max`",
         example="gaussian(0, -1)",
-        cure="gaussian(0, abs(s) + 1e-6)",
+        cure="gaussian(0, max(s, 1e-6))",
+        about=(
+            "In a search such a run has probability zero; it is an error in a single run, and if every run of a search has "
+            "it. These are the ranges; every number is finite.\n\n"
+            "| distribution | parameters |\n| --- | --- |\n"
+            "| `bernoulli` (`flip`) | p from 0 to 1 |\n"
+            "| `categorical` | weights 0 or more, at least one above 0 |\n"
+            "| `discrete_uniform` | integers, lo not above hi |\n"
+            "| `poisson`, `exponential` | rate above 0 |\n"
+            "| `binomial` | n an integer, 0 or more; p from 0 to 1 |\n"
+            "| `geometric` | p above 0, not above 1 |\n"
+            "| `uniform` | lo below hi |\n"
+            "| `gaussian`, `log_normal` | sd above 0 |\n"
+            "| `gamma`, `inverse_gamma` | shape and scale above 0 |\n"
+            "| `beta` | a and b above 0 |\n"
+            "| `laplace`, `cauchy` | scale above 0 |\n"
+            "| `student_t` | df and scale above 0 |\n"
+            "| `von_mises` | concentration 0 or more |\n"
+            "| `truncated_gaussian` | sd above 0, lo below hi |\n"
+            "| `dirichlet` | all concentrations above 0 |\n"
+            "| `multivariate_gaussian` | covariance symmetric and positive definite, of the size of the mean |\n"
+            "| `mixture` | weights as of `categorical`, one for each component |\n"
+            "| `delta` | any value |"
+        ),
     ),
     Message(
         "not-a-distribution",

@@ -104,9 +104,23 @@ INPUTS = (
         "everything-impossible",
         "every run is impossible",
         why="at {barrier}, all {count} runs had a score of minus infinity because of {constraint}",
-        help="loosen the constraint, use more particles or runs, or start the model where the constraint holds",
-        example="a ship that starts inside of the obstacle",
-        cure="a ship that starts beside it",
+        help="{cure}",
+        example="niwaki grow tower.py:tower --floor 1        # the tower's first block stands at y = 0",
+        cure="niwaki grow tower.py:tower --floor 0",
+        about=(
+            "A constraint forbids a scene: its score is then minus infinity, which no other part makes good. Every run that "
+            "was tried broke one, so that there is no result. The message says which constraint it was, how often, and which "
+            "parts broke it most often, with their lines.\n\n"
+            "| constraint | what forbids a scene | what helps |\n| --- | --- | --- |\n"
+            "| `floor` | a part reaches below the height | a lower `--floor`, or a model that starts above it |\n"
+            "| `avoid` | a part reaches into the obstacle | another place to start, a smaller obstacle |\n"
+            "| `no_self_intersection` | two primitives overlap | one `emit` for parts that belong together, a distance "
+            "between others, or `--rule surface` |\n"
+            "| `condition`, `factor`, `observe` | the model's own | a condition that more runs meet, or a `factor` in its "
+            "place, which only lowers the score |\n\n"
+            "Where the first part of every run breaks the constraint, more particles change nothing. Where runs become "
+            "impossible later, one after the other, more particles (`-n`) or futures can help."
+        ),
     ),
     Message(
         "weights-of-runs",

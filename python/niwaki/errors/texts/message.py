@@ -26,6 +26,8 @@ class Message:
         A program or a command that is refused; for the language, a model that the tests compile.
     cure
         The same, put right; for the language, a model that the tests compile.
+    about
+        What the manual's page says in place of `why`; Markdown.
     """
 
     code: str
@@ -36,6 +38,7 @@ class Message:
     help: str = ""
     example: str = ""
     cure: str = ""
+    about: str = ""
 
     @property
     def names(self) -> set[str]:

@@ -79,10 +79,19 @@ SETTINGS = (
         cure="the same file after its imports are installed",
     ),
     Message(
+        "no-emit",
+        "the model `{name}` adds nothing to the scene",
+        why="`grow` compares a scene with its target, and only `emit` adds to a scene; a returned shape is a value",
+        help="write `emit(...)` around the shapes; a model without shapes runs by `niwaki sample`",
+        example="return box((0, 0, 0), (1, 1, 1))",
+        cure="emit(box((0, 0, 0), (1, 1, 1)))",
+    ),
+    Message(
         "no-target",
         "the model `{name}` has no target of its own",
         why="`grow` needs a target",
-        help="name one with `--target FILE`, or a picture with `--match-image` or `--match-shadow`; in Python `target` or `score`",
+        help="name one with `--target FILE`, or a picture with `--match-image` or `--match-shadow`; in Python `target` or "
+        "`score`. A model without shapes runs by `niwaki sample`",
         example="niwaki grow garden.py:tree",
         cure="niwaki grow garden.py:tree --target cloud.obj",
     ),

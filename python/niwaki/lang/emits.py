@@ -1,0 +1,111 @@
+"""`emit` to core form: its shapes, the name of its part, and a colour for the shapes that have none.
+
+A name is a part of addresses, so it is known when the model is compiled (`sites`). A colour is written into the shapes:
+the engine has no operation that paints one. So it is for shapes that are made inside of the `emit`, directly, in lists
+and in comprehensions, and what makes them must not draw it: it is computed once, before them.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TypeGuard
+
+from niwaki.lang import vocabulary
+from niwaki.lang.arguments import unknown
+from niwaki.lang.body import Body
+from niwaki.lang.core import Expr
+from niwaki.lang.expressions import expression, expressions, lowers, static
+from niwaki.lang.marks import underlying
+from niwaki.lang.sites import part_name
+from niwaki.words.shapes import SHAPES
+
+KEYWORDS = ("name", "color")
+
+
+class _Computed(ast.expr):
+    """A value that has its core form already."""
+
+    core: Expr
+
+
+@lowers(_Computed)
+def computed(body: Body, node: _Computed) -> Expr:
+    """The form."""
+    return node.core
+
+
+def emit(body: Body, node: ast.Call) -> Expr:
+    """Add a primitive to the scene."""
+    for keyword in node.keywords:
+        if keyword.arg not in KEYWORDS:
+            unknown(body, keyword, "emit", KEYWORDS)
+    if not node.args:
+        body.refuse(
+            "wrong-number-of-arguments",
+            node,
+            name="emit",
+            expected="at least 1 shape",
+            found="0",
+            parameters="shapes, [name], [color]",
+        )
+    given = {keyword.arg: keyword.value for keyword in node.keywords}
+    name, color = given.get("name"), given.get("color")
+    if name is not None and not _is_none(name) and part_name(node) is None:
+        body.refuse("emit-name", name)
+    if color is None or _is_none(color):
+        return body.form("emit", expressions(body, node.args), node)
+    if any(one in body.unit.labels for one in ast.walk(color)):
+        body.refuse("emit-color", color)
+    makers = [maker for arg in node.args for maker in _makers(body, arg)]
+    coat = ast.copy_location(_Computed(), color)
+    coat.core = body.kept(expression(body, color))
+    plain = [maker for maker in makers if not _has_color(body, maker)]
+    for maker in plain:
+        maker.keywords.append(ast.copy_location(ast.keyword("color", coat), color))
+    try:
+        return body.form("emit", expressions(body, node.args), node)
+    finally:
+        for maker in plain:
+            maker.keywords.pop()
+
+
+def _is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def _makers(body: Body, node: ast.expr) -> Iterator[ast.Call]:
+    """The calls that make the shapes of one argument."""
+    if isinstance(node, (ast.List, ast.Tuple)):
+        for part in node.elts:
+            yield from _makers(body, part)
+    elif isinstance(node, ast.IfExp):
+        yield from _makers(body, node.body)
+        yield from _makers(body, node.orelse)
+    elif isinstance(node, (ast.ListComp, ast.GeneratorExp)):
+        yield from _makers(body, node.elt)
+    elif makes_a_shape(node, body):
+        yield node
+    else:
+        body.refuse("emit-color", node)
+
+
+def makes_a_shape(node: ast.expr, body: Body) -> TypeGuard[ast.Call]:
+    """Whether an expression is a call of `box` or another word for a shape."""
+    return isinstance(node, ast.Call) and any(_word(body, node) is word for word in SHAPES)
+
+
+def _has_color(body: Body, node: ast.Call) -> bool:
+    """Whether a call of a shape's word has a colour of its own."""
+    count = len(vocabulary.OPERATIONS[_word(body, node)].parameters)
+    return len(node.args) >= count or any(keyword.arg == "color" for keyword in node.keywords)
+
+
+def _word(body: Body, node: ast.Call) -> object:
+    """What a call calls, where that is known when the model is compiled."""
+    callee = node.func
+    if isinstance(callee, ast.Name) and body.scopes.find(callee.id, body.scope) is not None:
+        return None
+    if not isinstance(callee, (ast.Name, ast.Attribute)):
+        return None
+    return underlying(static(body, callee))
