@@ -120,7 +120,7 @@ def carried_out(
         raise failed[0]
     if failed:
         warnings.warn(
-            f"{len(failed)} of {search.runs} runs became impossible and are left out; use more particles",
+            f"{len(failed)} of {search.runs} runs became impossible and are left out{_lost(failed[0])}",
             SearchWarning,
             stacklevel=4,
         )
@@ -171,6 +171,17 @@ def _left(keeper: Keeper | None, name: str, search: Search, seed: int) -> Result
         invalid=data["invalid"],
         seconds=tuple(data["seconds"]),
     )
+
+
+def _lost(error: InputError | ModelFault) -> str:
+    """What made a run impossible, where, and what helps."""
+    if not isinstance(error, InputError):
+        return f": {error.message}"
+    said = [
+        f"line {span.line} {label}" if n == 0 else f"({label}: line {span.line})"
+        for n, (span, label) in enumerate(error.places)
+    ] or [str(error.values.get("constraint", ""))]
+    return f": {' '.join(said)}; {error.values.get('cure', '')}"
 
 
 def _check_guide(search: Search, guide: Guide) -> None:

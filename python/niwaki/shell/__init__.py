@@ -2,6 +2,7 @@
 
 app.py        the application, and what the commands share: arguments, folders
 progress.py   how a search goes on, in lines
+trying.py     two versions of a model, searched side by side
 arguments.py  the arguments of a model, as NAME=VALUE and presets
 controls.py   what the shape should be like, as flags
 settings.py   how to search, as flags

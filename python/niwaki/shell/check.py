@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 from niwaki import lang, shell
-from niwaki.errors import ModelError
-from niwaki.shell import arguments
+from niwaki.errors import InputError, ModelError
+from niwaki.shell import arguments, controls, trying
 from niwaki.shell.app import ModelName, app
 
 
@@ -21,6 +21,14 @@ def check(
     preset: arguments.Preset = None,
     core: Annotated[bool, typer.Option("--core", help="Print the core form.")] = False,
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
+    other: Annotated[
+        str | None,
+        typer.Option("--try", metavar="MODEL", help="Another version: short searches say which is better."),
+    ] = None,
+    target: Annotated[
+        str | None,
+        typer.Option("--target", metavar="FILE", help="With --try: the mesh to fill; default: the model's."),
+    ] = None,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
     found = shell.references.find(model)
@@ -53,5 +61,15 @@ def check(
     print(f"  choices     {len(program.choices)}")
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
+    if other is not None:
+        aim = controls.Controls(target).aim(found)
+        if aim is None:
+            raise InputError("no-target", name=found.reference)
+        voxel = found.entry.voxel if found.entry is not None and target is None else None
+        print(trying.tried(found, shell.references.find(other), aim, voxel))
+        return
+    if target is not None:
+        reason = "it is what both versions are grown into"
+        raise InputError("flag-alone", flag="--target", other="`--try`", reason=reason)
     for one in lang.advice.advise(found.model.function):
         print(f"\n{one}")

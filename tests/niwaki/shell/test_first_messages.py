@@ -116,6 +116,30 @@ def test_long_commands_say_how_far_they_are_in_a_file(place: Path, monkeypatch: 
     assert "first.py:tower: " in sampled and " of 8000 proposals" in sampled
 
 
+def test_losses_are_named_when_some_runs_survive(place: Path) -> None:
+    (place / "lucky.py").write_text(
+        "from niwaki import *\n\n@model\ndef m():\n    emit(box((0, 2, 0), (4, 4, 4)), name='road')\n"
+        "    emit(box((0 if flip(0.6) else 5, 1, 0), (0.2, 0.2, 0.2)), name='cable')\n"
+    )
+    words = ("grow", "lucky.py:m", "--target", "box.obj", "--no-picture", "--method", "smc", "-n", "1")
+    with pytest.warns(UserWarning, match="runs became impossible") as found:
+        run(*words, "--runs", "8", "--seed", "1")
+    lost = next(str(one.message) for one in found if "became impossible" in str(one.message))
+    assert "line 5 runs into another part in 1 of 1 runs (the other part: line 6)" in lost
+    assert "put parts that belong together into one `emit`" in lost and "particles" not in lost
+
+
+def test_check_tries_two_versions(place: Path) -> None:
+    (place / "both.py").write_text(
+        "from niwaki import *\n\n@model\ndef good():\n    emit(box((0, uniform(1.9, 2.1), 0), (4, 4, 4)))\n\n"
+        "@model\ndef bad():\n    emit(box((0, uniform(9, 10), 0), (4, 4, 4)))\n"
+    )
+    words = ("check", "both.py:good", "--target", "box.obj", "--try")
+    assert "both.py:good is better in 8 of 8" in run(*words, "both.py:bad").stdout
+    assert "no clear difference" in run(*words, "both.py:good").stdout
+    assert getattr(run(*words[:-1]).exception, "code", None) == "flag-alone"
+
+
 def test_memory_is_bounded_from_the_shell(place: Path) -> None:
     (place / "greedy.py").write_text(
         "from niwaki import *\n@model\ndef m():\n    xs = [0]\n    while True:\n        xs = xs + xs\n"
