@@ -16,7 +16,7 @@
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
-#   make fuzz     the fuzzers, each for MINUTES (10; ONLY="core_text sources": those); needs cargo-fuzz
+#   make fuzz     the fuzzers, each for MINUTES (10) by JOBS processes (1; ONLY="core_text sources": those); needs cargo-fuzz
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
 #                 rustup; skipped with a line where there is none)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
@@ -49,6 +49,7 @@ PYTHON_SOURCES := python tests benches docs/conf.py
 
 PARTS :=
 MINUTES := 10
+JOBS := 1
 
 .PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
@@ -95,7 +96,6 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --manifest-path fuzz/Cargo.toml --check
 	cargo clippy $(CARGO_FLAGS) --workspace --all-targets -- -D warnings
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
-	cargo clippy $(CARGO_FLAGS) $(FUZZERS) -- -D warnings
 	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
 	$(VENV)/bin/lint-imports --no-cache
@@ -138,9 +138,10 @@ soak: $(STAMPS)/engine $(STAMPS)/test
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
 	$(PY) tests/fuzz/fuzzers.py --minutes 1
 
-# Builds the engine once more, with counters of what a run reaches.
+# Builds the engine once more, with counters of what a run reaches. The fuzzers' lints are here, because they build it too.
 fuzz: $(STAMPS)/engine $(STAMPS)/test
-	$(PY) tests/fuzz/fuzzers.py --minutes $(MINUTES) $(if $(ONLY),--only $(ONLY))
+	cargo clippy $(CARGO_FLAGS) $(FUZZERS) -- -D warnings
+	$(PY) tests/fuzz/fuzzers.py --minutes $(MINUTES) --jobs $(JOBS) $(if $(ONLY),--only $(ONLY))
 
 # Machine code and slices of one memory are in `grad`; the unsafe code of `infer` and `vm` only calls instructions of the
 # processor. A folder of its own, because the flags of the compiler differ.

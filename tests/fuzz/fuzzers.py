@@ -1,6 +1,6 @@
 """Runs the fuzzers, each for a time, and prints what they tried and found; `make fuzz`.
 
-    python tests/fuzz/fuzzers.py [--minutes M] [--only NAME ...] [--corpora]
+    python tests/fuzz/fuzzers.py [--minutes M] [--jobs J] [--only NAME ...] [--corpora]
 
 The fuzzers of the engine are in `fuzz/`, targets of cargo-fuzz. They are built with the address sanitizer where a
 nightly toolchain is installed, and without it on the stable one. Those in Python are the other files here: each takes
@@ -26,6 +26,8 @@ import sys
 import time
 import tomllib
 import zipfile
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -100,23 +102,23 @@ def unpacked(target: str) -> Path:
     return folder
 
 
-def run_engine(target: str, seconds: float) -> Tried:
+def run_engine(target: str, seconds: float, job: int) -> Tried:
     """One target of cargo-fuzz. It goes on after a finding, until the time is over."""
     tried, began = Tried(target), time.monotonic()
     artifacts = ENGINE / "artifacts" / target
     artifacts.mkdir(parents=True, exist_ok=True)
-    before = set(artifacts.glob("*"))
+    before = set(artifacts.glob(f"{job}-*"))
     flags = [f"-{name}={value}" for name, value in LIMITS.items()]
     # Running out of memory or time is a finding as well, and ends a process; another one goes on.
     while (left := seconds - (time.monotonic() - began)) > 1 and len(tried.findings) < MOST_FINDINGS:
-        command = [program(target), str(unpacked(target)), *flags, f"-max_total_time={left:.0f}"]
-        command += ["-print_final_stats=1", f"-artifact_prefix={artifacts}/"]
+        command = [program(target), str(ENGINE / "corpus" / target), *flags, f"-max_total_time={left:.0f}"]
+        command += ["-print_final_stats=1", "-reload=1", f"-artifact_prefix={artifacts}/{job}-"]
         done = subprocess.run(
             command, cwd=ROOT, env=environment(), capture_output=True, text=True, errors="replace"
         )
         counts = re.findall(r"stat::number_of_executed_units:\s*(\d+)", done.stderr)
         tried.inputs += int(counts[-1]) if counts else 0
-        new = set(artifacts.glob("*")) - before
+        new = set(artifacts.glob(f"{job}-*")) - before
         before |= new
         tried.findings += [f"{path.relative_to(ROOT)}: {reason(done.stderr)}" for path in new]
         if done.returncode and not new:
@@ -124,7 +126,6 @@ def run_engine(target: str, seconds: float) -> Tried:
             break
         if not done.returncode:
             break
-    tried.seconds = time.monotonic() - began
     return tried
 
 
@@ -141,19 +142,29 @@ def environment() -> dict[str, str]:
     return os.environ | {"RAYON_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0", "RUST_BACKTRACE": "1"}
 
 
-def run_python(name: str, seconds: float) -> Tried:
-    """One fuzzer in Python."""
-    tried, began = Tried(name), time.monotonic()
+def run_python(name: str, seconds: float, _job: int) -> Tried:
+    """One fuzzer in Python, from a seed of its own."""
+    tried = Tried(name)
     command = [sys.executable, str(Path(__file__).with_name(f"{name}.py")), f"{seconds:.0f}"]
     command.append(str(secrets.randbelow(2**31)))
     done = subprocess.run(command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, text=True)
-    tried.seconds = time.monotonic() - began
     try:
         last = json.loads(done.stdout.strip().splitlines()[-1])
         tried.inputs, tried.findings = last["inputs"], last["findings"]
     except (IndexError, ValueError):
         tried.findings = [f"{name} ended with {done.returncode}: {done.stdout[-500:]}"]
     return tried
+
+
+def together(run: Callable[[str, float, int], Tried], name: str, seconds: float, jobs: int) -> Tried:
+    """A fuzzer, run by several processes at once; of the engine they share a corpus."""
+    all_of_them, began, before = Tried(name), time.monotonic(), cpu()
+    with ThreadPoolExecutor(jobs) as pool:
+        for tried in pool.map(lambda job: run(name, seconds, job), range(jobs)):
+            all_of_them.inputs += tried.inputs
+            all_of_them.findings += tried.findings
+    all_of_them.seconds, all_of_them.cpu = time.monotonic() - began, cpu() - before
+    return all_of_them
 
 
 def pack(target: str) -> None:
@@ -200,6 +211,7 @@ def main() -> int:
     """Runs what the command line names."""
     parser = argparse.ArgumentParser(description="Runs the fuzzers.")
     parser.add_argument("--minutes", type=float, default=10.0, help="for each of them")
+    parser.add_argument("--jobs", type=int, default=1, help="processes of each of them")
     parser.add_argument("--only", nargs="*", default=[], help="their names")
     parser.add_argument("--corpora", action="store_true", help="pack the corpora instead")
     chosen = parser.parse_args()
@@ -220,9 +232,10 @@ def main() -> int:
     tried = []
     print(f"{'fuzzer':<16} {'inputs':>12} {'seconds':>8} {'of CPU':>8} {'findings':>8}", flush=True)
     for name in engine + python:
-        before = cpu()
-        one = (run_engine if name in engine else run_python)(name, 60 * chosen.minutes)
-        one.cpu = cpu() - before
+        if name in engine:
+            unpacked(name)
+        run = run_engine if name in engine else run_python
+        one = together(run, name, 60 * chosen.minutes, chosen.jobs)
         print(row(one.name, one.inputs, one.seconds, one.cpu, len(one.findings)), flush=True)
         for finding in one.findings:
             print(f"    {finding}", flush=True)

@@ -101,8 +101,13 @@ fn compile_here<S: Scalar>(
     let collections = Collections::of(module, &effects);
     let mut unit =
         Unit { module, effects, collections, ids: HashMap::new(), data, kept, functions: Vec::new() };
+    // The table has no gaps that nothing can fill.
+    let most = unit.data.len() + module.constants.len();
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
+        if *k >= most {
+            return Err(CompileError(format!("constant {k} of {most}: they are numbered from 0")));
+        }
         if unit.data.len() <= *k {
             unit.data.resize(k + 1, Value::None);
         }
@@ -184,4 +189,43 @@ fn constant<S: Scalar>(e: &Expr) -> Result<Value<S>, CompileError> {
         }
         _ => return Err(CompileError("a constant must be made of literals".into())),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::code::Operand;
+    use crate::core::parse::parse;
+
+    fn error(text: &str) -> String {
+        match compile::<f64>(&parse(text).expect("core form"), vec![]) {
+            Ok(_) => panic!("a program"),
+            Err(error) => error.0,
+        }
+    }
+
+    fn entry(body: &str) -> String {
+        format!("(module (fn \"m\" (params $x) (return {body})) (entry \"m\"))")
+    }
+
+    #[test]
+    fn a_number_of_a_constant_takes_no_memory() {
+        let text = "(module (const 99999999999 0) (fn \"m\" (params) (return 1)) (entry \"m\"))";
+        assert_eq!(error(text), "constant 99999999999 of 1: they are numbered from 0");
+        assert_eq!(error(&entry("(data 99999999999)")), "constant 99999999999 is missing");
+        // With 16 bits it is the number 1.
+        assert!(error(&entry("(host 65537 1)")).contains("is too large"));
+    }
+
+    #[test]
+    fn what_an_instruction_cannot_number_is_too_large() {
+        let numbers: Vec<String> = (0..=Operand::MAX_INDEX + 1).map(|i| format!("{i}.5")).collect();
+        let fits = entry(&format!("(index (list {}) 0)", numbers[..4000].join(" ")));
+        assert!(compile::<f64>(&parse(&fits).expect("core form"), vec![]).is_ok());
+        let constants = entry(&format!("(index (list {}) 0)", numbers.join(" ")));
+        let arguments = entry(&format!("(len (list $x {}))", "1 ".repeat(1 << 16)));
+        for text in [constants, arguments] {
+            assert!(error(&text).contains("is too large"));
+        }
+    }
 }
