@@ -164,7 +164,7 @@ impl Answers<f64> for First {
     fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
         Ok(())
     }
-    fn host(&mut self, _: u16, args: &[Value]) -> Result<Value, Fault> {
+    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args.first().cloned().unwrap_or_default())
     }
 }
