@@ -142,6 +142,8 @@ pub struct Inferences {
 /// How many answers are remembered.
 const REMEMBERED: usize = 16;
 
+/// Bytes that the runs of an `infer` have at least, so that many inside one another end by their depth.
+const SMALLEST: usize = 1 << 20;
 /// Most bytes of one of them, with its arguments.
 const REMEMBERED_BYTES: usize = 1 << 20;
 
@@ -205,7 +207,7 @@ impl Hosts for Inferences {
 
 impl Inferences {
     /// The value of an `infer` of this model with these arguments. All of its runs take their steps from those that
-    /// `together` leaves; of the memory they have a quarter of what the run around them has.
+    /// `together` leaves; of the memory they have a quarter of what the run around them has, or `SMALLEST`.
     ///
     /// # Errors
     /// The failure of the search, as a fault of the run around it.
@@ -223,7 +225,8 @@ impl Inferences {
                 format!("more than {DEPTH} `infer` are inside one another"),
             ));
         }
-        let limits = Limits { bytes: self.limits.bytes / 4, ..self.limits };
+        let bytes = (self.limits.bytes / 4).clamp(SMALLEST.min(self.limits.bytes), self.limits.bytes);
+        let limits = Limits { bytes, ..self.limits };
         let task = Task {
             program: Arc::clone(&self.program),
             model: Some(Arc::clone(model)),
