@@ -226,8 +226,12 @@ fn values_count_while_they_are_held_and_what_does_not_fit_is_refused() {
     let dropped = entry(
         "(set $n 0) (for $i (range 20000) (body (set $n (add $n (len (mul (list $i) 1000)))))) (return $n)",
     );
-    for made in ["(mul (list $i) 100)", "(mul \"text \" 200)", "(tuple $i $i $i $i $i)", "(vec 1.0 2.0 3.0)"]
-    {
+    for made in [
+        "(mul (list $i) 100)",
+        "(mul \"text \" (add 100 (mod $i 100)))",
+        "(tuple $i $i $i $i $i)",
+        "(vec $i 2.0 3.0)",
+    ] {
         assert_eq!(fault(&kept(made), bytes(2 << 20)).fault.code, "memory-budget", "{made}");
     }
     // 320 MB in all, 16 kB at a time.
