@@ -29,6 +29,7 @@ def load(text: str, name: str = "garden.py") -> Any:
     return space["m"]
 
 
+BLOCK = load("@model\ndef m():\n    emit(box((0, 0, 0), (uniform(1, 2), 1, 1)))\n", "block.py")
 COINS = load("""
 @model
 def m():
@@ -223,12 +224,12 @@ SETTINGS: dict[str, Callable[[], Any]] = {
     ),
     "the rule": lambda: nw.no_self_intersection("volume"),
     "no best sample": lambda: nw.run(COINS, method=nw.enumerate_all(), seed=1).best,
-    "a target that is not there": lambda: nw.grow(COINS, "nowhere.obj"),
+    "a target that is not there": lambda: nw.grow(BLOCK, "nowhere.obj"),
     "voxel": lambda: nw.match_volume(tetrahedron(), voxel=-1.0),
     "sigma": lambda: nw.match_volume(tetrahedron(), sigma=0.0),
     "a grid too large": lambda: nw.match_volume(tetrahedron(), voxel=1e-6),
-    "nothing to grow into": lambda: nw.grow(COINS),
-    "runs": lambda: nw.grow(COINS, tetrahedron(), runs=0),
+    "nothing to grow into": lambda: nw.grow(BLOCK),
+    "runs": lambda: nw.grow(BLOCK, tetrahedron(), runs=0),
 }
 
 
