@@ -260,6 +260,8 @@ def child(first: int, count: int, folder: Path) -> None:
     out = os.fdopen(os.dup(1), "w")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     os.chdir(folder)
+    # A process that was forked begins with the peak of its parent.
+    start = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     for number in range(count):
         path = folder / f"source{number}.py"
         path.write_text(mutator.source())
@@ -269,7 +271,7 @@ def child(first: int, count: int, folder: Path) -> None:
             became, wrong = judged(path)
         except BaseException:
             became, wrong = "broken", traceback.format_exc(limit=-6)
-        if resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10 > BYTES:
+        if resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - start << 10 > BYTES:
             wrong = wrong or "the process has grown beyond a gigabyte"
         ends = {"became": became, "wrong": wrong, "seconds": time.monotonic() - began}
         print(json.dumps(ends), file=out, flush=True)

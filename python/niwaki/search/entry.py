@@ -213,8 +213,6 @@ def asked(
 ) -> Search:
     """The search that `grow` makes of its arguments, which it then runs."""
     model = as_model(model)
-    if "(emit " not in model.core().text:
-        raise InputError("no-emit", name=model.name)
     settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
     if settings.get("guide", True) is None:
         del settings["guide"]

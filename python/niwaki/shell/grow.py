@@ -14,6 +14,7 @@ import typer
 import niwaki as nw
 from niwaki import gallery, search, shell
 from niwaki import result as results
+from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.shell import arguments, controls, folders, held, picking, pictures, resuming, settings, writing
 from niwaki.shell.app import Folder, Megabytes, app, counted
@@ -136,6 +137,8 @@ def grow(
     if own is not None:
         suits, method = {**suits, **search.GUIDED}, method or "smc"
     with clock.part("target"):
+        if "(emit " not in found.model.core().text:
+            raise InputError("no-emit", name=found.model.name)
         asked = search.asked(
             found.model,
             aim,
