@@ -307,9 +307,7 @@ impl Shape {
             Solid::Cylinder { sides, .. } | Solid::TaperedCylinder { sides, .. } => hull(*sides),
             Solid::Limb { sides, .. } => size_of::<[Ring; 2]>() + hull(*sides),
             Solid::Segment(_) => size_of::<Tube>() + hull(8),
-            Solid::Mesh(mesh) => {
-                mesh.vertices().len() * size_of::<Vec3>() + mesh.triangles().len() * size_of::<[u32; 3]>()
-            }
+            Solid::Mesh(mesh) => size_of_val(mesh.vertices()) + size_of_val(mesh.triangles()),
             Solid::Stroke { .. } => size_of::<[Round; 2]>(),
             Solid::Ellipse { .. } => 0,
         };
