@@ -152,6 +152,15 @@ def unwritable(place: str | PathLike[str], error: Exception) -> FileError:
     return FileError("file-unwritable", place, reason=reason)
 
 
+def ensure_folder(place: Path) -> Path:
+    """The folder, created if it does not exist."""
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise unwritable(place, error) from error
+    return place
+
+
 def _replaceable(place: Path) -> int | None:
     """The permissions of the file that is there, None where there is none; an error where it must not be replaced."""
     try:

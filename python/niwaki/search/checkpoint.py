@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from niwaki import _engine
-from niwaki.errors import FileError, InputError
-from niwaki.errors.files import write_whole
+from niwaki.errors import InputError
+from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.errors.settings import bad, is_number
 
 #: The version of the format, and of what the parts hold.
@@ -98,11 +98,7 @@ class Stored:
 
     def write(self, path: Path) -> None:
         """Write the file, in a folder that is created where it is missing."""
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError("file-unwritable", path, reason=error.strerror or str(error)) from error
-        write_whole(path, self.bytes())
+        write_whole(ensure_folder(path.parent) / path.name, self.bytes())
 
     @classmethod
     def read(cls, path: Path) -> Stored:

@@ -11,8 +11,6 @@ from typing import Annotated, Any
 
 import typer
 
-from niwaki.errors import FileError
-
 #: The commands and what they do. The module of a command is loaded when the command is used.
 COMMANDS = {
     "models": "List the gallery: name, how to run it, target, title.",
@@ -74,15 +72,6 @@ Megabytes = Annotated[
         "--max-memory", metavar="MB", min=1, help="Most memory of a run or a population, megabytes."
     ),
 ]
-
-
-def ensure_folder(place: Path) -> Path:
-    """The folder, created if it does not exist."""
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError("file-unwritable", place, reason=error.strerror or str(error)) from error
-    return place
 
 
 def counted(number: int, what: str) -> str:

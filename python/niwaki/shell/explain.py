@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from niwaki import draw, search, shell
-from niwaki.shell.app import ModelName, app, ensure_folder
+from niwaki.errors.files import ensure_folder
+from niwaki.shell.app import ModelName, app
 
 
 @app.command()

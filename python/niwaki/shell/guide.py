@@ -15,11 +15,12 @@ import typer
 import niwaki as nw
 from niwaki import guides, search, shell, targets
 from niwaki.errors import InputError
+from niwaki.errors.files import ensure_folder
 from niwaki.guides.report import sentence
 from niwaki.methods import Guide
 from niwaki.search.checkpoint import begun_seed
 from niwaki.shell import controls, settings
-from niwaki.shell.app import ModelName, app, ensure_folder
+from niwaki.shell.app import ModelName, app
 from niwaki.shell.progress import said
 
 group = typer.Typer(
