@@ -1,0 +1,9 @@
+from .body import Outcome as Outcome
+from .entry import Table as Table
+from .entry import batch as batch
+from .entry import outcomes as outcomes
+from .entry import stored as stored
+from .pools import Workers as Workers
+from .running import Standing as Standing
+from .spec import Seeds as Seeds
+from .store import Store as Store
