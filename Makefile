@@ -16,6 +16,7 @@
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
+#   make cluster  batches on Ray and on Dask, on this machine alone (installs both)
 #   make fuzz     the fuzzers, each for MINUTES (10) by JOBS processes (1; ONLY="core_text sources": those); needs cargo-fuzz
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
 #                 rustup; skipped with a line where there is none)
@@ -51,7 +52,7 @@ PARTS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -138,6 +139,10 @@ soak: $(STAMPS)/engine $(STAMPS)/test
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
 	$(PY) tests/fuzz/fuzzers.py --minutes 1
 
+# Installs Ray and Dask, which take 300 MB; both listen on the loopback only.
+cluster: $(STAMPS)/engine $(STAMPS)/test $(STAMPS)/cluster
+	$(PY) -m pytest tests/niwaki/batches/test_clusters.py
+
 # Builds the engine once more, with counters of what a run reaches. The fuzzers' lints are here, because they build it too.
 fuzz: $(STAMPS)/engine $(STAMPS)/test
 	cargo clippy $(CARGO_FLAGS) $(FUZZERS) -- -D warnings
@@ -171,7 +176,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build studio test browser lint docs bench bench-hmc guides-oracle; do \
+	for extra in core build studio test browser lint docs bench bench-hmc cluster guides-oracle; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

@@ -115,7 +115,8 @@ class Outcome:
     @cached_property
     def _body(self) -> Body:
         try:
-            return fitted(json.loads(self._bytes), Body)
+            body: Body = fitted(json.loads(self._bytes), Body)
+            return body
         except (Unfit, ValueError, RecursionError) as error:
             raise self._refused(error) from error
 

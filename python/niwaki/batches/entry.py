@@ -19,6 +19,7 @@ from niwaki.batches.pools import Workers
 from niwaki.batches.running import Watch
 from niwaki.batches.spec import Case, Seeds, Spec
 from niwaki.batches.store import Store
+from niwaki.errors import InputError
 from niwaki.errors.settings import bad
 from niwaki.lang.models import Model
 from niwaki.search import Search, asked
@@ -82,7 +83,9 @@ def batch(
     else:
         if target is not None or args or vary or settings:
             found = next(iter([*(vary or ()), *settings]), "target")
-            raise bad(found, "...", "left out, because a `Search` has all its settings", "in each `Search`")
+            raise InputError(
+                "unknown-setting", name=found, suggestion="a `Search` has all its settings: change it there"
+            )
         table = Table.of_searches([model] if isinstance(model, Search) else model)
     part = plan.shard_of(shard)
     if folder is None:
@@ -121,17 +124,17 @@ class Table:
         axes = _axes(vary)
         for name in axes:
             if name in settings or (name == "target" and target is not None):
-                raise bad(
-                    name, settings.get(name, target), "left out, because `vary` has it, too", "one of both"
+                raise InputError(
+                    "flags-exclude",
+                    flag=name,
+                    other=f"vary[{name!r}]",
+                    reason="a setting is the same for all searches, or varies",
+                    cure="leave one of them out",
                 )
         for name in ("seed", "threads", "checkpoint"):
             if name in settings or name in axes:
-                raise bad(
-                    name,
-                    settings.get(name),
-                    "left out: a batch decides it",
-                    "`seeds`, `processes` or `folder`",
-                )
+                cure = "a batch has `seeds`, `processes` and `folder` instead"
+                raise InputError("unknown-setting", name=name, suggestion=cure)
         if "target" in axes:
             axes["target"] = [one if isinstance(one, Target) else Target.load(one) for one in axes["target"]]
         searches, labels = [], []

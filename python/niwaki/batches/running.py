@@ -1,14 +1,14 @@
 """A batch under way: chunks go to workers, results go to the store, and what a lost worker had is done again.
 
 When a pool breaks, nobody knows which of the chunks under way did it. They are done again without blame; one that was
-there twice is taken apart and done alone. Only what breaks a pool alone, or brings trouble by itself, is charged with an
-attempt, and is given up after three.
+there twice is taken apart and done alone. Only what breaks a pool alone, or brings trouble by itself, is charged with
+an attempt, and is given up after three.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
 from dataclasses import dataclass
 
@@ -93,7 +93,7 @@ class Running:
         spent = time.monotonic() - self._start
         return Standing(done, self._plan.total, self._begun, self._faults, lost, spent, self._cpu)
 
-    def steps(self) -> Iterator[None]:
+    def steps(self) -> Generator[None, None, None]:
         """Go on; each step has brought results or trouble.
 
         Raises

@@ -1,4 +1,4 @@
-"""What a batch consists of: cases, which are searches without their seed, and seeds. Each case is searched by each seed.
+"""What a batch consists of: cases, which are searches without a seed, and seeds. Each case is searched by each seed.
 
 A spec is written once, under a name with its hash, and is not changed. Another spec in the same folder has the same
 cases and other seeds. The results depend on the engine and on the bits that a machine computes, so both are part of it.

@@ -41,6 +41,11 @@ def specs(folder: Path) -> list[Spec]:
     return found
 
 
+def is_batch(folder: Path) -> bool:
+    """Whether a folder holds a batch."""
+    return any(folder.glob(f"{SPEC}*.json"))
+
+
 def refuse_another(folder: Path, there: Spec, given: Spec) -> None:
     """Refuse a spec whose cases differ from those of the folder; with what differs."""
     if there.identity == given.identity:
@@ -145,7 +150,7 @@ class Store:
                     yield case, seed, self.body(key)
 
     def hash(self) -> str:
-        """SHA-256 of all results in the order of the batch, in hexadecimal; however they were computed it is the same."""
+        """SHA-256 of all results in the order of the batch, in hexadecimal; wherever they were computed."""
         found = sha256()
         for case, seed, body in self.present():
             found.update(HEAD.pack(b"", self.whole.key(case, seed), len(body), 0) + body)

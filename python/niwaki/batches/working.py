@@ -114,13 +114,14 @@ def work(chunk: Chunk) -> Done:
 
 def _searched(text: str, trust: tuple[str, ...], seed: int) -> tuple[bytes, dict[str, Any]]:
     """One search: the bytes of its result, and what only its log should have."""
+    said: dict[str, Any] = {}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             result = _ready(text, trust).with_seed(seed).run(threads=1)
             if result.interrupted:
                 raise KeyboardInterrupt
-            body, said = body_of(result), {}
+            body = body_of(result)
         except FileError:
             raise
         except NiwakiError as error:

@@ -6,6 +6,15 @@ from niwaki.errors.texts.message import Message
 
 BATCHES = (
     Message(
+        "bad-spec",
+        "`{path}` is not a batch that can be searched",
+        why="{reason}",
+        help="write `model`, `seeds`, and the tables `[grow]`, `[arguments]`, `[vary.grow]` and `[vary.arguments]`, each "
+        "where it is needed",
+        example='model = "spaceship"\nseed = 1000',
+        cure='model = "spaceship"\nseeds = 1000',
+    ),
+    Message(
         "no-batch",
         "the folder `{path}` holds no batch",
         why="a batch has a file `spec-....json`, which says what is searched",
