@@ -13,6 +13,7 @@
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
+#   make bench-batch  a thousand searches, killed ten times: their bytes, and the CPU beyond the searches (2 minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
@@ -52,7 +53,7 @@ PARTS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -133,6 +134,9 @@ bench-wait: $(STAMPS)/engine $(STAMPS)/bench
 
 bench-searches: $(STAMPS)/engine
 	$(PY) benches/board.py
+
+bench-batch: $(STAMPS)/engine
+	$(PY) benches/batch.py
 
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored

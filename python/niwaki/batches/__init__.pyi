@@ -1,3 +1,5 @@
+from . import clusters as clusters
+from . import export as export
 from .body import Outcome as Outcome
 from .entry import Table as Table
 from .entry import batch as batch

@@ -28,7 +28,7 @@ from msgspec import Struct
 
 from niwaki import batches
 from niwaki.errors import InputError
-from niwaki.errors.schema import Unfit, fitted, inside
+from niwaki.errors.schema import Unfit, fitted, inside, shown
 from niwaki.inputs import text_of
 from niwaki.inputs.texts import toml_of
 from niwaki.shell import arguments, asking, controls, references, settings
@@ -37,8 +37,8 @@ from niwaki.shell import arguments, asking, controls, references, settings
 class Vary(Struct, frozen=True, forbid_unknown_fields=True):
     """What varies: lists of values."""
 
-    grow: dict[str, list[Any]] = {}
-    arguments: dict[str, list[Any]] = {}
+    grow: dict[str, Any] = {}
+    arguments: dict[str, Any] = {}
 
 
 class SpecFile(Struct, frozen=True, forbid_unknown_fields=True):
@@ -127,9 +127,10 @@ def _each(axes: Mapping[str, list[Any]]) -> Iterator[dict[str, Any]]:
     return (dict(zip(axes, values, strict=True)) for values in product(*axes.values()))
 
 
-def _some(name: str, values: list[Any]) -> list[Any]:
-    if not values:
-        raise Unfit(f"$.{name}", "at least one value", "an empty list")
+def _some(name: str, values: Any) -> list[Any]:
+    """Values of what varies."""
+    if not isinstance(values, list) or not values:
+        raise Unfit(f"$.{name}", "a list with at least one value", shown(values))
     return values
 
 

@@ -84,3 +84,12 @@ def main(folder: str, seeds: str = "200") -> None:
     """Search in the folder, by two processes, in chunks of a tenth of a second; print the hash."""
     found: Any = list(nw.batch(WAITING, seeds=int(seeds), folder=folder, processes=2, chunk=0.1))
     print(len(found), whole(Path(folder)))
+
+
+def on_cluster(engine: str, folder: str, seeds: str) -> None:
+    """The same on a cluster of this machine."""
+    with batches.clusters.ENGINES[engine](2) as executor:
+        found = list(
+            nw.batch(WAITING, seeds=int(seeds), folder=folder, executor=executor, processes=2, chunk=0.1)
+        )
+    print(len(found), whole(Path(folder)))

@@ -57,9 +57,9 @@ def until_some(folder: Path, child: subprocess.Popen[str], least: int) -> None:
         time.sleep(0.02)
 
 
-def ended(processes: set[int]) -> bool:
-    """Whether processes are gone, after at most ten seconds."""
-    end = time.monotonic() + 10.0
+def ended(processes: set[int], seconds: float = 10.0) -> bool:
+    """Whether processes are gone, after at most so many seconds."""
+    end = time.monotonic() + seconds
     while time.monotonic() < end:
         if not any(Path(f"/proc/{one}/cmdline").exists() for one in processes):
             return True
