@@ -30,7 +30,7 @@ def ships(count: int, folder: Path, **given: Any) -> str:
     entry = gallery.entry("spaceship")
     assert entry is not None
     for _ in nw.batch(
-        entry.model, entry.target(), seeds=count, particles=50, voxel=0.25, folder=folder, **given
+        entry.model, entry.target(), seeds=count, particles=50, voxel=0.5, folder=folder, **given
     ):
         pass
     return batches.Store(folder).hash()
@@ -56,19 +56,25 @@ def cost(count: int, folder: Path, chunk: float) -> tuple[float, float]:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, searched(folder)
 
 
-def killed(folder: Path) -> tuple[str, int]:
-    """The hash of a batch that is killed at random moments, and how often it was."""
-    chance, kills = random.Random(SEED), 0
+def killed(folder: Path) -> tuple[str, list[int]]:
+    """The hash of a batch that is killed at random moments after new results, and how many there were each time."""
+    chance, there = random.Random(SEED), [0]
     while True:
         with started(SHIPS, folder, 0.5) as child:
+            while len(there) <= KILLS and child.poll() is None and known(folder) <= there[-1]:
+                time.sleep(0.05)
             try:
-                said, _ = child.communicate(timeout=chance.uniform(2.0, 5.0) if kills < KILLS else None)
-                return said.strip(), kills
+                said, _ = child.communicate(timeout=chance.uniform(0.0, 0.5) if len(there) <= KILLS else None)
+                return said.strip(), there[1:]
             except subprocess.TimeoutExpired:
                 child.send_signal(signal.SIGKILL)
                 child.communicate()
-                kills += 1
-                print(f"  killed with {len(batches.Store(folder)) if batches.is_batch(folder) else 0} ships")
+                there.append(known(folder))
+
+
+def known(folder: Path) -> int:
+    """How many results there are."""
+    return len(batches.Store(folder)) if batches.is_batch(folder) else 0
 
 
 def main() -> None:
@@ -78,7 +84,8 @@ def main() -> None:
             wanted = ships(SHIPS, root / "alone", executor=thread)
         print(f"{SHIPS} ships in one thread: {time.perf_counter() - start:.1f} s, hash {wanted[:16]}")
         found, kills = killed(root / "killed")
-        print(f"killed {kills} times: hash {found[:16]}, {'equal' if found == wanted else 'ANOTHER'}")
+        same = "equal" if found == wanted else "ANOTHER"
+        print(f"killed {len(kills)} times, with {kills} ships: hash {found[:16]}, {same}")
         empty = cost(4, root / "few", 1.0)
         for chunk in (0.1, 1.0):
             whole, own = cost(SHIPS, root / f"cost-{chunk}", chunk)

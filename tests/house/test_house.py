@@ -166,7 +166,7 @@ def test_help_names_only_what_there_is():
     assert len(names) == 36
     assert names <= set(niwaki.__all__)
     parts = re.findall(r"^    niwaki\.(\w+)  ", niwaki.__doc__, re.M)
-    assert len(parts) == 11 and all(importlib.util.find_spec(f"niwaki.{part}") for part in parts)
+    assert len(parts) == 12 and all(importlib.util.find_spec(f"niwaki.{part}") for part in parts)
 
 
 def test_crates_import_only_the_rooms_above_them():

@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from niwaki.batches import plan, running
+from niwaki.batches import plan, pools, running
 from niwaki.batches.body import Outcome
 from niwaki.batches.pools import Workers
 from niwaki.batches.running import Watch
@@ -36,7 +36,7 @@ def batch(
     processes: int | None = None,
     executor: Executor | None = None,
     shard: str | tuple[int, int] | None = None,
-    chunk: float = plan.TARGET,
+    chunk: float = pools.TARGET,
     progress: Watch | None = None,
     **settings: Any,
 ) -> Iterator[Outcome]:
@@ -67,10 +67,11 @@ def batch(
     progress
         Called with a `Standing` whenever results came.
 
-    Yields
-    ------
-    Outcome
-        One for each search, in the order of cases and seeds. A model's fault is such an outcome, too.
+    Returns
+    -------
+    iterator of Outcome
+        One for each search, in the order of cases and seeds; they are searched while it is read. A model's fault is an
+        outcome, too.
 
     Raises
     ------
@@ -87,12 +88,16 @@ def batch(
                 "unknown-setting", name=found, suggestion="a `Search` has all its settings: change it there"
             )
         table = Table.of_searches([model] if isinstance(model, Search) else model)
-    part = plan.shard_of(shard)
-    if folder is None:
-        with TemporaryDirectory(prefix="niwaki-batch-") as place:
-            yield from table.run(place, seeds, part, Workers(executor, processes), chunk, progress)
-    else:
-        yield from table.run(folder, seeds, part, Workers(executor, processes), chunk, progress)
+    spec, part, workers = table.spec(seeds), plan.shard_of(shard), Workers(executor, processes, chunk)
+    if folder is not None:
+        return table.run(Store(Path(folder), spec), part, workers, progress)
+    return _kept_nowhere(table, spec, part, workers, progress)
+
+
+def _kept_nowhere(table: Table, spec: Spec, *given: Any) -> Iterator[Outcome]:
+    """The outcomes of a batch, in a folder that goes with them."""
+    with TemporaryDirectory(prefix="niwaki-batch-") as place:
+        yield from table.run(Store(Path(place), spec), *given)
 
 
 @dataclass(frozen=True)
@@ -144,27 +149,26 @@ class Table:
             searches.append(asked(model, own.pop("target", target), *args, seed=0, **settings, **own))
         return cls(searches, labels)
 
+    def spec(self, seeds: Any) -> Spec:
+        """The searches with seeds, as for `batch`, for this engine and this machine."""
+        _ = self.searches[0].task  # A model that does not compile fails here, and not in each worker.
+        return Spec.here(map(Case.of_search, self.searches, self.labels), Seeds.of(seeds))
+
     def run(
         self,
-        folder: str | PathLike[str],
-        seeds: Any,
+        store: Store,
         shard: tuple[int, int],
         workers: Workers,
-        chunk: float = plan.TARGET,
         progress: Watch | None = None,
     ) -> Iterator[Outcome]:
-        """Search what is missing in a folder; the outcomes in order, as for `batch`."""
-        for search in self.searches[:1]:
-            _ = search.task  # A model that does not compile fails here, and not in each worker.
-        spec = Spec.here(map(Case.of_search, self.searches, self.labels), Seeds.of(seeds))
+        """Search what a store lacks; the outcomes in order, as for `batch`."""
         trust = tuple(sorted({name for search in self.searches for name in search.host_modules}))
-        store = Store(Path(folder), spec)
         with store.held(shard) as own:
-            left = plan.Plan(store, shard, chunk, trust, _folders(trust))
+            left = plan.Plan(store, shard, workers.seconds, trust, _folders(trust))
             steps = running.Running(left, own, workers, progress).steps()
             try:
-                for item in plan.part(spec, shard):
-                    key = spec.key(*item)
+                for item in plan.part(store.spec, shard):
+                    key = store.spec.key(*item)
                     while key not in store and item not in left.lost and next(steps, self) is not self:
                         pass
                     if key in store:

@@ -1,8 +1,8 @@
 """Which searches of a batch are missing, and how many of them make a chunk.
 
 A chunk that is too small costs more than it does, and one that is too large is lost with its worker and leaves the
-others idle at the end. So a chunk takes about `TARGET` seconds by what searches have taken so far, and less when little
-is left.
+others idle at the end. So a chunk takes about the seconds that are asked for, by what searches have taken so far, and
+less when little is left.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from dataclasses import replace
 from niwaki.batches.spec import Spec
 from niwaki.batches.store import Store
 from niwaki.batches.working import Chunk
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import bad, is_whole
 
-#: Seconds of a chunk, and of the smallest at the end of a batch.
-TARGET, LEAST = 2.0, 0.1
+#: Seconds of the smallest chunk, at the end of a batch.
+LEAST = 0.1
 
 #: Most searches of a chunk: what is lost with a worker, and sent at once.
 MOST = 5_000
@@ -100,13 +100,11 @@ class Plan:
     def __init__(
         self,
         store: Store,
-        shard: tuple[int, int] = (1, 1),
-        target: float = TARGET,
+        shard: tuple[int, int],
+        target: float,
         trust: tuple[str, ...] = (),
         folders: tuple[str, ...] = (),
     ) -> None:
-        if not is_number(target) or not 0.0 <= target <= 3600.0:
-            raise bad("chunk", target, "seconds from 0 to 3600", str(TARGET))
         self.spec: Spec = store.spec
         self.total = sum(1 for _ in part(self.spec, shard))
         self._store, self._shard, self._target = store, shard, target

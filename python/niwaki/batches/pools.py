@@ -14,10 +14,13 @@ from concurrent.futures import Executor, Future, ProcessPoolExecutor
 
 from niwaki.batches.working import Chunk, Done, work
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad, count
+from niwaki.errors.settings import bad, count, is_number
 
 #: The most processes of a pool of ours.
 MOST = 512
+
+#: Seconds of a chunk.
+TARGET = 2.0
 
 #: Chunks under way for each worker: while one is worked on, the next one is there.
 AHEAD = 2
@@ -56,9 +59,13 @@ class Workers:
         An executor; a pool of our own when left out.
     processes
         How many workers it has; the processors of the machine when left out.
+    seconds
+        About so many seconds of searches are given to a worker at once.
     """
 
-    def __init__(self, executor: Executor | None = None, processes: int | None = None) -> None:
+    def __init__(
+        self, executor: Executor | None = None, processes: int | None = None, seconds: float = TARGET
+    ) -> None:
         if executor is not None and not isinstance(executor, Executor):
             raise bad(
                 "executor",
@@ -66,6 +73,9 @@ class Workers:
                 "an executor of `concurrent.futures`",
                 "None, for processes of this machine",
             )
+        if not is_number(seconds) or not 0.0 <= seconds <= 3600.0:
+            raise bad("chunk", seconds, "seconds from 0 to 3600", str(TARGET))
+        self.seconds = seconds
         known = getattr(executor, "_max_workers", None)
         self.count = count("processes", processes or known or cores(), most=1 << 20 if executor else MOST)
         self._given, self._own = executor, None if executor else local(self.count)

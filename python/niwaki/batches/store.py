@@ -75,7 +75,8 @@ class Store:
     folder
         The folder.
     spec
-        What is searched; that of the folder when left out.
+        What is searched, where results will be written (`held` finds those that are there); that of the folder when
+        left out, to read the results.
 
     Raises
     ------
@@ -98,7 +99,8 @@ class Store:
         self.whole = Spec(self.spec.cases, seeds, self.spec.engine, self.spec.bits)
         self._files: list[Path] = []
         self._places: dict[bytes, tuple[int, int, int]] = {}
-        self.scan()
+        if spec is None:
+            self.scan()
 
     def scan(self) -> None:
         """Find the results that are there."""
@@ -169,6 +171,7 @@ class Store:
         with held_folder(self.folder / f"{shard[0]}-of-{shard[1]}") as folder:
             if not place.exists():
                 write_whole(place, self.spec.text().encode())
+            self.scan()
             own = Own(self, Segment(folder))
             try:
                 yield own

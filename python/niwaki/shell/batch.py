@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from niwaki import batches
-from niwaki.batches import clusters, export, plan
+from niwaki.batches import clusters, export, plan, pools
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, count
 from niwaki.shell import batch_files, references, results
@@ -66,7 +66,7 @@ def run(
     ] = None,
     chunk: Annotated[
         float, typer.Option("--chunk", metavar="SECONDS", help="Searches that a worker gets at once.")
-    ] = plan.TARGET,
+    ] = pools.TARGET,
 ) -> None:
     """Do the searches of SPEC that its folder does not have; the same command goes on after Ctrl-C or a kill."""
     if engine is not None and engine not in ("local", *clusters.ENGINES):
@@ -80,10 +80,12 @@ def run(
         )
     part = plan.shard_of(shard)
     found = batch_files.load(spec)
+    asked = found.table.spec(found.seeds)
     folder = Path(found.name) if output is None else output
     there = results.present(folder)
     if there and not batches.is_batch(folder):
         raise InputError("folder-has-results", path=folder, found=there)
+    store = batches.Store(folder, asked)
     workers = count("--processes", batches.cores() if processes is None else processes, most=100_000)
     last: batches.Standing | None = None
     try:
@@ -99,12 +101,11 @@ def run(
                 show(now)
 
             done = failed = 0
-            own = batches.Workers(executor, workers)
-            for one in found.table.run(folder, found.seeds, part, own, chunk, watch):
+            own = batches.Workers(executor, workers, chunk)
+            for one in found.table.run(store, part, own, watch):
                 done += 1
                 failed += one.fault is not None
-                first = one if failed == 1 and one.fault is not None else None
-                if first is not None:
+                if one.fault is not None and failed == 1:
                     print(f"warning: case {one.case}, seed {one.seed}: {one.message}", file=sys.stderr)
     except KeyboardInterrupt:
         again = " ".join(sys.argv[1:]) if sys.argv[1:2] == ["batch"] else f"batch {spec}"

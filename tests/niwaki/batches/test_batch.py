@@ -21,7 +21,7 @@ from niwaki import batches
 from niwaki.batches import segments, working
 from niwaki.batches.plan import MOST, shard_of
 from niwaki.batches.spec import Case
-from niwaki.errors import InputError
+from niwaki.errors import FileError, InputError
 from niwaki.shell.references import find
 
 
@@ -162,7 +162,8 @@ def test_settings_vary(thread: ThreadPoolExecutor) -> None:
 
 def test_what_cannot_be_a_batch_is_refused(reviewed: Any, tmp_path: Path, thread: ThreadPoolExecutor) -> None:
     def tried(*args: Any, **settings: Any) -> Any:
-        return lambda: list(nw.batch(*args, executor=thread, **settings))
+        # At once, and not when the first result is read.
+        return lambda: nw.batch(*args, executor=thread, **settings)
 
     target, pile = nw.targets.examples.ship(), batched.pile
     list(nw.batch(batched.PILES, folder=tmp_path / "there", executor=thread))
@@ -239,6 +240,15 @@ def test_whatever_decides_a_result_changes_its_key(tmp_path: Path) -> None:
         key("keyed", HOSTS, other),
     ]
     assert len({plain, *others}) == 4
+
+
+def test_one_run_at_a_time_has_a_part_of_a_folder(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    begun = nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread)
+    next(begun)
+    with pytest.raises(FileError, match="folder-in-use"):
+        next(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+    assert len(list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, shard="1/2", executor=thread))) == 2
+    assert len(list(begun)) == 3 and len(batches.Store(tmp_path)) == 4
 
 
 def test_seeds_are_ranges() -> None:

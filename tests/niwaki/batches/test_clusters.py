@@ -103,7 +103,7 @@ def test_the_process_that_collects_is_killed(engine: str, tmp_path: Path) -> Non
         children = below(child.pid)
         child.kill()
         child.communicate(timeout=60)
-    assert ended(children, 60.0)
+    assert ended(children, 180.0)
     begun = sum(1 for _ in notes(tmp_path / "there"))
     with started(engine, tmp_path / "there", 120, 0.0) as child:
         said, error = child.communicate(timeout=180)
