@@ -54,14 +54,19 @@ class Kept:
                 way = "lighter" if self.found >= 0.0 else "darker"
                 short = (STEP if self.rule.kind == "lightness" else LEAST) - self.found
                 miss = f"{abs(short):.0f} too {'little' if short > 0.0 else 'much'}"
-                said = f"{one} is {much:.0f} units {way} than {other}"
+                said = f"{one} is {_units(much)} {way} than {other}"
             case "same-chroma":
-                said, miss = f"{one} and {other}, shades of one colour", f"{much:.0f} units apart"
+                said, miss = f"{one} and {other}, shades of one colour", f"{_units(much)} apart"
             case "same-hue":
                 said, miss = f"{one} and {other}, one hue", f"{much:.0f}° apart"
             case _:
-                said, miss = f"{one} is {much:.0f} units from grey", f"{abs(self.residual):.0f} too much"
+                said, miss = f"{one} is {_units(much)} from grey", f"{abs(self.residual):.0f} too much"
         return f"{said}: {'holds' if self.holds else miss}"
+
+
+def _units(much: float) -> str:
+    shown = f"{much:.0f}"
+    return f"{shown} unit{'' if shown == '1' else 's'}"
 
 
 def kept(rules: Iterable[Rule], residuals: Iterable[Constraint]) -> list[Kept]:

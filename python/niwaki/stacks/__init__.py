@@ -3,8 +3,8 @@
 Models: `stack`, `lean`, `top_heavy`, `every_step`; `platforms`; `arch`, `symmetric_arch`, `tri_arch`,
 `symmetric_tri_arch`, `wheel`; of pieces to cut, `cut_stack`, `cut_lean`, `cut_top_heavy`, `cut_arch`, `tilt_stack`,
 `tilt_arch`. All their choices are continuous. `start` finds the start of a chain, `polished` makes the
-balance of a draw more exact. A sample becomes a `Structure`, which `balanced` and `simulated` judge, `carried` explains and
-`cut_sheet` lays out on a board. Libraries of the extra `stacks` are imported when they are used.
+balance of a draw more exact. A sample becomes a `Structure`, which `balanced` and `simulated` judge,
+`carried` explains and `cut_sheet` lays out on a board. Libraries of the extra `stacks` are imported when they are used.
 """
 
 from niwaki.stacks.arches import arch, symmetric_arch, symmetric_tri_arch, tri_arch, wheel

@@ -21,7 +21,11 @@ from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
 from niwaki.studio.frames import opened
-from niwaki.studio.messages import PROTOCOL, Command, Shape
+from niwaki.studio.messages import PROTOCOL, Command, Picture, Regions, Shape
+
+
+#: Events whose bytes come with them; they answer no command.
+FRAMES = ("shape", "picture", "regions")
 
 
 class StudioError(NiwakiError):
@@ -43,8 +47,8 @@ class Studio:
     ----------
     view : dict
         What every window shows, up to date with the last message that was read.
-    shapes : list of (Shape, bytes)
-        The shapes that have come.
+    shapes : list of (Shape, Picture or Regions, bytes)
+        The shapes and pictures that have come.
     events : list of dict
         Every event that has come.
     """
@@ -58,7 +62,7 @@ class Studio:
         self._ids = count(1)
         self.view: dict[str, Any] = {}
         self.session = ""
-        self.shapes: list[tuple[Shape, bytes]] = []
+        self.shapes: list[tuple[Shape | Picture | Regions, bytes]] = []
         self.events: list[dict[str, Any]] = []
         self.ask("hello", protocol=PROTOCOL)
 
@@ -90,7 +94,7 @@ class Studio:
         end = time.monotonic() + timeout
         while True:
             event = self.read(end - time.monotonic())
-            if event.get("id") != number or event["kind"] == "shape":
+            if event.get("id") != number or event["kind"] in FRAMES:
                 continue
             if event["kind"] == "error":
                 raise StudioError(event["problem"]["code"], event["problem"]["text"])
@@ -110,9 +114,9 @@ class Studio:
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
             header, payload = opened(data)
-            shape = msgspec.json.decode(header, type=Shape)
+            shape = msgspec.json.decode(header, type=Shape | Picture | Regions)
             self.shapes.append((shape, bytes(payload)))
-            event: dict[str, Any] = {"kind": "shape", **msgspec.to_builtins(shape)}
+            event: dict[str, Any] = msgspec.to_builtins(shape)
         else:
             event = json.loads(data)
         if event["kind"] == "state":

@@ -6,7 +6,10 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, field
 
-from niwaki.studio.messages.document import Address, Addresses, Ask, Count, Key, Settings, Text
+from niwaki.studio.messages.document import Address, Addresses, Ask, Color, Count, Key, Settings, Text
+
+
+Side = Annotated[float, Meta(gt=0.0, le=1e5)]
 
 
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
@@ -52,6 +55,8 @@ class PinParts(Command, tag="pin"):
     """Hold parts of the picked result in what follows."""
 
     parts: Addresses
+    #: Of a drawing's regions: the colour that they shall have; None for the picked result's.
+    color: Color | None = None
 
 
 class FreeParts(Command, tag="free"):
@@ -71,7 +76,8 @@ class Choose(Command, tag="choose"):
     """Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result."""
 
     address: Address
-    value: float | int | bool
+    #: A colour where the address is a drawing's region.
+    value: float | int | bool | Color
     phase: Literal["move", "end"] = "end"
 
 
@@ -101,6 +107,13 @@ class Star(Command, tag="star"):
     on: bool = True
 
 
+class Judge(Command, tag="judge"):
+    """Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls."""
+
+    key: Key
+    simulate: bool = False
+
+
 class Undo(Command, tag="undo"):
     """Take the last step back."""
 
@@ -110,11 +123,18 @@ class Redo(Command, tag="redo"):
 
 
 class Export(Command, tag="export"):
-    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats."""
+    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats.
+
+    Of a structure `dxf` and `svg` are the boards of which its pieces are cut, and `assembly` is how they are put
+    together; of a drawing `toml` is its rules.
+    """
 
     key: Key
-    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json"]
+    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json", "dxf", "assembly", "toml"]
     scale: Annotated[float, Meta(gt=0.0, le=1e9)] | None = None
+    #: Width and height of a board, and what the saw takes, millimetres.
+    board: tuple[Side, Side] = (600.0, 400.0)
+    kerf: Annotated[float, Meta(ge=0.0, le=100.0)] = 0.2
 
 
 AnyCommand = (
@@ -132,6 +152,7 @@ AnyCommand = (
     | Show
     | Pick
     | Star
+    | Judge
     | Undo
     | Redo
     | Export

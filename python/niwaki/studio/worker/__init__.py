@@ -3,9 +3,12 @@
 - `loop`     jobs in, reports out; the flag that stops a search
 - `models`   models by reference, as the page lists them
 - `asks`     what is asked, as a target and a score
-- `jobs`     searches, parts grown again, choices changed
+- `kinds`    which module does a job: scenes, structures, drawings
+- `jobs`     scenes: searches, parts grown again, choices changed
 - `runs`     stored runs: replayed, described, shown, written
 - `places`   where in the source a choice is made and a part is emitted, and how a choice's slider goes
 - `shapes`   a scene as a mesh for the page
+- `structures`  blocks that stand: found, judged, cut
+- `coloring`  drawings that are coloured: regions, rules, colourings
 - `uploads`  a mesh that a user sent, read within limits
 """

@@ -9,12 +9,12 @@ from math import isfinite
 from typing import Any
 
 import niwaki as nw
-from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.search import Search
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow
+from niwaki.studio.refused import Refused
 from niwaki.studio.worker import asks, models, runs, shapes
 
 #: Rounds of `improve` at effort 1: its own usual number.
@@ -78,7 +78,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
         if one.choices not in [choices, *(other.choices for other in found)]:
             found.append(one)
     if not found:
-        raise InputError("no-runs", detail=f"`{job.part}` has no other form here")
+        raise Refused("no-other-form", f"`{job.part}` has no other form here")
     result = Result(search, found, job.seed)
     return _answered(result, models.reference(job.question.model), job.run, job.file, "regrow", send, job.id)
 

@@ -6,10 +6,15 @@ import inspect
 from pathlib import Path
 from typing import Any
 
-from niwaki import gallery, targets
+from niwaki import gallery, stacks, targets
+from niwaki.lang.lower import lowered
 from niwaki.lang.models import Model
 from niwaki.shell.references import ModelReference, find
 from niwaki.studio.messages import Answer, ListModels, Load, ModelInfo, Parameter
+from niwaki.studio.worker import coloring
+
+#: What the references of our structures begin with.
+STACK = "stack:"
 
 _kept: dict[str, tuple[object, ModelReference]] = {}
 
@@ -23,8 +28,24 @@ def reference(name: str) -> ModelReference:
         stamp = found.st_mtime_ns, found.st_size, found.st_ino
     known = _kept.get(name)
     if known is None or known[0] != stamp:
-        known = _kept[name] = (stamp, find(name))
+        known = _kept[name] = (stamp, _structure(name) or find(name))
     return known[1]
+
+
+def _structure(name: str) -> ModelReference | None:
+    """One of our models of structures."""
+    found = getattr(stacks, name.removeprefix(STACK), None) if name.startswith(STACK) else None
+    return ModelReference(name, found) if isinstance(found, Model) else None
+
+
+def is_structure(name: str) -> bool:
+    """Whether a model is one of structures that stand: it calls functions of `niwaki.stacks`."""
+    if name.startswith(STACK):
+        return True
+    found = reference(name)
+    own = f"{stacks.__name__}."
+    called = lowered(found.model.function).units
+    return found.entry is None and any(one.__module__.startswith(own) for one in called)
 
 
 def listed(job: ListModels) -> Answer:
@@ -36,15 +57,23 @@ def listed(job: ListModels) -> Answer:
         # A model without a target, a drawing or a score of its own makes no scene to look at.
         if entry.target_name is not None or entry.draws is not None:
             infos.append(info(ModelReference(entry.name, entry.model, entry), entry.name))
+    structures = [name for name in stacks.__all__ if isinstance(getattr(stacks, name), Model)]
+    infos += [info(reference(STACK + name), STACK + name) for name in structures]
+    infos += coloring.listed()
     return Answer(models=infos, targets=[f"gallery:{name}" for name in targets.examples.TARGETS])
 
 
 def loaded(job: Load) -> Answer:
-    """A model, compiled so that its errors are seen."""
+    """A model, compiled so that its errors are seen; or a drawing."""
+    if coloring.is_drawing(job.reference):
+        return coloring.loaded(job)
     found = reference(job.reference)
     found.model.program()
-    is_file = found.entry is None
-    return Answer(models=[info(found, job.reference, is_file)])
+    is_file = found.entry is None and not job.reference.startswith(STACK)
+    answer = info(found, job.reference, is_file)
+    if is_structure(job.reference):
+        answer.kind = "structure"
+    return Answer(models=[answer])
 
 
 def info(found: ModelReference, name: str, is_file: bool = False) -> ModelInfo:
@@ -57,6 +86,7 @@ def info(found: ModelReference, name: str, is_file: bool = False) -> ModelInfo:
         target=None if entry is None or entry.target_name is None else f"gallery:{entry.target_name}",
         draws=None if entry is None else entry.draws,
         is_file=is_file,
+        kind="structure" if name.startswith(STACK) else "scene",
     )
 
 

@@ -50,9 +50,16 @@ def sample(source: str, number: int) -> Sample:
     return _samples[key]
 
 
-def store(result: Result, found: ModelReference, run: int, file: str, origin: str) -> list[Outcome]:
-    """Write a run, and name its results."""
-    data = run_files.written(result, found)
+def store(
+    result: Result,
+    found: ModelReference,
+    run: int,
+    file: str,
+    origin: str,
+    beside: dict[str, Any] | None = None,
+) -> list[Outcome]:
+    """Write a run, with what else belongs to it, and name its results."""
+    data = {**run_files.written(result, found), **(beside or {})}
     for number, one in enumerate(result.samples):
         _samples[file, number] = one
     _saved(Path(file), data)
