@@ -6,7 +6,6 @@ and narrows by tens, and at each the log density is maximised (L-BFGS, through S
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -37,14 +36,7 @@ STEPS = 800
 WALL = 1e30
 
 
-def start(
-    model: Model[..., Any],
-    seed: int,
-    width: float,
-    *,
-    watch: Callable[[], None] | None = None,
-    **arguments: Any,
-) -> tuple[LogDensity, Floats]:
+def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> tuple[LogDensity, Floats]:
     """Find coordinates near which a structure balances.
 
     Parameters
@@ -55,10 +47,8 @@ def start(
         Decides where the search begins.
     width
         The model's tolerance.
-    watch
-        Called at each step; an error that it raises ends the search.
     arguments
-        The model's other arguments; `lock` holds choices, as for `niwaki.run`.
+        The model's other arguments.
 
     Returns
     -------
@@ -74,7 +64,7 @@ def start(
         density.compile()
         while x is None or _downhill(x, density)[0] == WALL:
             x = SPREAD * random.normal(size=density.dim)
-        x = _highest(density, x, watch)
+        x = _highest(density, x)
     assert x is not None
     return density, x
 
@@ -127,12 +117,11 @@ def height(density: LogDensity, x: Floats) -> tuple[float, Floats]:
         return -np.inf, np.zeros_like(x)
 
 
-def _highest(density: LogDensity, x: Floats, watch: Callable[[], None] | None = None) -> Floats:
+def _highest(density: LogDensity, x: Floats) -> Floats:
     """The local maximum to which an ascent from `x` leads."""
-    callback = None if watch is None else lambda _: watch()
     minimize = need("scipy.optimize").minimize
     settings: dict[str, Any] = {"jac": True, "method": "L-BFGS-B", "options": {"maxiter": STEPS}}
-    highest: Floats = minimize(_downhill, x, args=(density,), callback=callback, **settings).x
+    highest: Floats = minimize(_downhill, x, args=(density,), **settings).x
     return highest
 
 

@@ -23,7 +23,6 @@ from niwaki.errors import NiwakiError
 from niwaki.studio.frames import opened
 from niwaki.studio.messages import PROTOCOL, Command, Picture, Regions, Shape
 
-
 #: Events whose bytes come with them; they answer no command.
 FRAMES = ("shape", "picture", "regions")
 

@@ -8,7 +8,6 @@ from msgspec import Meta, Struct, field
 
 from niwaki.studio.messages.document import Address, Addresses, Ask, Color, Count, Key, Settings, Text
 
-
 Side = Annotated[float, Meta(gt=0.0, le=1e5)]
 
 

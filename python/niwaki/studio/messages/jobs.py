@@ -129,7 +129,9 @@ class WriteFile(Job, tag="write"):
     kerf: float = 0.2
 
 
-AnyJob = ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | JudgeRun | WriteFile
+AnyJob = (
+    ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | JudgeRun | WriteFile
+)
 
 
 class Answer(Struct, tag_field="kind", tag="answer"):

@@ -58,6 +58,7 @@ MEASURED, PICTURES, FILE = 640, {"light": 512, "fine": 1400}, 2048
 #: What pixels of no region have in place of a region's number.
 NOWHERE = 65535
 
+
 def is_drawing(reference: str) -> bool:
     """Whether a reference names a drawing."""
     return reference.startswith(PREFIX)

@@ -1,6 +1,6 @@
 """Structures of blocks: found so that they balance, judged, and cut.
 
-No search of scenes finds a balance. A result here is what `niwaki.stacks.start` finds from a seed, made more exact.
+No search of scenes finds a balance: chains do that follow the slope of the model's log density (`niwaki.explore`).
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 import niwaki as nw
 from niwaki import stacks
 from niwaki.draw.scene import Scene
-from niwaki.errors import FileError, ModelFault
-from niwaki.result import Result, Sample
+from niwaki.errors import FileError
+from niwaki.methods import explore
+from niwaki.result import Progress, Result, Sample
 from niwaki.studio.messages import (
     Answer,
     Arrow,
@@ -35,58 +36,44 @@ from niwaki.studio.messages import (
 from niwaki.studio.refused import Refused
 from niwaki.studio.worker import models, runs, shapes
 
-#: From this effort on a balance is made more exact.
-POLISHED = 1.0
+#: Chains for each result: those are kept that stand most surely.
+CHAINS = 2
 #: A force below this share of a block's mean weight is not shown.
 SMALL = 1e-3
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
-    """Structures that balance, those that stand most surely first; each is shown when it is found."""
+    """Structures by chains from places of their own, those first whose ground can be tilted most."""
     question, begun = job.question, time.perf_counter()
     found, settings = models.reference(question.model), question.settings
-    given: dict[str, Any] = {**_defaults(question.model), **question.arguments}
-    lock = runs.given(question.lock) or None
+    shown = [-math.inf]
 
-    def watch() -> None:
-        send(Progressed(job.id, len(samples), None, time.perf_counter() - begun))
+    def progress(now: Progress) -> None:
+        if now.sample is not None and now.sample.log_score > shown[0]:
+            shown[0] = now.sample.log_score
+            send(*shapes.shape(now.sample.scene, "light", what="best", id=job.id, key=Key(job.run)))
+        best = shown[0] if math.isfinite(shown[0]) else None
+        send(Progressed(job.id, now.done, best, time.perf_counter() - begun))
         check()
 
-    samples: list[tuple[float, Sample]] = []
-    interrupted, impossible = False, 0
-    for number in range(settings.count):
-        seed = (job.seed + number) % 2**53
-        try:
-            density, x = stacks.start(found.model, seed, watch=watch, lock=lock, **given)
-            choices = density.values(x)
-            if settings.effort >= POLISHED:
-                choices = stacks.polished(found.model, choices, lock=lock, **given)
-            one = nw.run(found.model, choices=choices, lock=lock, **given).best
-            tilt = _tilt(stacks.balanced(stacks.Structure.of(one)))
-        except KeyboardInterrupt:
-            interrupted = True
-            break
-        except (FileError, ModelFault) as error:
-            if error.code not in ("contact-vanished", "block-inside-out", "block-not-convex", "impossible-trace"):
-                raise
-            impossible += 1
-            continue
-        one.seed = seed
-        samples.append((tilt, one))
-        send(*shapes.shape(one.scene, "light", what="best", id=job.id, key=Key(job.run)))
-    if not samples:
-        if interrupted:
-            return Answer(interrupted=True)
-        raise Refused("no-structure", f"none of {impossible} starts became a structure; try another seed")
-    samples.sort(key=lambda one: -one[0])
-    result = Result(samples[0][1].search, [one for _, one in samples], job.seed)
+    drawn = nw.run(
+        found.model,
+        explore(draws=1, chains=max(1, round(CHAINS * settings.count * settings.effort))),
+        seed=job.seed,
+        lock=runs.given(question.lock) or None,
+        progress=progress,
+        **question.arguments,
+    )
+    tilts = sorted(((_tilt_of(one), -number) for number, one in enumerate(drawn)), reverse=True)
+    kept = [(tilt, drawn[-number]) for tilt, number in tilts[: settings.count]]
+    if not kept:
+        return Answer(interrupted=drawn.interrupted)
+    result = Result(drawn.search, [one for _, one in kept], job.seed)
     outcomes = runs.store(result, found, job.run, job.file, "run")
-    for (_, one), outcome in zip(samples, outcomes, strict=True):
+    for (_, one), outcome in zip(kept, outcomes, strict=True):
         send(*shapes.shape(one.scene, "light", what="result", id=job.id, key=outcome.key))
-    noted = [
-        replace(outcome, note=_said(tilt)) for (tilt, _), outcome in zip(samples, outcomes, strict=True)
-    ]
-    return Answer(outcomes=noted, interrupted=interrupted)
+    noted = [replace(outcome, note=_said(tilt)) for (tilt, _), outcome in zip(kept, outcomes, strict=True)]
+    return Answer(outcomes=noted, interrupted=drawn.interrupted)
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
@@ -145,21 +132,17 @@ def is_structure(source: str, number: int) -> bool:
     return hasattr(value, "blocks") and hasattr(value, "contacts")
 
 
-def _defaults(reference: str) -> dict[str, Any]:
-    """The model's own tolerance, which the search for a start needs to know."""
-    for one in models.parameters(models.reference(reference).model):
-        if one.name == "width" and isinstance(one.default, float):
-            return {"width": one.default}
-    text = (
-        f"`{reference}` has no parameter `width` with a default, how far off a balance may be; "
-        "write `def name(width=0.01):`, and give it to the balance"
-    )
-    raise Refused("structure-width", text)
-
-
 def _tilt(balance: stacks.Balance) -> float:
     """Degrees by which the ground can be tilted; below 0 where there is no balance."""
     return math.degrees(math.atan(balance.margin)) if balance.holds else -1.0
+
+
+def _tilt_of(one: Sample) -> float:
+    """The same of a result; lowest where it is no structure any more: a contact has vanished, a block is inside out."""
+    try:
+        return _tilt(stacks.balanced(stacks.Structure.of(one)))
+    except FileError:
+        return -2.0
 
 
 def _said(tilt: float) -> str:
@@ -169,14 +152,15 @@ def _said(tilt: float) -> str:
 def _text(told: Judged, count: int) -> str:
     """What was found, in words."""
     if told.holds:
-        text = f"It stands: there are forces that hold all {count} blocks, until the ground is tilted by {told.tilt:.1f}°."
+        text = f"It stands: forces hold all {count} blocks until the ground is tilted by {told.tilt:.1f}°."
     else:
         which = f"; nothing holds {len(told.loose)} of its {count} blocks" if told.loose else ""
         text = f"It falls: no forces hold it{which}."
     if told.stands is None:
         return text
     if told.stands:
-        return f"{text} Let go for five seconds, no block moved by more than {100.0 * (told.moved or 0.0):.1f} % of its size."
+        much = 100.0 * (told.moved or 0.0)
+        return f"{text} Let go for five seconds, no block moved by more than {much:.1f} % of its size."
     return f"{text} Let go for five seconds, {len(told.fallen)} of its blocks fell."
 
 

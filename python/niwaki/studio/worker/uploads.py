@@ -1,9 +1,9 @@
 """A mesh or a drawing that a user sent, read in a process of its own with little memory and time.
 
-`python -m niwaki.studio.worker.uploads FILE.SUFFIX OUT` reads the file as `niwaki.Target` does and writes it again
-as binary STL (float32), which is all that other processes read. A drawing to colour (SVG, an image) is read as
-`niwaki.color` does, and kept as it came: whatever reads it later keeps the limits of `niwaki.inputs`. One line of JSON on standard output says what it is,
-or why it cannot be used.
+`python -m niwaki.studio.worker.uploads FILE.SUFFIX OUT` reads a mesh as `niwaki.Target` does and writes it again as
+binary STL (float32), which is all that other processes read. A drawing to colour (SVG, an image) is read as
+`niwaki.color` does, and kept as it came: whatever reads it later keeps the limits of `niwaki.inputs`. One line of JSON
+on standard output says what it is, or why it cannot be used.
 """
 
 from __future__ import annotations
