@@ -10,15 +10,11 @@ import { Gallery } from "./ui/gallery";
 import { Inspector } from "./ui/inspector";
 import { Setup } from "./ui/setup";
 
-type Mode = "translate" | "scale" | "rotate" | null;
-
 function App() {
-  const [handles, setHandles] = useState<Mode>(null);
   const [isDropping, setDropping] = useState(false);
   useEffect(() => {
-    const key = (event: KeyboardEvent) => pressed(event, setHandles);
-    addEventListener("keydown", key);
-    return () => removeEventListener("keydown", key);
+    addEventListener("keydown", pressed);
+    return () => removeEventListener("keydown", pressed);
   }, []);
   return (
     <div
@@ -36,15 +32,15 @@ function App() {
       }}
     >
       <Bar onFit={() => stage.fit()} />
-      <Setup handles={handles} setHandles={setHandles} />
-      <Canvas handles={handles} />
+      <Setup />
+      <Canvas />
       <Inspector />
       <Gallery />
     </div>
   );
 }
 
-function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
+function pressed(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
   const isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range";
   const isCommand = event.ctrlKey || event.metaKey;
@@ -58,7 +54,7 @@ function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
     if (store.isSearching.value) store.stop();
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
-      setHandles(null);
+      store.thing.value = null;
       store.select(null);
     }
     return;
@@ -99,6 +95,16 @@ Object.assign(window, {
     },
     get frames() {
       return stage.frames;
+    },
+    get things() {
+      return stage.things.names;
+    },
+    get handle() {
+      return stage.handlePoint();
+    },
+    get bounds() {
+      const { low, high } = stage.piece?.header ?? {};
+      return { low, high };
     },
     pointOf: (address: string) => stage.pointOf(address),
   },

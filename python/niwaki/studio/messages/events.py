@@ -153,12 +153,15 @@ class Shape(Event, tag="shape"):
     Attributes
     ----------
     what
-        "best" of a running search, a "result", a choice that is "moving", or the "ghost" of the target.
+        "best" of a running search, a "result", a choice that is "moving", the "ghost" of the target, or an "obstacle".
+    number
+        Of the obstacle.
     parts
         Addresses; the mesh has the number of its part for each triangle.
     """
 
-    what: Literal["best", "result", "moving", "ghost"] = "result"
+    what: Literal["best", "result", "moving", "ghost", "obstacle"] = "result"
+    number: int = 0
     key: Key | None = None
     detail: Literal["light", "fine"] = "light"
     vertices: int = 0

@@ -9,26 +9,24 @@ import * as store from "../store";
 import { shapeOf } from "./gallery";
 import { Icon } from "./icons";
 import { Pen } from "./pen";
-import { currentTarget } from "./setup";
 
 export let stage: Stage;
 /** What is on the stage: of tests and of the page itself. */
 export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
 
-export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" | null }) {
+export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
   const holder = useRef<HTMLDivElement>(null);
   useEffect(() => {
     stage = new Stage(
       canvas.current!,
-      (target) => void store.tell({ kind: "ask", ask: { target } }),
+      store.ask,
       () => (store.eye.value = stage.eye()),
     );
     const watch = new ResizeObserver(([entry]) => stage.resize(entry.contentRect.width, entry.contentRect.height));
     watch.observe(holder.current!);
     follow();
   }, []);
-  useEffect(() => stage?.setHandles(handles), [handles]);
 
   const down = useRef<[number, number] | null>(null);
   const at = (event: PointerEvent): [number, number] => [event.offsetX, event.offsetY];
@@ -46,7 +44,7 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
         onPointerUp={(event) => {
           const from = down.current;
           const to = at(event);
-          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) store.select(stage.partAt(...to));
+          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) clicked(...to);
         }}
       />
       <Pen />
@@ -54,6 +52,14 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
       <Notices />
     </main>
   );
+}
+
+function clicked(x: number, y: number): void {
+  const part = stage.partAt(x, y);
+  const name = part === null ? stage.thingAt(x, y) : null;
+  store.select(part);
+  if (name !== null) store.thing.value = { name, mode: "translate" };
+  else if (part === null) store.thing.value = null;
 }
 
 function Problem() {
@@ -87,9 +93,10 @@ function Notices() {
 function follow(): void {
   store.onShape((shape, payload) => {
     if (shape.what === "ghost") {
-      stage.pivot.set(...shape.pivot);
-      stage.setGhost(shape, payload, currentTarget());
+      stage.setSolid("target", shape, payload, store.target.value);
       if (shape.note) store.note(shape.note);
+    } else if (shape.what === "obstacle") {
+      stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);
     } else if (shape.what === "best" || shape.what === "moving") {
       put(shape, payload);
     } else if (store.sameKey(shape.key, store.picked.value) && !store.isSearching.value) {
@@ -148,6 +155,10 @@ function follow(): void {
     void [store.level.value, store.hovered.value, store.pinned.value, store.part.value];
     remark();
   });
+  effect(() => {
+    if (store.view.value !== null) stage.setAsk(store.view.value.ask);
+  });
+  effect(() => stage.setHandles(store.thing.value?.name ?? null, store.thing.value?.mode ?? "translate"));
   effect(() => stage.setGhostVisible(store.showGhost.value));
   effect(() => {
     document.documentElement.dataset.theme = store.theme.value;

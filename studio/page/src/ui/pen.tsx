@@ -45,8 +45,12 @@ export function Pen() {
     if (stroke === null) return;
     const { clientWidth, clientHeight } = canvas.current!;
     const kept = isSeen ? sketch!.strokes : [];
-    const ask: Sketch = { strokes: [...kept, stroke], aspect: clientWidth / clientHeight, camera: isFlat ? null : stage.eye() };
-    void store.tell({ kind: "ask", ask: { sketch: ask } });
+    const camera = isFlat ? null : stage.eye();
+    const kind = isFlat ? "silhouette" : store.sketchKind.value;
+    const drawn: Sketch = { strokes: [...kept, stroke], aspect: clientWidth / clientHeight, camera, kind };
+    // The first stroke of a shadow puts the light where its shadow is seen.
+    const light = kind === "shadow" && sketch?.kind !== "shadow" ? { light: stage.lightFromBehind() } : {};
+    store.ask({ sketch: drawn, ...light });
   };
   return (
     <>
@@ -80,12 +84,25 @@ export function Pen() {
               onInput={(event) => (store.penWidth.value = Number(event.currentTarget.value))}
             />
           </label>
+          {!isFlat && (
+            <select
+              aria-label="What the strokes are"
+              value={sketch?.kind ?? store.sketchKind.value}
+              onChange={(event) => {
+                store.sketchKind.value = event.currentTarget.value as "silhouette" | "shadow";
+                if (sketch !== null) store.ask({ sketch: { ...sketch, kind: store.sketchKind.value } });
+              }}
+            >
+              <option value="silhouette">a silhouette</option>
+              <option value="shadow">a shadow on the floor</option>
+            </select>
+          )}
           {sketch?.camera != null && !isSeen && (
             <button class="text-button" onClick={() => stage.lookFrom(sketch.camera!)}>
               back to its view
             </button>
           )}
-          <button class="text-button" disabled={sketch === null} onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+          <button class="text-button" disabled={sketch === null} onClick={() => store.ask({ sketch: null })}>
             clear
           </button>
           <button class="button small" onClick={() => ((store.tool.value = "look"), store.run())} disabled={sketch === null}>
