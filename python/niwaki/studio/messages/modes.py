@@ -39,7 +39,7 @@ class Picture(Event, tag="picture"):
 
 
 class Regions(Event, tag="regions"):
-    """The header of a frame with the region of each pixel, (height, width) uint16: its number among the model's regions.
+    """The header of a frame with the number of each pixel's region in the model's list, (height, width) uint16.
 
     Pixels of no region have 65535. After them comes a PNG of the drawing in its own colours.
     """

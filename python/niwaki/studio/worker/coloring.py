@@ -144,8 +144,12 @@ def hold(job: Hold) -> Answer:
 
 
 def describe(job: DescribeRun, send: Any) -> Answer:
-    """The colours of a result, and how well it keeps each rule."""
-    one = stored(job.source, job.number)
+    """The colours of a result, and how well it keeps each rule that is asked."""
+    one, question = stored(job.source, job.number), job.question
+    rules = _rules(question)
+    # Rules that contradict one another were refused when they were asked; the result's own are shown.
+    if set(one.colors) == set(_drawing(question.model, question.file).names) and not agree.contradiction(rules):
+        one = painted(one.drawing, rules, one.colors, _weight(question))
     rows = [
         KeptRule(row.rule.kind, row.rule.first, row.rule.second, str(row), row.holds, abs(row.residual))
         for row in one.kept

@@ -12,11 +12,17 @@ const FORMATS = [
   ["json", "Recipe", "run.json, for niwaki replay"],
 ] as const;
 
+const MORE = {
+  structure: [["dxf", "DXF", "boards to cut"], ["svg", "SVG", "boards to cut"], ["assembly", "Plan", "how its pieces are put together"], ...FORMATS],
+  coloring: [["svg", "SVG", "the drawing"], ["png", "PNG", "a picture"], ["toml", "Rules", "rules.toml, for niwaki color"]],
+} as const;
+
 export function Bar({ onFit }: { onFit: () => void }) {
   const view = store.view.value;
   const [isExporting, setExporting] = useState(false);
   const isFlat = view?.model?.draws != null;
-  const formats = isFlat ? ([["svg", "SVG", "the drawing"], ...FORMATS.slice(3)] as const) : FORMATS;
+  const kind = store.kind.value;
+  const formats = kind !== "scene" ? MORE[kind] : isFlat ? ([["svg", "SVG", "the drawing"], ...FORMATS.slice(3)] as const) : FORMATS;
   return (
     <header class="bar">
       <span class="mark">Niwaki</span>

@@ -3,6 +3,7 @@
 import { isBelow } from "../stage/meshes";
 import type { ChoiceInfo, Place } from "../messages";
 import * as store from "../store";
+import { Balance } from "./balance";
 import { Icon } from "./icons";
 
 const SHOWN = 150;
@@ -54,6 +55,7 @@ export function Inspector() {
           </div>
         )}
       </section>
+      {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
           <div key={call} role="group" aria-label={call || "its own choices"}>
