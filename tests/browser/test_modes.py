@@ -13,10 +13,8 @@ from studio_page import at_rest, choose, grow, picture, until
 
 def colored(page):
     """Wait for the picture and the rules of the picked result."""
-    until(
-        page,
-        "window.__studio.easel?.detail == 'fine' && window.__studio.palette?.key.run == window.__studio.view.picked.run",
-    )
+    until(page, "window.__studio.easel?.detail == 'fine'")
+    until(page, "window.__studio.palette?.key.run == window.__studio.view.picked.run")
 
 
 def click_region(page, name):
@@ -109,7 +107,8 @@ def test_a_structure_shows_its_forces_what_falls_is_marked_and_boards_are_cut(op
     assert judged["holds"] and judged["tilt"] > 0.5 and judged["loose"] == [] and judged["board"] > 37.9
     until(page, "window.__studio.arrows > 0")
     assert page.evaluate("window.__studio.arrows") == 2 * len(judged["arrows"])
-    page.get_by_text(f"stands, until it is tilted by {judged['tilt']:.1f}°").wait_for()
+    page.get_by_text("Stands", exact=True).wait_for()
+    page.get_by_text(f"until the ground is tilted by {judged['tilt']:.1f}°").wait_for()
     page.get_by_role("button", name="Let go").click()
     until(page, "window.__studio.judged.stands === true")
     picture(page, "structure")
@@ -120,10 +119,12 @@ def test_a_structure_shows_its_forces_what_falls_is_marked_and_boards_are_cut(op
     assert len(cuts) == 6
     # A block pushed to the edge of the one below it falls.
     described = page.evaluate("window.__studio.described.choices")
-    slid = [one for one in described if one["family"] == "uniform" and (one["low"], one["high"]) == (-1.0, 1.0)]
-    label = page.locator(f"label[title^='{slid[-1]['address']}:']")
+    slid = [
+        one for one in described if one["family"] == "uniform" and (one["low"], one["high"]) == (-1.0, 1.0)
+    ]
+    label = page.locator(f"label[title^='{slid[0]['address']}:']")
     label.locator("input").fill("1")
     until(page, "window.__studio.judged?.holds === false")
     assert page.evaluate("window.__studio.judged.loose.length") > 0
-    page.get_by_text("falls", exact=True).wait_for()
+    page.get_by_text("Falls", exact=True).wait_for()
     picture(page, "falls")

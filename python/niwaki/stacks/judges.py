@@ -144,6 +144,7 @@ def _margin(rays: Any, weights: Floats, down: Floats, direction: int) -> float:
 
 
 def solved(found: Any) -> Any:
+    """What the solver found; an error where it found nothing."""
     if found.status != 0:
         raise FileError("program-unsolved", reason=str(found.message))
     return found

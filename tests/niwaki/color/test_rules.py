@@ -134,5 +134,6 @@ def test_rules_as_a_file_are_the_rules_again() -> None:
     for place in OWN.glob("*.toml"):
         rules = Rules.load(place)
         assert Rules.of(tomllib.loads(rules.toml()), place) == rules
-    odd = Rules(lighter=[['a "b"', "grün", "\\\n"]], muted={"all": 7.5}, pinned={"a.b": "#00ff00"})
+    chains = [['a "b"', "grün", "\\\n"]]
+    odd = Rules.of({"lighter": chains, "muted": {"all": 7.5}, "pinned": {"a.b": "#00ff00"}})
     assert Rules.of(tomllib.loads(odd.toml())) == odd

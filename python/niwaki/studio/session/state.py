@@ -15,7 +15,7 @@ from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.journal import Journal
 from niwaki.studio.process import Worker
-from niwaki.studio.refused import Refused
+from niwaki.studio.refused import Refused as Refused
 from niwaki.studio.window import Window, newest
 
 #: The name of a drawing that was sent.

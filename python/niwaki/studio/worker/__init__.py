@@ -1,7 +1,8 @@
 """The process that does the work of a session: it alone imports models, runs them and reads what users sent.
 
 - `loop`     jobs in, reports out; the flag that stops a search
-- `models`   models by reference, as the page lists them
+- `models`   models by reference
+- `offers`   what can be chosen
 - `asks`     what is asked, as a target and a score
 - `kinds`    which module does a job: scenes, structures, drawings
 - `jobs`     scenes: searches, parts grown again, choices changed

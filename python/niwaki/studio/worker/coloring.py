@@ -148,7 +148,9 @@ def describe(job: DescribeRun, send: Any) -> Answer:
     one, question = stored(job.source, job.number), job.question
     rules = _rules(question)
     # Rules that contradict one another were refused when they were asked; the result's own are shown.
-    if set(one.colors) == set(_drawing(question.model, question.file).names) and not agree.contradiction(rules):
+    if set(one.colors) == set(_drawing(question.model, question.file).names) and not agree.contradiction(
+        rules
+    ):
         one = painted(one.drawing, rules, one.colors, _weight(question))
     rows = [
         KeptRule(row.rule.kind, row.rule.first, row.rule.second, str(row), row.holds, abs(row.residual))
@@ -249,8 +251,9 @@ def _own_colors(read: Drawing) -> dict[str, str]:
 def _asked(reference: str) -> RulesAsk:
     """The rules that come with a drawing."""
     usual = rules_of(reference.removeprefix(PREFIX))
+    kinds: dict[Any, str] = CHAINS
     rules = [
-        RuleAsk(kind, list(chain)) for kind, name in CHAINS.items() for chain in getattr(usual, name)
+        RuleAsk(kind, list(chain)) for kind, name in kinds.items() for chain in getattr(usual, name)
     ] + [RuleAsk("muted", [name], most) for name, most in usual.muted.items()]
     return RulesAsk(rules, usual.background)
 

@@ -9,15 +9,10 @@ from niwaki.studio.worker import coloring, jobs, models, runs, structures
 
 
 def asked(question: Question) -> ModuleType:
-    """What searches, and grows parts again."""
+    """What shows a target, searches, changes choices, and grows parts again."""
     if coloring.is_drawing(question.model):
         return coloring
     return structures if models.is_structure(question.model) else jobs
-
-
-def changed(question: Question) -> ModuleType:
-    """What shows a target, and changes choices."""
-    return coloring if coloring.is_drawing(question.model) else jobs
 
 
 def stored(source: str) -> ModuleType:

@@ -22,7 +22,7 @@ from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import kinds, models, structures
+from niwaki.studio.worker import kinds, offers, structures
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -95,17 +95,17 @@ def done(job: messages.AnyJob, send: Send, stopped: Stopped) -> messages.Answer:
 def _done(job: messages.AnyJob, send: Send, stopped: Stopped) -> Any:
     match job:
         case messages.ListModels():
-            return models.listed(job)
+            return offers.listed(job)
         case messages.Load():
-            return models.loaded(job)
+            return offers.loaded(job)
         case messages.Ghost():
-            return kinds.changed(job.question).ghost(job, send)
+            return kinds.asked(job.question).ghost(job, send)
         case messages.Grow():
             return kinds.asked(job.question).grow(job, send, stopped.check)
         case messages.Regrow():
             return kinds.asked(job.question).regrow(job, send)
         case messages.Change():
-            return kinds.changed(job.question).change(job, send)
+            return kinds.asked(job.question).change(job, send)
         case messages.Hold():
             return kinds.stored(job.source).hold(job)
         case messages.DescribeRun():

@@ -6,12 +6,11 @@ import inspect
 from pathlib import Path
 from typing import Any
 
-from niwaki import gallery, stacks, targets
+from niwaki import stacks
 from niwaki.lang.lower import lowered
 from niwaki.lang.models import Model
 from niwaki.shell.references import ModelReference, find
-from niwaki.studio.messages import Answer, ListModels, Load, ModelInfo, Parameter
-from niwaki.studio.worker import coloring
+from niwaki.studio.messages import ModelInfo, Parameter
 
 #: What the references of our structures begin with.
 STACK = "stack:"
@@ -46,34 +45,6 @@ def is_structure(name: str) -> bool:
     own = f"{stacks.__name__}."
     called = lowered(found.model.function).units
     return found.entry is None and any(one.__module__.startswith(own) for one in called)
-
-
-def listed(job: ListModels) -> Answer:
-    """The models that can be chosen: those of the files first."""
-    infos = []
-    for file in job.files:
-        infos.append(info(reference(file), file, is_file=True))
-    for entry in gallery.entries():
-        # A model without a target, a drawing or a score of its own makes no scene to look at.
-        if entry.target_name is not None or entry.draws is not None:
-            infos.append(info(ModelReference(entry.name, entry.model, entry), entry.name))
-    structures = [name for name in stacks.__all__ if isinstance(getattr(stacks, name), Model)]
-    infos += [info(reference(STACK + name), STACK + name) for name in structures]
-    infos += coloring.listed()
-    return Answer(models=infos, targets=[f"gallery:{name}" for name in targets.examples.TARGETS])
-
-
-def loaded(job: Load) -> Answer:
-    """A model, compiled so that its errors are seen; or a drawing."""
-    if coloring.is_drawing(job.reference):
-        return coloring.loaded(job)
-    found = reference(job.reference)
-    found.model.program()
-    is_file = found.entry is None and not job.reference.startswith(STACK)
-    answer = info(found, job.reference, is_file)
-    if is_structure(job.reference):
-        answer.kind = "structure"
-    return Answer(models=[answer])
 
 
 def info(found: ModelReference, name: str, is_file: bool = False) -> ModelInfo:

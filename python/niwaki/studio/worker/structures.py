@@ -25,6 +25,7 @@ from niwaki.result import Progress, Result, Sample
 from niwaki.studio.messages import (
     Answer,
     Arrow,
+    Change,
     Grow,
     Judged,
     JudgeRun,
@@ -34,7 +35,7 @@ from niwaki.studio.messages import (
     WriteFile,
 )
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import models, runs, shapes
+from niwaki.studio.worker import jobs, models, runs, shapes
 
 #: Chains for each result: those are kept that stand most surely.
 CHAINS = 2
@@ -74,6 +75,21 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         send(*shapes.shape(one.scene, "light", what="result", id=job.id, key=outcome.key))
     noted = [replace(outcome, note=_said(tilt)) for (tilt, _), outcome in zip(kept, outcomes, strict=True)]
     return Answer(outcomes=noted, interrupted=drawn.interrupted)
+
+
+def change(job: Change, send: Any) -> Answer:
+    """Run with the choices of a result, some of them changed, whether it then stands or not."""
+    answer = jobs.change(job, send)
+    return replace(
+        answer,
+        outcomes=[
+            replace(one, note=_said(_tilt_of(runs.sample(job.file, one.key.number))))
+            for one in answer.outcomes
+        ],
+    )
+
+
+ghost = jobs.ghost
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
@@ -152,10 +168,9 @@ def _said(tilt: float) -> str:
 def _text(told: Judged, count: int) -> str:
     """What was found, in words."""
     if told.holds:
-        text = f"It stands: forces hold all {count} blocks until the ground is tilted by {told.tilt:.1f}°."
+        text = f"Forces hold all {count} blocks until the ground is tilted by {told.tilt:.1f}°."
     else:
-        which = f"; nothing holds {len(told.loose)} of its {count} blocks" if told.loose else ""
-        text = f"It falls: no forces hold it{which}."
+        text = f"No forces hold {len(told.loose) or 'all'} of its {count} blocks."
     if told.stands is None:
         return text
     if told.stands:

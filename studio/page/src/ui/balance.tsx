@@ -21,7 +21,7 @@ export function Balance() {
       ) : (
         <>
           <p class={judged.holds && judged.stands !== false ? "verdict" : "verdict short"}>
-            {judged.holds && judged.stands !== false ? `stands, until it is tilted by ${judged.tilt.toFixed(1)}°` : "falls"}
+            {judged.holds && judged.stands !== false ? "Stands" : "Falls"}
           </p>
           <p class="quiet">{judged.text}</p>
           <div class="actions">

@@ -38,22 +38,26 @@ export function Bar({ onFit }: { onFit: () => void }) {
         <button class="icon-button" title="Look at everything (F)" onClick={onFit}>
           <Icon name="fit" />
         </button>
-        <button
-          class="icon-button"
-          title="Show the target (T)"
-          aria-pressed={store.showGhost.value}
-          onClick={() => (store.showGhost.value = !store.showGhost.value)}
-        >
-          <Icon name="ghost" />
-        </button>
-        <button
-          class="icon-button"
-          title="Draw a silhouette to grow into (D)"
-          aria-pressed={store.tool.value === "draw"}
-          onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}
-        >
-          <Icon name="pen" />
-        </button>
+        {kind === "scene" && (
+          <>
+            <button
+              class="icon-button"
+              title="Show the target (T)"
+              aria-pressed={store.showGhost.value}
+              onClick={() => (store.showGhost.value = !store.showGhost.value)}
+            >
+              <Icon name="ghost" />
+            </button>
+            <button
+              class="icon-button"
+              title="Draw a silhouette to grow into (D)"
+              aria-pressed={store.tool.value === "draw"}
+              onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}
+            >
+              <Icon name="pen" />
+            </button>
+          </>
+        )}
       </div>
       <span class="grow" />
       {!store.isOpen.value && <span class="warning" role="status">not connected</span>}

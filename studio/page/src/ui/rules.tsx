@@ -74,13 +74,19 @@ export function Rules() {
         ))}
       </div>
       <ul class="rows">
-        {about.map((rule) => (
-          <Row key={`${rule.kind} ${rule.regions.join()}`} rule={rule} kept={rowsOf(rule, kept)} />
-        ))}
+        {about
+          .map((rule) => ({ rule, kept: rowsOf(rule, kept) }))
+          .sort((a, b) => worst(b.kept) - worst(a.kept))
+          .map(({ rule, kept }) => (
+            <Row key={`${rule.kind} ${rule.regions.join()}`} rule={rule} kept={kept} />
+          ))}
       </ul>
     </section>
   );
 }
+
+/** How far a rule is missed; 0 where it holds, so that those stay in their order. */
+const worst = (kept: KeptRule[]): number => Math.max(0, ...kept.filter((one) => !one.holds).map((one) => one.residual));
 
 function Row({ rule, kept }: { rule: RuleAsk; kept: KeptRule[] }) {
   const colors = store.palette.value?.colors ?? {};
@@ -96,6 +102,7 @@ function Row({ rule, kept }: { rule: RuleAsk; kept: KeptRule[] }) {
           <Chip key={name} color={colors[name]} />
         ))}
       </span>
+      <span class="far">{kept.length === 0 ? "" : missed.length === 0 ? "holds" : `${far.toFixed(0)} off`}</span>
       <button
         class="icon-button tiny"
         title={`Take away: ${KINDS[rule.kind].name}, ${rule.regions.join(", ")}`}
@@ -120,23 +127,8 @@ function Row({ rule, kept }: { rule: RuleAsk; kept: KeptRule[] }) {
           <output>{rule.most}</output>
         </label>
       ) : null}
-      {kept.length > 0 && (
-        <span class="residual">
-          <Meter far={far} isMissed={missed.length > 0} />
-          {missed.length === 0 ? "holds" : missed.map((one) => plain(one.text)).join("; ")}
-        </span>
-      )}
+      {missed.length > 0 && <span class="residual">{missed.map((one) => plain(one.text)).join("; ")}</span>}
     </li>
-  );
-}
-
-/** A residual as a bar: full at 30 units. */
-function Meter({ far, isMissed }: { far: number; isMissed: boolean }) {
-  return (
-    <svg class={isMissed ? "meter missed" : "meter"} viewBox="0 0 30 3" preserveAspectRatio="none" aria-hidden="true">
-      <rect width="30" height="3" />
-      <rect class="far" width={Math.min(30, far)} height="3" />
-    </svg>
   );
 }
 

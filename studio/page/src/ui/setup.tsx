@@ -48,12 +48,8 @@ export function Setup() {
           .map((one) => (
             <Argument key={one.name} parameter={one} />
           ))}
+        {store.kind.value === "coloring" && <Drop what="drawing" />}
       </section>
-      {view.model?.kind === "coloring" && (
-        <section>
-          <Drop what="drawing" />
-        </section>
-      )}
       {store.kind.value === "scene" && <Target />}
       {store.kind.value === "scene" && <Objects />}
       <Search settings={view.settings} />
