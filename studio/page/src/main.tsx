@@ -63,6 +63,7 @@ function pressed(event: KeyboardEvent): void {
   if (event.key === "Enter" && target.tagName !== "BUTTON") store.run();
   else if (event.key === "f") stage.fit();
   else if (event.key === "t") store.showGhost.value = !store.showGhost.value;
+  else if (event.key === "x") store.showDifference.value = !store.showDifference.value;
   else if (event.key === "d") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
   else if (event.key === "r" && level) store.reroll(level, 1);
   else if (event.key === "p" && level) store.pinOrFree(level);
@@ -98,6 +99,12 @@ Object.assign(window, {
     },
     get things() {
       return stage.things.names;
+    },
+    get counts() {
+      return store.difference.value === null ? null : store.counts.value;
+    },
+    get differs() {
+      return `${store.difference.value?.header.key?.number ?? ""}`;
     },
     get handle() {
       return stage.handlePoint();

@@ -141,6 +141,13 @@ export interface Show {
   id?: number;
 }
 
+/** Ask where a result differs from what is wanted. */
+export interface ShowDifference {
+  kind: "difference";
+  key: Key;
+  id?: number;
+}
+
 /** Go on with this result. */
 export interface Pick {
   kind: "pick";
@@ -331,6 +338,17 @@ export interface Shape {
   note: string;
 }
 
+/** The header of a frame with a byte for each cell of a target, or each pixel of a picture. */
+export interface Difference {
+  kind: "difference";
+  id: number;
+  key: Key | null;
+  size: [number, number, number];
+  low: [number, number, number];
+  high: [number, number, number];
+  is_picture: boolean;
+}
+
 /** A command has done its work. */
 export interface Done {
   kind: "done";
@@ -366,6 +384,7 @@ export type Command =
   | Choose
   | Describe
   | Show
+  | ShowDifference
   | Pick
   | Star
   | Undo
@@ -377,6 +396,7 @@ export type Event =
   | Patch
   | Described
   | Shape
+  | Difference
   | Done
   | File
   | Failed;

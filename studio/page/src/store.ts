@@ -2,7 +2,7 @@
 
 import { computed, signal } from "@preact/signals";
 import { connect, Refused } from "./link";
-import type { AskChange, Described, Event, Eye, Key, Outcome, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { AskChange, Described, Difference, Event, Eye, Key, Outcome, SettingsChange, Shape, TargetAsk, View } from "./messages";
 import type { Mode } from "./stage/things";
 
 export const view = signal<View | null>(null);
@@ -18,6 +18,15 @@ export const tool = signal<"look" | "place" | "draw">("look");
 export const showGhost = signal(true);
 /** The object of the scene that has handles, and what they do. */
 export const thing = signal<{ name: string; mode: Mode } | null>(null);
+/** Whether the difference to what is wanted is shown; where the picked result differs. */
+export const showDifference = signal(false);
+export const difference = signal<{ header: Difference; marks: Uint8Array } | null>(null);
+/** How many cells or pixels are wanted and filled, wanted only, filled only. */
+export const counts = computed(() => {
+  const found = [0, 0, 0, 0];
+  for (const mark of difference.value?.marks ?? []) found[mark]++;
+  return { covered: found[1], missing: found[2], outside: found[3] };
+});
 /** The camera, for what depends on it. */
 export const eye = signal<Eye | null>(null);
 /** Of the pen, in heights of the view. */
@@ -71,7 +80,10 @@ function heard(event: Event): void {
 
 const link = connect(
   heard,
-  (shape, payload) => listeners.forEach((one) => one(shape, payload)),
+  (header, payload) => {
+    if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
+    else listeners.forEach((one) => one(header, payload));
+  },
   (open) => (isOpen.value = open),
 );
 

@@ -119,6 +119,12 @@ class Show(Command, tag="show"):
     detail: Literal["light", "fine"] = "light"
 
 
+class ShowDifference(Command, tag="difference"):
+    """Ask where a result differs from what is wanted."""
+
+    key: Key
+
+
 class Pick(Command, tag="pick"):
     """Go on with this result."""
 
@@ -161,6 +167,7 @@ AnyCommand = (
     | Choose
     | Describe
     | Show
+    | ShowDifference
     | Pick
     | Star
     | Undo

@@ -7,7 +7,7 @@ from typing import Any, Literal
 from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
-from niwaki.studio.messages.events import Described, ModelInfo, Problem, Shape
+from niwaki.studio.messages.events import Described, Difference, ModelInfo, Problem, Shape
 
 
 class Question(Struct):
@@ -104,6 +104,14 @@ class ShowRun(Job, tag="show"):
     detail: Literal["light", "fine"]
 
 
+class FindDifference(Job, tag="difference"):
+    """Where a result differs from what is wanted."""
+
+    source: str
+    number: int
+    key: Key
+
+
 class WriteFile(Job, tag="write"):
     """Write a result as a file into a folder."""
 
@@ -114,7 +122,19 @@ class WriteFile(Job, tag="write"):
     scale: float | None = None
 
 
-AnyJob = ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | WriteFile
+AnyJob = (
+    ListModels
+    | Load
+    | Ghost
+    | Grow
+    | Regrow
+    | Change
+    | Hold
+    | DescribeRun
+    | ShowRun
+    | FindDifference
+    | WriteFile
+)
 
 
 class Answer(Struct, tag_field="kind", tag="answer"):
@@ -139,4 +159,4 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described
+AnyReport = Answer | Progressed | Shape | Described | Difference

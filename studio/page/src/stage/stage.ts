@@ -30,7 +30,8 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Ask, AskChange, Eye, Shape, TargetAsk } from "../messages";
+import type { Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import { cubes, KINDS, sheet } from "./cells";
 import { frame } from "./framing";
 import { subset, unpacked } from "./meshes";
 import { kindOf, type Mode, Things } from "./things";
@@ -52,9 +53,11 @@ export class Stage {
   private readonly ground: Mesh;
   private readonly shape = new Group();
   private readonly marks = new Group();
+  private differences = new Group();
   private ghostBox = new Box3();
   private ask: Ask = {};
   private look = COLORS.light;
+  private theme: "light" | "dark" = "light";
   private isAsked = false;
   private isFramed = false;
   /** Pixels may be drawn again. */
@@ -83,6 +86,7 @@ export class Stage {
       this.ground,
       this.shape,
       this.marks,
+      this.differences,
     );
     this.camera.position.set(14, 9, 18);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -117,6 +121,7 @@ export class Stage {
   }
 
   paint(theme: "light" | "dark"): void {
+    this.theme = theme;
     this.look = COLORS[theme];
     this.scene.background = new Color(this.look.paper);
     (this.ground.material as ShadowMaterial).opacity = this.look.shade;
@@ -164,6 +169,20 @@ export class Stage {
 
   setGhostVisible(isVisible: boolean): void {
     this.things.setGhostVisible(isVisible);
+    this.draw();
+  }
+
+  /** Show where the scene differs from what is wanted in its place, or the scene itself. */
+  setDifference(header: Difference | null, marks: Uint8Array): void {
+    clear(this.differences);
+    this.scene.remove(this.differences);
+    const isSeen = header?.is_picture === true && header.low[0] === header.high[0];
+    if (header !== null && !isSeen) {
+      this.differences = (header.is_picture ? sheet : cubes)(header, marks, KINDS[this.theme]);
+      this.scene.add(this.differences);
+    }
+    const hides = header !== null && !header.is_picture;
+    this.shape.visible = this.marks.visible = !hides;
     this.draw();
   }
 
@@ -231,13 +250,19 @@ export class Stage {
     this.draw();
   }
 
-  /** A solid of unit size beside what is there, a third as large. */
-  beside(source: string): TargetAsk {
+  /** A solid of unit size above what is there, where the camera sees it. */
+  above(source: string): TargetAsk {
     const box = this.bounds();
     if (box.isEmpty()) return { source };
-    const side = Math.max(round(box.getSize(new Vector3()).length() / 6), 1e-3);
+    const side = Math.max(round(box.getSize(new Vector3()).length() / 8), 1e-3);
     const middle = box.getCenter(new Vector3());
-    return { source, move: [round(box.max.x + side), round(box.min.y), round(middle.z)], scale: [side, side, side] };
+    return { source, move: [round(middle.x), round(box.max.y + 0.3 * side), round(middle.z)], scale: [side, side, side] };
+  }
+
+  /** The lowest height of what is there. */
+  bottom(): number {
+    const box = this.bounds();
+    return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
   }
 
   /** A light from behind the scene, so that its shadow falls towards the camera. */

@@ -7,6 +7,7 @@ import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
 import * as store from "../store";
 import { shapeOf } from "./gallery";
+import { Legend } from "./difference";
 import { Icon } from "./icons";
 import { Pen } from "./pen";
 
@@ -48,6 +49,7 @@ export function Canvas() {
         }}
       />
       <Pen />
+      <Legend />
       <Problem />
       <Notices />
     </main>
@@ -157,6 +159,21 @@ function follow(): void {
   });
   effect(() => {
     if (store.view.value !== null) stage.setAsk(store.view.value.ask);
+  });
+  // The difference of the picked result, asked for when it is looked at.
+  let asked = "";
+  effect(() => {
+    const key = store.isSearching.value || !store.showDifference.value ? null : store.picked.value;
+    const name = key === null ? "" : store.nameOf(key);
+    if (name === asked) return;
+    asked = name;
+    store.difference.value = null;
+    if (key !== null) void store.tell({ kind: "difference", key });
+  });
+  effect(() => {
+    void store.theme.value;
+    const found = store.showDifference.value ? store.difference.value : null;
+    stage.setDifference(found?.header ?? null, found?.marks ?? new Uint8Array());
   });
   effect(() => stage.setHandles(store.thing.value?.name ?? null, store.thing.value?.mode ?? "translate"));
   effect(() => stage.setGhostVisible(store.showGhost.value));
