@@ -67,6 +67,7 @@ export interface SettingsChange {
   count?: number;
   seed?: number | null;
   effort?: number;
+  strength?: number;
 }
 
 /** Set arguments by name, or settings; what is left out stays. */
@@ -108,6 +109,7 @@ export interface Reroll {
   kind: "reroll";
   part: string;
   count?: number;
+  strength?: number | null;
   id?: number;
 }
 
@@ -215,6 +217,7 @@ export interface Settings {
   count?: number;
   seed?: number | null;
   effort?: number;
+  strength?: number;
 }
 
 /** The numbers of a result, as the gallery shows them; scores in nats. */
@@ -226,6 +229,8 @@ export interface Outcome {
   seed: number | null;
   origin: string;
   model: string;
+  covered: number | null;
+  outside: number | null;
 }
 
 /** A held part: its pattern, and the values of the choices that hold it. */
@@ -311,7 +316,7 @@ export interface PartInfo {
   place: Place | null;
 }
 
-/** The choices and parts of a result. */
+/** The choices and parts of a result, in the order in which its run makes them. */
 export interface Described {
   kind: "described";
   id: number;

@@ -17,6 +17,7 @@ from niwaki.studio.messages.document import (
     Obstacles,
     Seed,
     Sketch,
+    Strength,
     TargetAsk,
     Text,
 )
@@ -62,6 +63,7 @@ class SettingsChange(Struct, frozen=True, forbid_unknown_fields=True):
     count: Count | UnsetType = UNSET
     seed: Seed | None | UnsetType = UNSET
     effort: Effort | UnsetType = UNSET
+    strength: Strength | UnsetType = UNSET
 
 
 class Set(Command, tag="set"):
@@ -92,10 +94,17 @@ class FreeParts(Command, tag="free"):
 
 
 class Reroll(Command, tag="reroll"):
-    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another."""
+    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another.
+
+    Attributes
+    ----------
+    strength
+        Of twice as many those that look most like it (0) or least (1); as they come when left out.
+    """
 
     part: Address
     count: Count = 1
+    strength: Strength | None = None
 
 
 class Choose(Command, tag="choose"):

@@ -119,7 +119,7 @@ class Patch(Event, tag="patch"):
 
 
 class Described(Event, tag="described"):
-    """The choices and parts of a result."""
+    """The choices and parts of a result, in the order in which its run makes them."""
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []

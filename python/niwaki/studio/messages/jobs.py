@@ -61,6 +61,7 @@ class Regrow(Job, tag="regrow"):
     number: int
     part: str
     count: int
+    strength: float | None
     run: int
     seed: int
     file: str

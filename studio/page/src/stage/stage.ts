@@ -33,6 +33,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
 import { cubes, KINDS, sheet } from "./cells";
 import { frame } from "./framing";
+import { type Order, sorted } from "./growth";
 import { subset, unpacked } from "./meshes";
 import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
@@ -54,6 +55,8 @@ export class Stage {
   private readonly shape = new Group();
   private readonly marks = new Group();
   private differences = new Group();
+  private ends: { order: Order; at: Uint32Array } | null = null;
+  private sides: Group[] = [];
   private ghostBox = new Box3();
   private ask: Ask = {};
   private look = COLORS.light;
@@ -108,15 +111,58 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isAsked = false;
       this.frames++;
+      if (this.sides.length === 0) this.renderer.render(this.scene, this.camera);
+      else this.drawSides();
+    });
+  }
+
+  /** Several shapes side by side, seen by the same camera; none of them shows the one shape again. */
+  setSides(shapes: [Shape, ArrayBuffer][]): void {
+    for (const one of this.sides) clear(one);
+    this.scene.remove(...this.sides);
+    this.sides = shapes.map(([header, payload]) => {
+      const group = new Group();
+      if (header.triangles > 0) group.add(this.meshOf(unpacked(header, payload)));
+      return group;
+    });
+    if (this.sides.length > 0) this.scene.add(...this.sides);
+    this.shape.visible = this.marks.visible = this.sides.length === 0;
+    this.aspect();
+    this.draw();
+  }
+
+  /** Triangles of what stands side by side. */
+  get compared(): number[] {
+    return this.sides.map((one) => ((one.children[0] as Mesh)?.geometry.index?.count ?? 0) / 3);
+  }
+
+  private drawSides(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const wide = clientWidth / this.sides.length;
+    this.renderer.setScissorTest(true);
+    this.sides.forEach((_, k) => {
+      this.sides.forEach((one, other) => (one.visible = other === k));
+      this.renderer.setViewport(k * wide, 0, wide, clientHeight);
+      this.renderer.setScissor(k * wide, 0, wide, clientHeight);
       this.renderer.render(this.scene, this.camera);
     });
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, clientWidth, clientHeight);
+  }
+
+  /** The camera's view is as wide as one of those that stand side by side. */
+  private aspect(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.camera.aspect = clientWidth / Math.max(this.sides.length, 1) / Math.max(clientHeight, 1);
+    // What was seen across the whole width is seen across the narrower one.
+    this.camera.zoom = 1 / Math.max(this.sides.length, 1);
+    this.camera.updateProjectionMatrix();
   }
 
   resize(width: number, height: number): void {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.aspect();
     this.draw();
   }
 
@@ -135,17 +181,33 @@ export class Stage {
   show(header: Shape | null, payload: ArrayBuffer): void {
     clear(this.shape);
     this.piece = null;
+    this.ends = null;
     if (header !== null && header.triangles > 0) {
       this.piece = unpacked(header, payload);
-      const isFine = header.detail === "fine";
-      const material = header.is_flat
-        ? new MeshBasicMaterial({ vertexColors: true })
-        : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: !isFine });
-      const mesh = new Mesh(this.piece.geometry, material);
-      mesh.castShadow = mesh.receiveShadow = !header.is_flat;
-      this.shape.add(mesh);
+      this.shape.add(this.meshOf(this.piece));
     }
     this.settle();
+    this.draw();
+  }
+
+  private meshOf({ header, geometry }: Piece): Mesh {
+    const material = header.is_flat
+      ? new MeshBasicMaterial({ vertexColors: true })
+      : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: header.detail !== "fine" });
+    const mesh = new Mesh(geometry, material);
+    mesh.castShadow = mesh.receiveShadow = !header.is_flat;
+    return mesh;
+  }
+
+  /** Show the first parts of the shape in an order; all of them where there is no count. */
+  setGrowth(count: number | null, order: Order, emitted: string[]): void {
+    if (this.piece === null) return;
+    if (count === null) this.piece.geometry.setDrawRange(0, Infinity);
+    else {
+      if (this.ends === null || this.ends.order !== order) this.ends = { order, at: sorted(this.piece, order, emitted) };
+      this.piece.geometry.setDrawRange(0, 3 * this.ends.at[Math.min(count, this.ends.at.length - 1)]);
+    }
+    this.marks.visible = this.shape.visible && count === null;
     this.draw();
   }
 

@@ -51,6 +51,15 @@ export function Bar({ onFit }: { onFit: () => void }) {
         </button>
         <button
           class="icon-button"
+          title="Compare starred results (C)"
+          aria-pressed={store.compared.value.length > 0}
+          disabled={!view?.stars.length}
+          onClick={store.compare}
+        >
+          <Icon name="compare" />
+        </button>
+        <button
+          class="icon-button"
           title="Draw a silhouette to grow into (D)"
           aria-pressed={store.tool.value === "draw"}
           onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}
