@@ -27,6 +27,8 @@ LIMITS = {
     "stroke": 0.1,
     "error": 0.5,
     "mended": 0.5,
+    "difference": 0.1,
+    "compare": 0.1,
     "export": 2.0,
 }
 times: dict[str, float] = {}

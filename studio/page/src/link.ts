@@ -1,12 +1,12 @@
 // The socket: commands out, events and frames in. The page has no other way to the studio, but for uploads and files.
 
-import type { Command, Event, Picture, Regions, Shape } from "./messages";
+import type { Command, Difference, Event, Picture, Regions, Shape } from "./messages";
 import { PROTOCOL } from "./messages";
 
 type Sent = Command extends infer C ? (C extends { id?: number } ? Omit<C, "id"> : never) : never;
 export type Answer = Event | undefined;
 /** The headers of frames: what comes with bytes. */
-export type Frame = Shape | Picture | Regions;
+export type Frame = Shape | Difference | Picture | Regions;
 
 export interface Link {
   /** Sends a command; the promise ends with its last answer, or fails with its problem. */

@@ -9,6 +9,7 @@ import { Bar } from "./ui/bar";
 import { Canvas, shown, stage } from "./ui/canvas";
 import { Easel, frame } from "./ui/easel";
 import { Gallery } from "./ui/gallery";
+import { play } from "./ui/growth";
 import { Inspector } from "./ui/inspector";
 import { Palette } from "./ui/palette";
 import { ruling } from "./ui/rules";
@@ -59,6 +60,7 @@ function pressed(event: KeyboardEvent): void {
   if (event.key === "Escape") {
     if (store.isSearching.value) store.stop();
     else if (ruling.value !== null) ruling.value = null;
+    else if (store.compared.value.length > 0) store.compared.value = [];
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
       store.thing.value = null;
@@ -70,6 +72,9 @@ function pressed(event: KeyboardEvent): void {
   if (event.key === "Enter" && target.tagName !== "BUTTON") store.run();
   else if (event.key === "f") stage.fit();
   else if (event.key === "t") store.showGhost.value = !store.showGhost.value;
+  else if (event.key === " " && target.tagName !== "BUTTON") play();
+  else if (event.key === "c") store.compare();
+  else if (event.key === "x") store.showDifference.value = !store.showDifference.value;
   else if (event.key === "d" && store.kind.value === "scene") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
   else if (event.key === "r" && level) store.reroll(level, 1);
   else if (event.key === "p" && level) store.pinOrFree(level);
@@ -105,6 +110,20 @@ Object.assign(window, {
     },
     get things() {
       return stage.things.names;
+    },
+    get counts() {
+      return store.difference.value === null ? null : store.counts.value;
+    },
+    get differs() {
+      return `${store.difference.value?.header.key?.number ?? ""}`;
+    },
+    get compared() {
+      return stage.compared;
+    },
+    get drawn() {
+      const { start, count } = stage.piece!.geometry.drawRange;
+      const owners = stage.piece!.owners.slice(start, Math.min(count, 3 * stage.piece!.owners.length) / 3);
+      return [...new Set(owners)].map((part) => stage.piece!.header.parts[part]);
     },
     get handle() {
       return stage.handlePoint();

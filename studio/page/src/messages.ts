@@ -82,6 +82,7 @@ export interface SettingsChange {
   count?: number;
   seed?: number | null;
   effort?: number;
+  strength?: number;
 }
 
 /** Set arguments by name, or settings; what is left out stays. */
@@ -124,6 +125,7 @@ export interface Reroll {
   kind: "reroll";
   part: string;
   count?: number;
+  strength?: number | null;
   id?: number;
 }
 
@@ -154,6 +156,13 @@ export interface Show {
   kind: "show";
   key: Key;
   detail?: "fine" | "light";
+  id?: number;
+}
+
+/** Ask where a result differs from what is wanted. */
+export interface ShowDifference {
+  kind: "difference";
+  key: Key;
   id?: number;
 }
 
@@ -245,6 +254,7 @@ export interface Settings {
   count?: number;
   seed?: number | null;
   effort?: number;
+  strength?: number;
 }
 
 /** The numbers of a result, as the gallery shows them; scores in nats. */
@@ -256,6 +266,8 @@ export interface Outcome {
   seed: number | null;
   origin: string;
   model: string;
+  covered: number | null;
+  outside: number | null;
   note: string;
 }
 
@@ -343,7 +355,7 @@ export interface PartInfo {
   place: Place | null;
 }
 
-/** The choices and parts of a result. */
+/** The choices and parts of a result, in the order in which its run makes them. */
 export interface Described {
   kind: "described";
   id: number;
@@ -368,6 +380,17 @@ export interface Shape {
   pivot: [number, number, number];
   is_flat: boolean;
   note: string;
+}
+
+/** The header of a frame with a byte for each cell of a target, or each pixel of a picture. */
+export interface Difference {
+  kind: "difference";
+  id: number;
+  key: Key | null;
+  size: [number, number, number];
+  low: [number, number, number];
+  high: [number, number, number];
+  is_picture: boolean;
 }
 
 /** A command has done its work. */
@@ -464,6 +487,7 @@ export type Command =
   | Choose
   | Describe
   | Show
+  | ShowDifference
   | Pick
   | Star
   | Judge
@@ -476,6 +500,7 @@ export type Event =
   | Patch
   | Described
   | Shape
+  | Difference
   | Done
   | File
   | Failed

@@ -3,7 +3,8 @@
 import { computed, signal } from "@preact/signals";
 import { connect, Refused } from "./link";
 import type { Frame } from "./link";
-import type { AskChange, Described, Event, Export, Eye, Judged, Key, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { Order } from "./stage/growth";
 import type { Mode } from "./stage/things";
 
 export const view = signal<View | null>(null);
@@ -26,10 +27,31 @@ export const tool = signal<"look" | "place" | "draw">("look");
 export const showGhost = signal(true);
 /** The object of the scene that has handles, and what they do. */
 export const thing = signal<{ name: string; mode: Mode } | null>(null);
+/** The results that stand side by side; one stage where there are none. */
+export const compared = signal<Key[]>([]);
+export function compare(): void {
+  const stars = (view.value?.results ?? []).filter((one) => isStarred(one.key)).map((one) => one.key);
+  if (compared.value.length > 0) compared.value = [];
+  else if (stars.length < 2) note("Star two to four results to compare them.");
+  else compared.value = stars.slice(0, 4);
+}
+/** How many parts of the picked result are shown, and in which order; all of them, where there is no count. */
+export const growth = signal<{ count: number | null; order: Order }>({ count: null, order: "emitted" });
+/** Whether the difference to what is wanted is shown; where the picked result differs. */
+export const showDifference = signal(false);
+export const difference = signal<{ header: Difference; marks: Uint8Array } | null>(null);
+/** How many cells or pixels are wanted and filled, wanted only, filled only. */
+export const counts = computed(() => {
+  const found = [0, 0, 0, 0];
+  for (const mark of difference.value?.marks ?? []) found[mark]++;
+  return { covered: found[1], missing: found[2], outside: found[3] };
+});
 /** The camera, for what depends on it. */
 export const eye = signal<Eye | null>(null);
 /** Of the pen, in heights of the view. */
 export const penWidth = signal(0.06);
+/** How different variants of a part are: 0 like it, 1 least like it. */
+export const strength = signal(0.5);
 export const sketchKind = signal<"silhouette" | "shadow">("silhouette");
 export const theme = signal<"light" | "dark">(
   matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
@@ -54,7 +76,8 @@ export const onShape = (listener: Listener<Shape>): void => void listeners.push(
 const drawers: Listener<Picture | Regions>[] = [];
 export const onPicture = (listener: Listener<Picture | Regions>): void => void drawers.push(listener);
 function framed(header: Frame, payload: ArrayBuffer): void {
-  if (header.kind === "shape") listeners.forEach((one) => one(header, payload));
+  if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
+  else if (header.kind === "shape") listeners.forEach((one) => one(header, payload));
   else drawers.forEach((one) => one(header, payload));
 }
 
@@ -139,7 +162,7 @@ export function pinOrFree(name: string): void {
   else void tell({ kind: "pin", parts: [name] });
 }
 export function reroll(name: string, count: number): void {
-  void tell({ kind: "reroll", part: name, count });
+  void tell({ kind: "reroll", part: name, count, strength: count > 1 ? strength.value : null });
 }
 export async function exported(format: Export["format"]): Promise<void> {
   if (picked.value === null) return;

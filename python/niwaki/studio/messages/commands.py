@@ -19,6 +19,7 @@ from niwaki.studio.messages.document import (
     RulesAsk,
     Seed,
     Sketch,
+    Strength,
     TargetAsk,
     Text,
 )
@@ -67,6 +68,7 @@ class SettingsChange(Struct, frozen=True, forbid_unknown_fields=True):
     count: Count | UnsetType = UNSET
     seed: Seed | None | UnsetType = UNSET
     effort: Effort | UnsetType = UNSET
+    strength: Strength | UnsetType = UNSET
 
 
 class Set(Command, tag="set"):
@@ -99,10 +101,17 @@ class FreeParts(Command, tag="free"):
 
 
 class Reroll(Command, tag="reroll"):
-    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another."""
+    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another.
+
+    Attributes
+    ----------
+    strength
+        Of twice as many those that look most like it (0) or least (1); as they come when left out.
+    """
 
     part: Address
     count: Count = 1
+    strength: Strength | None = None
 
 
 class Choose(Command, tag="choose"):
@@ -125,6 +134,12 @@ class Show(Command, tag="show"):
 
     key: Key
     detail: Literal["light", "fine"] = "light"
+
+
+class ShowDifference(Command, tag="difference"):
+    """Ask where a result differs from what is wanted."""
+
+    key: Key
 
 
 class Pick(Command, tag="pick"):
@@ -183,6 +198,7 @@ AnyCommand = (
     | Choose
     | Describe
     | Show
+    | ShowDifference
     | Pick
     | Star
     | Judge

@@ -15,6 +15,7 @@ Addresses = Annotated[list[Address], Meta(max_length=10_000)]
 Color = Annotated[str, Meta(pattern="^#[0-9a-fA-F]{6}$")]
 Count = Annotated[int, Meta(ge=1, le=48)]
 Seed = Annotated[int, Meta(ge=0, lt=2**53)]
+Strength = Annotated[float, Meta(ge=0.0, le=1.0)]
 Effort = Annotated[float, Meta(gt=0.0, le=64.0)]
 #: Values of choices by address, as `niwaki.search.data.Writer` writes them.
 Choices = dict[str, Any]
@@ -152,11 +153,14 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
         None for a fresh one each time.
     effort
         Rounds of `improve`, in its usual number.
+    strength
+        Which results are shown of those that were found: 0 the best, 1 those that look most different.
     """
 
     count: Count = 8
     seed: Seed | None = None
     effort: Effort = 1.0
+    strength: Strength = 0.0
 
 
 class Key(Struct, frozen=True, forbid_unknown_fields=True):
@@ -178,6 +182,9 @@ class Outcome(Struct, frozen=True):
     origin: str = "run"
     #: The reference of its model; the gallery shows those of the present one.
     model: str = ""
+    #: Of what is wanted, the share that it fills; of it, the share that is elsewhere.
+    covered: float | None = None
+    outside: float | None = None
     #: What is said of it in the gallery, where that is not how much it covers.
     note: str = ""
 

@@ -140,7 +140,7 @@ class Patch(Event, tag="patch"):
 
 
 class Described(Event, tag="described"):
-    """The choices and parts of a result."""
+    """The choices and parts of a result, in the order in which its run makes them."""
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
@@ -173,6 +173,27 @@ class Shape(Event, tag="shape"):
     pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False
     note: str = ""
+
+
+class Difference(Event, tag="difference"):
+    """The header of a frame with a byte for each cell of a target, or each pixel of a picture.
+
+    1 is wanted and filled, 2 is wanted only, 3 is filled only; x runs fastest, then y, then z. A picture has its first
+    row on top.
+
+    Attributes
+    ----------
+    size
+        Cells along x, y and z; columns, rows and 1.
+    low, high
+        Corners of the grid, or of the window of a drawing; both are the same for a picture seen by a camera.
+    """
+
+    key: Key | None = None
+    size: tuple[int, int, int] = (0, 0, 0)
+    low: Point = (0.0, 0.0, 0.0)
+    high: Point = (0.0, 0.0, 0.0)
+    is_picture: bool = False
 
 
 class Done(Event, tag="done"):

@@ -7,7 +7,7 @@ from typing import Any, Literal
 from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
-from niwaki.studio.messages.events import Described, ModelInfo, Problem, Shape
+from niwaki.studio.messages.events import Described, Difference, ModelInfo, Problem, Shape
 from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
@@ -65,6 +65,7 @@ class Regrow(Job, tag="regrow"):
     number: int
     part: str
     count: int
+    strength: float | None
     run: int
     seed: int
     file: str
@@ -108,6 +109,14 @@ class ShowRun(Job, tag="show"):
     detail: Literal["light", "fine"]
 
 
+class FindDifference(Job, tag="difference"):
+    """Where a result differs from what is wanted."""
+
+    source: str
+    number: int
+    key: Key
+
+
 class JudgeRun(Job, tag="judge"):
     """Whether a structure stands."""
 
@@ -130,7 +139,18 @@ class WriteFile(Job, tag="write"):
 
 
 AnyJob = (
-    ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | JudgeRun | WriteFile
+    ListModels
+    | Load
+    | Ghost
+    | Grow
+    | Regrow
+    | Change
+    | Hold
+    | DescribeRun
+    | ShowRun
+    | FindDifference
+    | JudgeRun
+    | WriteFile
 )
 
 
@@ -158,4 +178,4 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described | Palette | Judged | Picture | Regions
+AnyReport = Answer | Progressed | Shape | Described | Difference | Palette | Judged | Picture | Regions

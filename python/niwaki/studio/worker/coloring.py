@@ -252,9 +252,9 @@ def _asked(reference: str) -> RulesAsk:
     """The rules that come with a drawing."""
     usual = rules_of(reference.removeprefix(PREFIX))
     kinds: dict[Any, str] = CHAINS
-    rules = [
-        RuleAsk(kind, list(chain)) for kind, name in kinds.items() for chain in getattr(usual, name)
-    ] + [RuleAsk("muted", [name], most) for name, most in usual.muted.items()]
+    rules = [RuleAsk(kind, list(chain)) for kind, name in kinds.items() for chain in getattr(usual, name)] + [
+        RuleAsk("muted", [name], most) for name, most in usual.muted.items()
+    ]
     return RulesAsk(rules, usual.background)
 
 

@@ -22,7 +22,7 @@ from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import kinds, offers, structures
+from niwaki.studio.worker import differences, kinds, offers, structures
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -114,6 +114,8 @@ def _done(job: messages.AnyJob, send: Send, stopped: Stopped) -> Any:
             return kinds.stored(job.source).show(job, send)
         case messages.JudgeRun():
             return structures.judge(job, send)
+        case messages.FindDifference():
+            return differences.find(job, send)
         case messages.WriteFile():
             return kinds.written(job.source, job.number).write(job)
 

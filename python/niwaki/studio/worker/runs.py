@@ -69,7 +69,10 @@ def store(
 def outcome(one: Sample, key: Key, origin: str) -> Outcome:
     """The numbers of a result."""
     numbers = run_files.numbers(one)
-    return Outcome(key, numbers["log_score"], numbers["similarity"], one.primitives, one.seed, origin)
+    shares = {name: numbers[name] for name in ("similarity", "covered", "outside")}
+    return Outcome(
+        key, numbers["log_score"], primitives=one.primitives, seed=one.seed, origin=origin, **shares
+    )
 
 
 def given(choices: Choices) -> dict[str, Any]:
@@ -104,7 +107,7 @@ def describe(job: DescribeRun, send: Any) -> Answer:
                 address, families[address], _shown(value), low, high, whole, _place(seen.places.get(address))
             )
         )
-    parts = [PartInfo(part.address, _place(seen.places.get(part.address))) for part in one.scene.parts]
+    parts = [PartInfo(part.address, _place(seen.places.get(part.address))) for part in one.parts]
     send(Described(job.id, job.key, infos, parts))
     return Answer()
 

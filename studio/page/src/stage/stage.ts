@@ -30,9 +30,11 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Arrow, Ask, AskChange, Eye, Shape, TargetAsk } from "../messages";
+import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import { cubes, KINDS, sheet } from "./cells";
 import { arrowMeshes } from "./arrows";
 import { frame } from "./framing";
+import { type Order, sorted } from "./growth";
 import { subset, unpacked } from "./meshes";
 import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
@@ -54,9 +56,13 @@ export class Stage {
   private readonly shape = new Group();
   private readonly marks = new Group();
   readonly arrows = new Group();
+  private differences = new Group();
+  private ends: { order: Order; at: Uint32Array } | null = null;
+  private sides: Group[] = [];
   private ghostBox = new Box3();
   private ask: Ask = {};
   private look = COLORS.light;
+  private theme: "light" | "dark" = "light";
   private isAsked = false;
   private isFramed = false;
   /** Pixels may be drawn again. */
@@ -86,6 +92,7 @@ export class Stage {
       this.shape,
       this.marks,
       this.arrows,
+      this.differences,
     );
     this.camera.position.set(14, 9, 18);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -107,19 +114,63 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isAsked = false;
       this.frames++;
+      if (this.sides.length === 0) this.renderer.render(this.scene, this.camera);
+      else this.drawSides();
+    });
+  }
+
+  /** Several shapes side by side, seen by the same camera; none of them shows the one shape again. */
+  setSides(shapes: [Shape, ArrayBuffer][]): void {
+    for (const one of this.sides) clear(one);
+    this.scene.remove(...this.sides);
+    this.sides = shapes.map(([header, payload]) => {
+      const group = new Group();
+      if (header.triangles > 0) group.add(this.meshOf(unpacked(header, payload)));
+      return group;
+    });
+    if (this.sides.length > 0) this.scene.add(...this.sides);
+    this.shape.visible = this.marks.visible = this.sides.length === 0;
+    this.aspect();
+    this.draw();
+  }
+
+  /** Triangles of what stands side by side. */
+  get compared(): number[] {
+    return this.sides.map((one) => ((one.children[0] as Mesh)?.geometry.index?.count ?? 0) / 3);
+  }
+
+  private drawSides(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const wide = clientWidth / this.sides.length;
+    this.renderer.setScissorTest(true);
+    this.sides.forEach((_, k) => {
+      this.sides.forEach((one, other) => (one.visible = other === k));
+      this.renderer.setViewport(k * wide, 0, wide, clientHeight);
+      this.renderer.setScissor(k * wide, 0, wide, clientHeight);
       this.renderer.render(this.scene, this.camera);
     });
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, clientWidth, clientHeight);
+  }
+
+  /** The camera's view is as wide as one of those that stand side by side. */
+  private aspect(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.camera.aspect = clientWidth / Math.max(this.sides.length, 1) / Math.max(clientHeight, 1);
+    // What was seen across the whole width is seen across the narrower one.
+    this.camera.zoom = 1 / Math.max(this.sides.length, 1);
+    this.camera.updateProjectionMatrix();
   }
 
   resize(width: number, height: number): void {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.aspect();
     this.draw();
   }
 
   paint(theme: "light" | "dark"): void {
+    this.theme = theme;
     this.look = COLORS[theme];
     this.scene.background = new Color(this.look.paper);
     (this.ground.material as ShadowMaterial).opacity = this.look.shade;
@@ -133,17 +184,33 @@ export class Stage {
   show(header: Shape | null, payload: ArrayBuffer): void {
     clear(this.shape);
     this.piece = null;
+    this.ends = null;
     if (header !== null && header.triangles > 0) {
       this.piece = unpacked(header, payload);
-      const isFine = header.detail === "fine";
-      const material = header.is_flat
-        ? new MeshBasicMaterial({ vertexColors: true })
-        : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: !isFine });
-      const mesh = new Mesh(this.piece.geometry, material);
-      mesh.castShadow = mesh.receiveShadow = !header.is_flat;
-      this.shape.add(mesh);
+      this.shape.add(this.meshOf(this.piece));
     }
     this.settle();
+    this.draw();
+  }
+
+  private meshOf({ header, geometry }: Piece): Mesh {
+    const material = header.is_flat
+      ? new MeshBasicMaterial({ vertexColors: true })
+      : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: header.detail !== "fine" });
+    const mesh = new Mesh(geometry, material);
+    mesh.castShadow = mesh.receiveShadow = !header.is_flat;
+    return mesh;
+  }
+
+  /** Show the first parts of the shape in an order; all of them where there is no count. */
+  setGrowth(count: number | null, order: Order, emitted: string[]): void {
+    if (this.piece === null) return;
+    if (count === null) this.piece.geometry.setDrawRange(0, Infinity);
+    else {
+      if (this.ends === null || this.ends.order !== order) this.ends = { order, at: sorted(this.piece, order, emitted) };
+      this.piece.geometry.setDrawRange(0, 3 * this.ends.at[Math.min(count, this.ends.at.length - 1)]);
+    }
+    this.marks.visible = this.shape.visible && count === null;
     this.draw();
   }
 
@@ -167,6 +234,20 @@ export class Stage {
 
   setGhostVisible(isVisible: boolean): void {
     this.things.setGhostVisible(isVisible);
+    this.draw();
+  }
+
+  /** Show where the scene differs from what is wanted in its place, or the scene itself. */
+  setDifference(header: Difference | null, marks: Uint8Array): void {
+    clear(this.differences);
+    this.scene.remove(this.differences);
+    const isSeen = header?.is_picture === true && header.low[0] === header.high[0];
+    if (header !== null && !isSeen) {
+      this.differences = (header.is_picture ? sheet : cubes)(header, marks, KINDS[this.theme]);
+      this.scene.add(this.differences);
+    }
+    const hides = header !== null && !header.is_picture;
+    this.shape.visible = this.marks.visible = !hides;
     this.draw();
   }
 
@@ -247,13 +328,19 @@ export class Stage {
     this.draw();
   }
 
-  /** A solid of unit size beside what is there, a third as large. */
-  beside(source: string): TargetAsk {
+  /** A solid of unit size above what is there, where the camera sees it. */
+  above(source: string): TargetAsk {
     const box = this.bounds();
     if (box.isEmpty()) return { source };
-    const side = Math.max(round(box.getSize(new Vector3()).length() / 6), 1e-3);
+    const side = Math.max(round(box.getSize(new Vector3()).length() / 8), 1e-3);
     const middle = box.getCenter(new Vector3());
-    return { source, move: [round(box.max.x + side), round(box.min.y), round(middle.z)], scale: [side, side, side] };
+    return { source, move: [round(middle.x), round(box.max.y + 0.3 * side), round(middle.z)], scale: [side, side, side] };
+  }
+
+  /** The lowest height of what is there. */
+  bottom(): number {
+    const box = this.bounds();
+    return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
   }
 
   /** A light from behind the scene, so that its shadow falls towards the camera. */

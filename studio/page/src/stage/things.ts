@@ -132,8 +132,8 @@ export class Things {
 
   private light(direction: [number, number, number]): Object3D {
     const sun = new Group();
-    const away = new Vector3(...direction).normalize().multiplyScalar(-2.2 * this.radius);
-    sun.add(new Mesh(new SphereGeometry(0.07 * this.radius, 24, 16), new MeshBasicMaterial({ color: 0xf2b33d })));
+    const away = new Vector3(...direction).normalize().multiplyScalar(-1.25 * this.radius);
+    sun.add(new Mesh(new SphereGeometry(0.05 * this.radius, 24, 16), new MeshBasicMaterial({ color: 0xf2b33d })));
     sun.add(segments([0, 0, 0, ...away.clone().multiplyScalar(-0.5).toArray()], 0xf2b33d));
     sun.position.copy(this.middle).add(away);
     return sun;

@@ -7,6 +7,9 @@ import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
 import * as store from "../store";
 import { shapeOf } from "./gallery";
+import { Sides, sideShapes } from "./compare";
+import { Legend } from "./difference";
+import { Growth } from "./growth";
 import { Notices, Problem } from "./notices";
 import { Pen } from "./pen";
 
@@ -38,7 +41,7 @@ export function Canvas() {
         aria-label="The scene. Drag to look around, click a part to select it."
         onPointerDown={(event) => (down.current = at(event))}
         onPointerMove={(event) => {
-          if (event.buttons === 0 && store.tool.value === "look") store.hovered.value = stage.partAt(...at(event));
+          if (event.buttons === 0 && store.tool.value === "look" && store.compared.value.length === 0) store.hovered.value = stage.partAt(...at(event));
         }}
         onPointerLeave={() => (store.hovered.value = null)}
         onPointerUp={(event) => {
@@ -48,6 +51,9 @@ export function Canvas() {
         }}
       />
       <Pen />
+      <Legend />
+      <Sides />
+      <Growth />
       <Problem />
       <Notices />
     </main>
@@ -55,6 +61,7 @@ export function Canvas() {
 }
 
 function clicked(x: number, y: number): void {
+  if (store.compared.value.length > 0) return;
   const part = stage.partAt(x, y);
   const name = part === null ? stage.thingAt(x, y) : null;
   store.select(part);
@@ -147,6 +154,26 @@ function follow(): void {
   });
   effect(() => {
     if (store.view.value !== null) stage.setAsk(store.view.value.ask);
+  });
+  effect(() => {
+    const { count, order } = store.growth.value;
+    stage.setGrowth(count, order, (store.described.value?.parts ?? []).map((one) => one.address));
+  });
+  effect(() => stage.setSides(sideShapes.value));
+  // The difference of the picked result, asked for when it is looked at.
+  let asked = "";
+  effect(() => {
+    const key = store.isSearching.value || !store.showDifference.value ? null : store.picked.value;
+    const name = key === null ? "" : store.nameOf(key);
+    if (name === asked) return;
+    asked = name;
+    store.difference.value = null;
+    if (key !== null) void store.tell({ kind: "difference", key });
+  });
+  effect(() => {
+    void store.theme.value;
+    const found = store.showDifference.value ? store.difference.value : null;
+    stage.setDifference(found?.header ?? null, found?.marks ?? new Uint8Array());
   });
   effect(() => stage.setHandles(store.thing.value?.name ?? null, store.thing.value?.mode ?? "translate"));
   effect(() => stage.setGhostVisible(store.showGhost.value));

@@ -20,6 +20,12 @@ store.onShape((shape, payload) => {
 
 export const shapeOf = (name: string): [Shape, ArrayBuffer] | undefined => shapes.get(name);
 
+/** How much of what is wanted a result covers, and how much of it is elsewhere; rounded to the worse side. */
+export function fits(one: Outcome): string {
+  if (one.covered === null || one.outside === null) return "";
+  return `${Math.floor(100 * one.covered + 1e-9)} % covered, ${Math.ceil(100 * one.outside - 1e-9)} % outside`;
+}
+
 export function Gallery() {
   const view = store.view.value;
   const strip = useRef<HTMLDivElement>(null);
@@ -73,7 +79,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       onPictureOf(name, null);
     };
   }, [name, theme]);
-  const share = outcome.note !== "" ? outcome.note : outcome.similarity === null ? "" : `${(100 * outcome.similarity).toFixed(1)} %`;
+  const share = outcome.note || fits(outcome);
   const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
   return (
     <div
@@ -81,13 +87,16 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       role="option"
       tabIndex={isPicked ? 0 : -1}
       aria-selected={isPicked}
-      aria-label={`Result ${number}, score ${score}, ${share} agreement${isStarred ? ", starred" : ""}`}
+      aria-label={`Result ${number}, score ${score}, ${share}${isStarred ? ", starred" : ""}`}
       onClick={() => void store.tell({ kind: "pick", key: outcome.key })}
     >
       <canvas ref={canvas} width={WIDTH} height={HEIGHT} />
       <div class="caption">
         <b>{number}</b>
-        <span title={`log score ${score}`}>{share || score}</span>
+        <span title={`${share || "no target"}, log score ${score}`}>
+          {outcome.covered === null ? score : `${Math.floor(100 * outcome.covered + 1e-9)} %`}
+          {outcome.outside !== null && <em>−{Math.ceil(100 * outcome.outside - 1e-9)} %</em>}
+        </span>
         <button
           class="icon-button tiny star"
           aria-pressed={isStarred}

@@ -54,6 +54,21 @@ export function Inspector() {
             </button>
           </div>
         )}
+        {here !== "" && (
+          <label class="row" title="How different the variants are from this part">
+            <span>variants</span>
+            <input
+              type="range"
+              min={0}
+              max={1}
+              step={0.25}
+              value={store.strength.value}
+              aria-label="how different variants are"
+              onInput={(event) => (store.strength.value = Number(event.currentTarget.value))}
+            />
+            <output>{["alike", "near", "some", "far", "unlike"][Math.round(4 * store.strength.value)]}</output>
+          </label>
+        )}
       </section>
       {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">

@@ -59,9 +59,9 @@ export function Objects() {
   };
   const add = (source: string) => {
     setAdding(false);
-    if (source === "floor") store.ask({ floor: 0 });
+    if (source === "floor") store.ask({ floor: stage.bottom() });
     else if (source === "mesh") input.current?.click();
-    else store.avoid(stage.beside(source));
+    else store.avoid(stage.above(source));
   };
   return (
     <section aria-label="Objects of the scene">

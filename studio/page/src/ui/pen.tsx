@@ -1,7 +1,8 @@
 // The pen: strokes over the view become a silhouette that is asked for, seen by the camera of that moment.
 
 import { useEffect, useRef } from "preact/hooks";
-import type { Eye, Sketch, Stroke } from "../messages";
+import type { Difference, Eye, Sketch, Stroke } from "../messages";
+import { KINDS, pixels } from "../stage/cells";
 import * as store from "../store";
 import { stage } from "./canvas";
 
@@ -33,7 +34,12 @@ export function Pen() {
       pen.stroke();
     }
   };
-  useEffect(() => redraw(isSeen ? sketch!.strokes : []), [sketch, isSeen, store.theme.value]);
+  const found = store.showDifference.value ? store.difference.value : null;
+  const isCompared = isSeen && found?.header.is_picture === true && found.header.low[0] === found.header.high[0];
+  useEffect(() => {
+    redraw(isSeen && !isCompared ? sketch!.strokes : []);
+    if (isCompared) overlay(canvas.current!, found!.header, found!.marks);
+  }, [sketch, isSeen, isCompared, found, store.theme.value]);
 
   const point = (event: PointerEvent): [number, number] => {
     const high = canvas.current!.clientHeight;
@@ -112,4 +118,13 @@ export function Pen() {
       )}
     </>
   );
+}
+
+/** The pixels of a picture over the view of its camera. */
+function overlay(page: HTMLCanvasElement, { size }: Difference, marks: Uint8Array): void {
+  const small = new OffscreenCanvas(size[0], size[1]);
+  small.getContext("2d")!.putImageData(new ImageData(pixels(marks, KINDS[store.theme.value], 190), size[0], size[1]), 0, 0);
+  const pen = page.getContext("2d")!;
+  pen.imageSmoothingEnabled = false;
+  pen.drawImage(small, 0, 0, page.width, page.height);
 }

@@ -147,6 +147,8 @@ function Target() {
   );
 }
 
+const STRENGTHS = ["best", "little", "some", "more", "most"];
+
 function Search({ settings }: { settings: Settings }) {
   const view = store.view.value!;
   const { set } = store;
@@ -168,6 +170,20 @@ function Search({ settings }: { settings: Settings }) {
           onChange={(event) => set({ count: Number(event.currentTarget.value) })}
         />
         <output>{settings.count}</output>
+      </label>
+      <label class="row" title="Which of the results that were found: the best, or those that look most different">
+        <span>different</span>
+        <input
+          type="range"
+          min={0}
+          max={1}
+          step={0.25}
+          value={settings.strength}
+          aria-label="how different"
+          aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
+          onChange={(event) => set({ strength: Number(event.currentTarget.value) })}
+        />
+        <output>{STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}</output>
       </label>
       <label class="row">
         <span>effort</span>
