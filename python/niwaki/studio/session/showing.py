@@ -1,4 +1,4 @@
-"""Choices and shapes of a result, how it differs from what is wanted, and whether it stands, for the window that asks."""
+"""Choices and shapes of a result, how it differs from what is wanted, whether it stands: for the window that asks."""
 
 from __future__ import annotations
 
