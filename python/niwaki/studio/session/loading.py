@@ -55,7 +55,8 @@ async def load(session: Session, keep: m.Problem | None = None) -> None:
         session.model = answer.models[0]
         session.models = [session.model if one.reference == reference else one for one in session.models]
     elif session.model is None or session.model.reference != reference:
-        session.model = next((one for one in session.models if one.reference == reference), None)
+        listed = (one for one in session.models if one.reference == reference)
+        session.model = next(listed, None) or m.ModelInfo(reference, is_file=True)
     session.tell_all()
     if answer.problem is None:
         await load_ghost(session, None)

@@ -33,6 +33,8 @@ class Session:
         Where it is stored; a session that is there goes on.
     files
         References of models that may be chosen beside those of the gallery; each of a file that was named at the start.
+    trust
+        Whether files that stored runs name may be run for their host functions, where they have not changed.
 
     Attributes
     ----------
@@ -56,12 +58,13 @@ class Session:
         The newest value of a choice, by the phase of its slider.
     """
 
-    def __init__(self, folder: Path, files: list[str]) -> None:
+    def __init__(self, folder: Path, files: list[str], trust: bool = False) -> None:
         self.journal = Journal(folder)
         self.document = self.journal.document()
         self.windows: set[Window] = set()
         self.files = files
-        self.searcher, self.desk = Worker(), Worker()
+        words = [*(["--trust"] if trust else []), *files]
+        self.searcher, self.desk = Worker(*words), Worker(*words)
         self.ready = asyncio.Event()
         self.models: list[m.ModelInfo] = []
         self.targets: list[str] = []

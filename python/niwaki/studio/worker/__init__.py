@@ -9,6 +9,7 @@
 - `runs`     stored runs: replayed, described, shown, written
 - `differences`  where a result differs from what is wanted
 - `variety`  how different results look, and which of many to show
+- `allowed`  which files may be run for a stored run
 - `places`   where in the source a choice is made and a part is emitted, and how a choice's slider goes
 - `shapes`   a scene as a mesh for the page
 - `structures`  blocks that stand: found, judged, cut

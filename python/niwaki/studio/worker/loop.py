@@ -22,7 +22,7 @@ from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import differences, kinds, offers, structures
+from niwaki.studio.worker import allowed, differences, kinds, offers, structures
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -42,7 +42,8 @@ class Stopped:
 
 
 def main() -> None:
-    """Serve until the pipe closes."""
+    """Serve until the pipe closes; the words of the command line say what may be run."""
+    allowed.take(sys.argv[1:])
     source, sink = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     warnings.simplefilter("ignore")

@@ -11,17 +11,33 @@ from niwaki.lang.lower import lowered
 from niwaki.lang.models import Model
 from niwaki.shell.references import ModelReference, find
 from niwaki.studio.messages import ModelInfo, Parameter
+from niwaki.studio.refused import Refused
 
 #: What the references of our structures begin with.
 STACK = "stack:"
+
+#: Files that were named at the start, with their references: no other one is run for its models.
+named: dict[Path, str] = {}
 
 _kept: dict[str, tuple[object, ModelReference]] = {}
 
 
 def reference(name: str) -> ModelReference:
-    """The model of a reference; that of a file is read again when the file has changed."""
+    """The model of a reference; that of a file is read again when the file has changed.
+
+    Raises
+    ------
+    Refused
+        `unnamed-file`.
+    """
     place = Path(name.rpartition(":")[0] or name)
     stamp: object = None
+    if place.suffix == ".py" and place.resolve() not in named:
+        text = (
+            f"{place} was not named when the studio was started, and a model is code.\n"
+            f"Read the file; then start the studio with it: niwaki studio {place.name}"
+        )
+        raise Refused("unnamed-file", text)
     if place.suffix == ".py" and place.is_file():
         found = place.stat()
         stamp = found.st_mtime_ns, found.st_size, found.st_ino
