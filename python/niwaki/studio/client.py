@@ -21,7 +21,7 @@ from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
 from niwaki.studio.frames import opened
-from niwaki.studio.messages import PROTOCOL, Command, Shape
+from niwaki.studio.messages import PROTOCOL, Command, Difference, Shape
 
 
 class StudioError(NiwakiError):
@@ -45,6 +45,8 @@ class Studio:
         What every window shows, up to date with the last message that was read.
     shapes : list of (Shape, bytes)
         The shapes that have come.
+    differences : list of (Difference, bytes)
+        The differences to what is wanted that have come.
     events : list of dict
         Every event that has come.
     """
@@ -59,6 +61,7 @@ class Studio:
         self.view: dict[str, Any] = {}
         self.session = ""
         self.shapes: list[tuple[Shape, bytes]] = []
+        self.differences: list[tuple[Difference, bytes]] = []
         self.events: list[dict[str, Any]] = []
         self.ask("hello", protocol=PROTOCOL)
 
@@ -110,9 +113,12 @@ class Studio:
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
             header, payload = opened(data)
-            shape = msgspec.json.decode(header, type=Shape)
-            self.shapes.append((shape, bytes(payload)))
-            event: dict[str, Any] = {"kind": "shape", **msgspec.to_builtins(shape)}
+            told = msgspec.json.decode(header, type=Shape | Difference)
+            if isinstance(told, Shape):
+                self.shapes.append((told, bytes(payload)))
+            else:
+                self.differences.append((told, bytes(payload)))
+            event: dict[str, Any] = msgspec.to_builtins(told)
         else:
             event = json.loads(data)
         if event["kind"] == "state":

@@ -145,7 +145,7 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
     """Read a mesh in a process of its own, and keep what it has read."""
     name = hashlib.sha256(body).hexdigest()
     with tempfile.TemporaryDirectory(dir=folder) as place:
-        source, sink = Path(place) / f"mesh{suffix}", Path(place) / "mesh.stl"
+        source, sink = Path(place) / f"sent{suffix}", Path(place) / "mesh.stl"
         await asyncio.to_thread(source.write_bytes, body)
         command = (sys.executable, "-m", "niwaki.studio.worker.uploads", str(source), str(sink))
         pipe = asyncio.subprocess.PIPE
@@ -166,7 +166,9 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
         found = json.loads(said.splitlines()[-1])
         if "error" in found:
             return _refused(422, found.get("code", "file-unreadable"), found["error"])
-        sink.rename(folder / f"{name}.stl")
+        # The mesh last: what is beside it is there when it is.
+        for one in sorted(Path(place).glob("mesh.*"), key=lambda one: one == sink):
+            one.rename(folder / one.name.replace("mesh.", f"{name}.", 1))
     return JSONResponse({"source": f"upload:{name}", **found})
 
 

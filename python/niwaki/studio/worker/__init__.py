@@ -9,5 +9,6 @@
 - `variety`  how different results look, and which of many to show
 - `places`   where in the source a choice is made and a part is emitted, and how a choice's slider goes
 - `shapes`   a scene as a mesh for the page
+- `thinning`  a large mesh with fewer triangles, for the eye
 - `uploads`  a mesh that a user sent, read within limits
 """

@@ -11,11 +11,13 @@ import json
 import resource
 import sys
 import warnings
+from pathlib import Path
 
 import trimesh
 
 import niwaki as nw
 from niwaki.errors import NiwakiError
+from niwaki.studio.worker.thinning import GHOST_TRIANGLES, Ghost
 
 #: Bytes of memory and seconds of processor time that reading a mesh may take.
 MEMORY, SECONDS = 3 << 30, 60
@@ -39,6 +41,8 @@ def main(source: str, sink: str) -> None:
             return
         mesh = trimesh.Trimesh(target.vertices, target.faces, process=False)
         mesh.export(sink, file_type="stl")
+        if len(target.faces) > GHOST_TRIANGLES:
+            Ghost.of(target).save(Path(sink))
         found = {
             "triangles": len(target.faces),
             "size": [float(side) for side in target.size],

@@ -1,7 +1,7 @@
 // The strip of results: pictures from one direction, scores, stars.
 
 import { useEffect, useRef } from "preact/hooks";
-import { HEIGHT, thumbnail, WIDTH } from "../stage/thumbs";
+import { HEIGHT, later, thumbnail, WIDTH } from "../stage/thumbs";
 import type { Outcome, Shape } from "../messages";
 import * as store from "../store";
 import { Icon } from "./icons";
@@ -13,7 +13,8 @@ const waiting = new Map<string, () => void>();
 store.onShape((shape, payload) => {
   if (shape.what !== "result" || shape.key == null) return;
   const name = store.nameOf(shape.key);
-  if (shape.detail === "light" || !shapes.has(name)) shapes.set(name, [shape, payload]);
+  if (shape.detail !== "light" && shapes.has(name)) return;
+  shapes.set(name, [shape, payload]);
   waiting.get(name)?.();
 });
 
@@ -62,8 +63,8 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       thumbnail(canvas.current, found[0], found[1], theme, found[0].low, found[0].high);
       canvas.current.dataset.drawn = "yes";
     };
-    waiting.set(name, draw);
-    if (shapes.has(name)) draw();
+    waiting.set(name, () => later(draw));
+    if (shapes.has(name)) later(draw);
     else void store.tell({ kind: "show", key: outcome.key, detail: "light" });
     return () => void waiting.delete(name);
   }, [name, theme]);
