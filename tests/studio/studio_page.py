@@ -21,6 +21,7 @@ LIMITS = {
     "first shape": 0.3,
     "gallery": 3.0,
     "part": 0.1,
+    "part, large": 0.5,
     "pin": 0.1,
     "re-roll": 0.5,
     "undo": 0.1,

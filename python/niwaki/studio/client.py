@@ -21,7 +21,7 @@ from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
 from niwaki.studio.frames import opened
-from niwaki.studio.messages import PROTOCOL, Command, Picture, Regions, Shape
+from niwaki.studio.messages import PROTOCOL, Command, Difference, Picture, Regions, Shape
 
 #: Events whose bytes come with them; they answer no command.
 FRAMES = ("shape", "picture", "regions")
@@ -46,8 +46,12 @@ class Studio:
     ----------
     view : dict
         What every window shows, up to date with the last message that was read.
-    shapes : list of (Shape, Picture or Regions, bytes)
-        The shapes and pictures that have come.
+    shapes : list of (Shape, bytes)
+        The shapes that have come.
+    differences : list of (Difference, bytes)
+        The differences to what is wanted that have come.
+    pictures : list of (Picture or Regions, bytes)
+        The pictures of drawings that have come, and their regions.
     events : list of dict
         Every event that has come.
     """
@@ -61,7 +65,9 @@ class Studio:
         self._ids = count(1)
         self.view: dict[str, Any] = {}
         self.session = ""
-        self.shapes: list[tuple[Shape | Picture | Regions, bytes]] = []
+        self.shapes: list[tuple[Shape, bytes]] = []
+        self.differences: list[tuple[Difference, bytes]] = []
+        self.pictures: list[tuple[Picture | Regions, bytes]] = []
         self.events: list[dict[str, Any]] = []
         self.ask("hello", protocol=PROTOCOL)
 
@@ -113,9 +119,14 @@ class Studio:
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
             header, payload = opened(data)
-            shape = msgspec.json.decode(header, type=Shape | Picture | Regions)
-            self.shapes.append((shape, bytes(payload)))
-            event: dict[str, Any] = msgspec.to_builtins(shape)
+            told = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions)
+            if isinstance(told, Shape):
+                self.shapes.append((told, bytes(payload)))
+            elif isinstance(told, Difference):
+                self.differences.append((told, bytes(payload)))
+            else:
+                self.pictures.append((told, bytes(payload)))
+            event: dict[str, Any] = msgspec.to_builtins(told)
         else:
             event = json.loads(data)
         if event["kind"] == "state":

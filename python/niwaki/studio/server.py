@@ -148,7 +148,7 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
     name = hashlib.sha256(body).hexdigest()
     with tempfile.TemporaryDirectory(dir=folder) as place:
         kept = ".stl" if suffix in MESHES else suffix
-        source, sink = Path(place) / f"sent{suffix}", Path(place) / f"kept{kept}"
+        source, sink = Path(place) / f"sent{suffix}", Path(place) / f"read{kept}"
         await asyncio.to_thread(source.write_bytes, body)
         command = (sys.executable, "-m", "niwaki.studio.worker.uploads", str(source), str(sink))
         pipe = asyncio.subprocess.PIPE
@@ -169,7 +169,9 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
         found = json.loads(said.splitlines()[-1])
         if "error" in found:
             return _refused(422, found.get("code", "file-unreadable"), found["error"])
-        sink.rename(folder / f"{name}{kept}")
+        # What was asked for last: what is beside it is there when it is.
+        for one in sorted(Path(place).glob("read.*"), key=lambda one: one == sink):
+            one.rename(folder / one.name.replace("read.", f"{name}.", 1))
     # A mesh is a target's source; a drawing is chosen as models are.
     sent = {"source": f"upload:{name}"} if kept == ".stl" else {"reference": f"drawing:upload:{name}{kept}"}
     return JSONResponse({**sent, **found})

@@ -125,6 +125,12 @@ Object.assign(window, {
       const owners = stage.piece!.owners.slice(start, Math.min(count, 3 * stage.piece!.owners.length) / 3);
       return [...new Set(owners)].map((part) => stage.piece!.header.parts[part]);
     },
+    get bests() {
+      return shown.bests;
+    },
+    get ghost() {
+      return stage.things.triangles("target");
+    },
     get handle() {
       return stage.handlePoint();
     },

@@ -49,14 +49,14 @@ def described(connected):
 def test_regions_and_rules_are_those_of_the_drawing(connected):
     connected.ask("model", reference="drawing:bug")
     while not connected.view["model"]["regions"] or not any(
-        isinstance(one, Regions) for one, _ in connected.shapes
+        isinstance(one, Regions) for one, _ in connected.pictures
     ):
         connected.read(10)
     read = Drawing.load("bug")
     assert [one["name"] for one in connected.view["model"]["regions"]] == list(read.names)
     shares = [one["share"] for one in connected.view["model"]["regions"]]
     assert np.allclose(shares, read.areas, atol=0.005)
-    header, payload = next((one, data) for one, data in connected.shapes[::-1] if isinstance(one, Regions))
+    header, payload = next((one, data) for one, data in connected.pictures[::-1] if isinstance(one, Regions))
     labels = np.frombuffer(payload, "<u2", header.width * header.height)
     found = np.bincount(labels[labels < len(read.names)]) / len(labels)
     assert np.allclose(found, shares)
@@ -93,12 +93,12 @@ def test_a_pinned_region_keeps_its_colour_in_twenty_colourings(served, connected
 def test_a_colour_that_is_given_is_measured_and_not_searched_for(connected):
     colored(connected, count=1)
     before = described(connected)
-    connected.shapes.clear()
+    connected.pictures.clear()
     connected.send("choose", address="wall", value="#ff0000", phase="move")
     connected.ask("choose", address="wall", value="#00ff00")
     after = described(connected)
     assert after["colors"] == {**before["colors"], "wall": "#00ff00"}
-    assert [one.what for one, _ in connected.shapes if isinstance(one, Picture)][-1] == "result"
+    assert [one.what for one, _ in connected.pictures if isinstance(one, Picture)][-1] == "result"
     missed = [one for one in after["kept"] if not one["holds"]]
     assert missed and all("wall" in (one["first"], one["second"]) for one in missed)
     assert {"wall", "wall-shade"} in [{one["first"], one["second"]} for one in missed]
@@ -178,7 +178,7 @@ def test_colourings_are_back_after_a_restart(tmp_path):
         assert one.view["results"] == before and len(one.view["stars"]) == 1
         assert described(one)["colors"] == colors
         one.ask("show", key=one.view["picked"], detail="fine")
-        while not any(isinstance(shape, Picture) for shape, _ in one.shapes):
+        while not any(isinstance(shape, Picture) for shape, _ in one.pictures):
             one.read(10)
 
 

@@ -16,6 +16,8 @@ from niwaki.studio.window import Window, newest
 
 async def begin(session: Session) -> None:
     """Learn which models there are, and show the session's own."""
+    # The first search finds its process started, and the model read.
+    session.start(session.searcher.do(m.ListModels(files=[])))
     answer = await session.desk.do(m.ListModels(files=session.files))
     session.models, session.targets, session.problem = answer.models, answer.targets, answer.problem
     if answer.problem is not None and session.files:
@@ -28,7 +30,6 @@ async def begin(session: Session) -> None:
     await load(session, keep=session.problem)
     session.ready.set()
     if session.document.model is not None:
-        # The first search finds its process started.
         reference = session.document.model
         await session.searcher.do(m.Load(reference=reference, file=session.drawing_file(reference)))
 

@@ -14,5 +14,6 @@
 - `shapes`   a scene as a mesh for the page
 - `structures`  blocks that stand: found, judged, cut
 - `coloring`  drawings that are coloured: regions, rules, colourings
+- `thinning`  a large mesh with fewer triangles, for the eye
 - `uploads`  a mesh that a user sent, read within limits
 """

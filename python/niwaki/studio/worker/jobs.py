@@ -16,6 +16,7 @@ from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
 from niwaki.studio.refused import Refused
 from niwaki.studio.worker import asks, models, runs, shapes, variety
+from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
 #: Rounds of `improve` at effort 1: its own usual number.
 ROUNDS = 15
@@ -36,10 +37,10 @@ def ghost(job: Ghost, send: Any) -> Answer:
 
 
 def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
-    target, foot = asks.placed(ask)
-    many = len(target.faces) > shapes.GHOST_TRIANGLES
-    note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
-    described, payload = shapes.ghost(target, foot, note, **header)
+    ghost, foot = asks.shown(ask)
+    many = ghost.triangles > GHOST_TRIANGLES
+    note = f"shown with fewer than its {ghost.triangles:,} triangles" if many else ""
+    described, payload = shapes.ghost(ghost.vertices, ghost.faces, ghost.bounds, foot, note=note, **header)
     described.id = job
     send(described, payload)
 

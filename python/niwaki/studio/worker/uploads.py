@@ -21,6 +21,7 @@ import trimesh
 import niwaki as nw
 from niwaki.color import Drawing
 from niwaki.errors import NiwakiError
+from niwaki.studio.worker.thinning import GHOST_TRIANGLES, Ghost
 
 MESHES = (".obj", ".stl", ".ply", ".glb", ".gltf")
 #: Bytes of memory and seconds of processor time that reading a mesh may take.
@@ -48,6 +49,8 @@ def main(source: str, sink: str) -> None:
             return
         mesh = trimesh.Trimesh(target.vertices, target.faces, process=False)
         mesh.export(sink, file_type="stl")
+        if len(target.faces) > GHOST_TRIANGLES:
+            Ghost.of(target).save(Path(sink))
         found = {
             "triangles": len(target.faces),
             "size": [float(side) for side in target.size],

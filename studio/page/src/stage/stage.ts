@@ -105,6 +105,21 @@ export class Stage {
     this.things = new Things(this.camera, canvas, onPlaced, dragging, () => this.draw());
     this.scene.add(this.things.group, this.things.handles.getHelper());
     this.paint("light");
+    this.warm();
+  }
+
+  /** Compile what shapes are drawn with before the first one comes. */
+  private warm(): void {
+    const colors = new Float32Array(9);
+    for (const flatShading of [true, false]) {
+      const geometry = new BufferGeometry();
+      for (const name of ["position", "normal", "color"]) geometry.setAttribute(name, new BufferAttribute(colors, 3));
+      const mesh = new Mesh(geometry, solid(flatShading));
+      mesh.castShadow = mesh.receiveShadow = true;
+      this.shape.add(mesh);
+    }
+    this.renderer.render(this.scene, this.camera);
+    clear(this.shape);
   }
 
   /** Draw with the next frame. */
@@ -196,7 +211,7 @@ export class Stage {
   private meshOf({ header, geometry }: Piece): Mesh {
     const material = header.is_flat
       ? new MeshBasicMaterial({ vertexColors: true })
-      : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: header.detail !== "fine" });
+      : solid(header.detail !== "fine");
     const mesh = new Mesh(geometry, material);
     mesh.castShadow = mesh.receiveShadow = !header.is_flat;
     return mesh;
@@ -434,6 +449,7 @@ export class Stage {
   }
 }
 
+const solid = (flatShading: boolean) => new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading });
 const round = (value: number): number => Math.round(value * 1e3) / 1e3;
 
 /** A geometry with the vertices of its own triangles only, for edges. */

@@ -15,7 +15,7 @@ import { Pen } from "./pen";
 
 export let stage: Stage;
 /** What is on the stage: of tests and of the page itself. */
-export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
+export const shown = { key: null as Key | null, what: "", detail: "", bests: 0 };
 
 export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -89,6 +89,7 @@ function follow(): void {
     stage.show(shape, payload);
     shown.key = shape?.key ?? null;
     shown.what = shape?.what ?? "";
+    shown.bests = shown.what !== "best" ? 0 : shown.bests + 1;
     shown.detail = shape?.detail ?? "";
     remark();
   };

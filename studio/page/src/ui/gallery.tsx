@@ -1,7 +1,7 @@
 // The strip of results: pictures from one direction, scores, stars.
 
 import { useEffect, useRef } from "preact/hooks";
-import { HEIGHT, thumbnail, WIDTH } from "../stage/thumbs";
+import { HEIGHT, later, thumbnail, WIDTH } from "../stage/thumbs";
 import type { Outcome, Shape } from "../messages";
 import { onPictureOf, pictureOf } from "../pictures";
 import * as store from "../store";
@@ -14,7 +14,8 @@ const waiting = new Map<string, () => void>();
 store.onShape((shape, payload) => {
   if (shape.what !== "result" || shape.key == null) return;
   const name = store.nameOf(shape.key);
-  if (shape.detail === "light" || !shapes.has(name)) shapes.set(name, [shape, payload]);
+  if (shape.detail !== "light" && shapes.has(name)) return;
+  shapes.set(name, [shape, payload]);
   waiting.get(name)?.();
 });
 
@@ -70,9 +71,10 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       thumbnail(canvas.current, found[0], found[1], theme, found[0].low, found[0].high);
       canvas.current.dataset.drawn = "yes";
     };
-    waiting.set(name, draw);
-    onPictureOf(name, draw);
-    if (shapes.has(name) || pictureOf(name) !== undefined) draw();
+    const wait = () => later(draw);
+    waiting.set(name, wait);
+    onPictureOf(name, wait);
+    if (shapes.has(name) || pictureOf(name) !== undefined) wait();
     else void store.tell({ kind: "show", key: outcome.key, detail: "light" });
     return () => {
       waiting.delete(name);
