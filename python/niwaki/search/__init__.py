@@ -7,6 +7,7 @@ checks      checks before a search starts
 checkpoint  the file from which a search goes on after it was killed
 keeping     when it is written, and what is in it
 searching   running a search: run by run, each by its method
+collisions  which parts of a scene break its constraints
 worth       what is said of a result that is worth less than its search promised
 """
 
