@@ -96,7 +96,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       <div class="caption">
         <b>{number}</b>
         <span title={`${share || "no target"}, log score ${score}`}>
-          {outcome.covered === null ? score : `${Math.floor(100 * outcome.covered + 1e-9)} %`}
+          {outcome.note !== "" ? outcome.note : outcome.covered === null ? score : `${Math.floor(100 * outcome.covered + 1e-9)} %`}
           {outcome.outside !== null && <em>−{Math.ceil(100 * outcome.outside - 1e-9)} %</em>}
         </span>
         <button

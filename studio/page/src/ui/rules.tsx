@@ -102,7 +102,7 @@ function Row({ rule, kept }: { rule: RuleAsk; kept: KeptRule[] }) {
           <Chip key={name} color={colors[name]} />
         ))}
       </span>
-      <span class="far">{kept.length === 0 ? "" : missed.length === 0 ? "holds" : `${far.toFixed(0)} off`}</span>
+      <span class={missed.length > 0 ? "far short" : "far"}>{kept.length === 0 ? "" : missed.length === 0 ? "holds" : `${far.toFixed(0)} off`}</span>
       <button
         class="icon-button tiny"
         title={`Take away: ${KINDS[rule.kind].name}, ${rule.regions.join(", ")}`}

@@ -171,20 +171,22 @@ function Search({ settings }: { settings: Settings }) {
         />
         <output>{settings.count}</output>
       </label>
-      <label class="row" title="Which of the results that were found: the best, or those that look most different">
-        <span>different</span>
-        <input
-          type="range"
-          min={0}
-          max={1}
-          step={0.25}
-          value={settings.strength}
-          aria-label="how different"
-          aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
-          onChange={(event) => set({ strength: Number(event.currentTarget.value) })}
-        />
-        <output>{STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}</output>
-      </label>
+      {isScene && (
+        <label class="row" title="Which of the results that were found: the best, or those that look most different">
+          <span>different</span>
+          <input
+            type="range"
+            min={0}
+            max={1}
+            step={0.25}
+            value={settings.strength}
+            aria-label="how different"
+            aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
+            onChange={(event) => set({ strength: Number(event.currentTarget.value) })}
+          />
+          <output>{STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}</output>
+        </label>
+      )}
       <label class="row">
         <span>effort</span>
         <input
