@@ -3,7 +3,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { easel, pictureOf, plan, regionAt } from "../pictures";
 import * as store from "../store";
-import { addRule, KINDS, ruling } from "./rules";
+import { addRule, clicked, KINDS, ruling } from "./rules";
 import { Notices, Problem } from "./notices";
 
 const MARGIN = 34;
@@ -77,12 +77,7 @@ export function Easel() {
         data-picture={name}
         onPointerMove={(event) => (store.hovered.value = at(event))}
         onPointerLeave={() => (store.hovered.value = null)}
-        onClick={(event) => {
-          const found = at(event);
-          if (rule !== null && found !== null) {
-            if (!rule.regions.includes(found)) ruling.value = { ...rule, regions: [...rule.regions, found] };
-          } else store.level.value = found;
-        }}
+        onClick={(event) => clicked(at(event))}
       />
       {store.hovered.value !== null && rule === null && <div class="region-name">{store.hovered.value}</div>}
       {rule !== null && (

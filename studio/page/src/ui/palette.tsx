@@ -2,7 +2,7 @@
 
 import * as store from "../store";
 import { Icon } from "./icons";
-import { Rules } from "./rules";
+import { clicked, Rules } from "./rules";
 
 export function Palette() {
   const view = store.view.value;
@@ -49,7 +49,7 @@ function Region({ name, color, isHeld }: { name: string; color: string; isHeld: 
         }}
         onChange={(event) => void give(event.currentTarget.value)}
       />
-      <button class="name" aria-pressed={isSelected} onClick={() => (store.level.value = isSelected ? null : name)}>
+      <button class="name" aria-pressed={isSelected} onClick={() => clicked(name)}>
         {name}
       </button>
       <button

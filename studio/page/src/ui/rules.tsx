@@ -25,6 +25,13 @@ export function asked(): RulesAsk {
 }
 const set = (rules: RuleAsk[]): void => store.ask({ rules: { ...asked(), rules } });
 
+/** A region was clicked: it belongs to the rule that is being made, or is selected. */
+export function clicked(name: string | null): void {
+  const rule = ruling.value;
+  if (rule === null) store.level.value = name === store.level.value ? null : name;
+  else if (name !== null && !rule.regions.includes(name)) ruling.value = { ...rule, regions: [...rule.regions, name] };
+}
+
 export function addRule(): void {
   const rule = ruling.value;
   if (rule === null) return;
