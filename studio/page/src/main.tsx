@@ -35,8 +35,8 @@ function App() {
       <Bar onFit={() => stage.fit()} />
       <Setup />
       <Canvas />
-      <Inspector />
       <Gallery />
+      <Inspector />
     </div>
   );
 }
