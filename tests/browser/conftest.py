@@ -53,7 +53,8 @@ def open_page(browser, request):
 
     def opened(served: Served, token: str | None = None, **settings):
         # Playwright's own waiting needs eval; the header is tested by itself.
-        context = browser.new_context(bypass_csp=True, viewport={"width": 1440, "height": 900}, **settings)
+        shown = {"viewport": {"width": 1440, "height": 900}, **settings}
+        context = browser.new_context(bypass_csp=True, **shown)
         contexts.append(context)
         page = context.new_page()
         page.errors = []

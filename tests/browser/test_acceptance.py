@@ -6,8 +6,10 @@ import json
 import subprocess
 import sys
 import time
+from functools import partial
 from xml.etree import ElementTree
 
+import pytest
 import trimesh
 from niwaki import _engine
 from niwaki.shell import run_files
@@ -15,6 +17,12 @@ from studio_page import at_rest, camera, choose, click_part, grow, timed, until,
 
 #: The fields of the view that undo takes back.
 DOCUMENT = ("model", "arguments", "ask", "settings", "results", "picked", "pins", "stars")
+
+
+@pytest.fixture
+def open_page(open_page):
+    """Windows that are small: nothing is looked at here, and a software renderer draws them sooner."""
+    return partial(open_page, viewport={"width": 1080, "height": 640})
 
 
 def document(page):
