@@ -121,6 +121,7 @@ def choose(page, reference, count=3, seed=1):
     """Choose a model, how many results and the seed."""
     page.select_option("select[aria-label=Model]", reference)
     until(page, f"window.__studio.view.model.reference == {json.dumps(reference)}")
+    until(page, "window.__studio.isGhostShown")
     slider = page.get_by_role("slider", name="results")
     slider.fill(str(count))
     page.locator("input[placeholder='another each time']").fill(str(seed))

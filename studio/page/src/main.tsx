@@ -121,6 +121,9 @@ Object.assign(window, {
     get bests() {
       return shown.bests;
     },
+    get isGhostShown() {
+      return stage.things.source("target") === (store.target.value?.source ?? null);
+    },
     get ghost() {
       return stage.things.triangles("target");
     },
