@@ -15,6 +15,7 @@
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
+#   make studio-pictures  the same, and its screenshots and times go into docs/pictures
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
 #   make fuzz     the fuzzers, each for MINUTES (10) by JOBS processes (1; ONLY="core_text sources": those); needs cargo-fuzz
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
@@ -51,7 +52,7 @@ PARTS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -89,6 +90,9 @@ test-studio: $(STAMPS)/engine $(STAMPS)/test
 	@if command -v chromium >/dev/null; then \
 	  $(MAKE) --no-print-directory $(STAMPS)/browser && NIWAKI_BROWSER=$$(command -v chromium) $(PY) -m pytest tests/browser; \
 	else echo "no chromium found: the studio's page is not tested in a browser (apt-get install chromium)"; fi
+
+studio-pictures:
+	NIWAKI_PICTURES=docs/pictures $(MAKE) --no-print-directory test-studio
 
 lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --all --check

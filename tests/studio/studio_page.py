@@ -7,6 +7,7 @@ twice its limit.
 from __future__ import annotations
 
 import json
+import os
 import time
 from pathlib import Path
 
@@ -14,6 +15,17 @@ import numpy as np
 
 #: Where pictures and times go.
 OUT = Path("out/studio")
+
+#: Screenshots of the manual: written where `NIWAKI_PICTURES` names its folder of pictures.
+KEPT = {
+    "fill": "studio.png",
+    "shape": "studio-part.png",
+    "objects": "studio-objects.png",
+    "difference": "studio-difference.png",
+    "compare": "studio-compare.png",
+    "shadow": "studio-shadow.png",
+    "dark": "studio-dark.png",
+}
 
 #: Seconds, from facts that were measured on people: 0.1 feels direct, 1 keeps the thought.
 LIMITS = {
@@ -33,6 +45,43 @@ LIMITS = {
     "export": 2.0,
 }
 times: dict[str, float] = {}
+
+#: The journeys, and the steps of each that are timed: what a person does, and what is then seen.
+JOURNEYS = {
+    "fill": {
+        "model": "choose a model: its name and its target",
+        "first shape": "Grow: the first shape",
+        "gallery": "the gallery, from the first shape on",
+        "difference": "X: where it differs from the target",
+    },
+    "draw": {"stroke": "let go of the pen: the silhouette is asked for"},
+    "shape by hand": {
+        "part": "click a part: its name, its choices",
+        "part, large": "the same beside a target of 1.3 million triangles",
+        "pin": "pin it",
+        "re-roll": "grow it again",
+        "undo": "undo",
+    },
+    "write": {
+        "error": "save a file with an error: the message with its line",
+        "mended": "save it mended: the message goes",
+    },
+    "finish": {"compare": "starred results side by side", "export": "export a GLB"},
+}
+
+
+def as_table() -> str:
+    """The times of the steps as a table of Markdown, with the load of the machine."""
+    load = os.getloadavg()[1]
+    lines = ["| journey | step | seconds | limit |", "| --- | --- | --- | --- |"]
+    for journey, steps in JOURNEYS.items():
+        lines += [
+            f"| {journey} | {step} | {times[name]:.2f} | {LIMITS[name]:.1f} |"
+            for name, step in steps.items()
+            if name in times
+        ]
+    lines.append(f"\nSoftware renderer, {os.cpu_count()} cores, load {load:.1f} (5 minutes).")
+    return "\n".join(lines) + "\n"
 
 
 class timed:
@@ -61,12 +110,18 @@ def picture(page, name):
     OUT.mkdir(parents=True, exist_ok=True)
     page.wait_for_timeout(500)
     page.screenshot(path=OUT / f"{name}.png")
+    kept = os.environ.get("NIWAKI_PICTURES")
+    if kept is not None and name in KEPT:
+        data = (OUT / f"{name}.png").read_bytes()
+        assert len(data) < 300_000
+        (Path(kept) / KEPT[name]).write_bytes(data)
 
 
 def choose(page, reference, count=3, seed=1):
     """Choose a model, how many results and the seed."""
     page.select_option("select[aria-label=Model]", reference)
     until(page, f"window.__studio.view.model.reference == {json.dumps(reference)}")
+    until(page, "window.__studio.isGhostShown")
     slider = page.get_by_role("slider", name="results")
     slider.fill(str(count))
     page.locator("input[placeholder='another each time']").fill(str(seed))

@@ -41,8 +41,8 @@ function App() {
       <Setup />
       <Canvas />
       {isColoring && <Easel />}
-      {isColoring ? <Palette /> : <Inspector />}
       <Gallery />
+      {isColoring ? <Palette /> : <Inspector />}
     </div>
   );
 }
@@ -127,6 +127,9 @@ Object.assign(window, {
     },
     get bests() {
       return shown.bests;
+    },
+    get isGhostShown() {
+      return stage.things.source("target") === (store.target.value?.source ?? null);
     },
     get ghost() {
       return stage.things.triangles("target");

@@ -1,14 +1,17 @@
-"""What comes slowly ends, and does not wait for ever."""
+"""What comes slowly or takes too much ends, and does not wait for ever."""
 
 from __future__ import annotations
 
 import asyncio
 import json
+import subprocess
+import sys
 
 import pytest
 
 pytest.importorskip("starlette")
 
+import trimesh
 from niwaki.studio import server
 from niwaki.studio.session import Session
 
@@ -46,3 +49,21 @@ def test_a_body_that_comes_slowly_is_refused(tmp_path, monkeypatch):
     asyncio.run(asked())
     assert said[0]["status"] == 408
     assert json.loads(said[1]["body"])["code"] == "too-slow"
+
+
+def test_a_mesh_that_takes_more_memory_than_its_process_may_have_is_refused(tmp_path):
+    place = tmp_path / "ball.stl"
+    place.write_bytes(trimesh.creation.icosphere(7).export(file_type="stl"))
+    # A little more than what is taken before the mesh is read: 320 thousand triangles do not fit.
+    program = """
+import sys
+from pathlib import Path
+from niwaki.studio.worker import uploads
+pages = int(Path("/proc/self/statm").read_text().split()[0])
+uploads.MEMORY = 4096 * pages + (24 << 20)
+uploads.main(*sys.argv[1:])
+"""
+    command = [sys.executable, "-c", program, str(place), str(tmp_path / "out.stl")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode != 0 or json.loads(done.stdout.splitlines()[-1])["code"] == "mesh-too-large"
+    assert not (tmp_path / "out.stl").exists()

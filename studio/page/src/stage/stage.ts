@@ -402,6 +402,12 @@ export class Stage {
     return at == null ? null : this.pixel(at);
   }
 
+  /** Whether nothing of the page lies over a point. */
+  private isFree(x: number, y: number): boolean {
+    const { left, top } = this.canvas.getBoundingClientRect();
+    return document.elementFromPoint(left + x, top + y) === this.canvas;
+  }
+
   private pixel(at: Vector3): [number, number] {
     return [((at.x + 1) / 2) * this.canvas.clientWidth, ((1 - at.y) / 2) * this.canvas.clientHeight];
   }
@@ -443,7 +449,7 @@ export class Stage {
       for (let c = 0; c < 3; c++) point.add(new Vector3().fromBufferAttribute(at, corners[3 * k + c]));
       point.divideScalar(3).project(this.camera);
       const [x, y] = this.pixel(point);
-      if (this.partAt(x, y) === address) return [x, y];
+      if (this.isFree(x, y) && this.partAt(x, y) === address) return [x, y];
     }
     return null;
   }

@@ -103,6 +103,11 @@ export class Things {
     return [...this.objects.keys()];
   }
 
+  /** Where a solid that is shown comes from. */
+  source(name: string): string | null {
+    return this.solids.get(name)?.asked.source ?? null;
+  }
+
   triangles(name: string): number {
     return ((this.objects.get(name)?.children[0] as Mesh | undefined)?.geometry.index?.count ?? 0) / 3;
   }

@@ -4,6 +4,7 @@ import { useRef, useState } from "preact/hooks";
 import { kindOf, MODES, type Mode, numberOf } from "../stage/things";
 import * as store from "../store";
 import { stage } from "./canvas";
+import { Field } from "./fields";
 import { Icon } from "./icons";
 
 export const title = (name: string): string => {
@@ -95,12 +96,12 @@ export function Objects() {
       )}
       {ask.floor != null && (
         <Row name="floor" icon="floor" onRemove={() => store.ask({ floor: null })}>
-          <input
+          <Field
             type="number"
             step="any"
             aria-label="Height of the floor"
             value={ask.floor}
-            onChange={(event) => event.currentTarget.value !== "" && store.ask({ floor: Number(event.currentTarget.value) })}
+            onEnd={(text) => text !== "" && store.ask({ floor: Number(text) })}
           />
         </Row>
       )}

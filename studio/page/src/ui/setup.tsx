@@ -3,6 +3,7 @@
 import type { ModelInfo, Parameter, Settings } from "../messages";
 import * as store from "../store";
 import { Drop } from "./drop";
+import { Field } from "./fields";
 import { Icon } from "./icons";
 import { Handles, Objects, title } from "./objects";
 
@@ -73,19 +74,14 @@ function Argument({ parameter }: { parameter: Parameter }) {
     return (
       <label class="row">
         <span>{parameter.name}</span>
-        <input type="text" value={value} onChange={(event) => set(event.currentTarget.value)} />
+        <Field type="text" value={value} onEnd={set} />
       </label>
     );
   }
   return (
     <label class="row">
       <span>{parameter.name}</span>
-      <input
-        type="number"
-        step={isWhole ? 1 : "any"}
-        value={value}
-        onChange={(event) => event.currentTarget.value !== "" && set(Number(event.currentTarget.value))}
-      />
+      <Field type="number" step={isWhole ? 1 : "any"} value={value} onEnd={(text) => text !== "" && set(Number(text))} />
     </label>
   );
 }
@@ -161,20 +157,20 @@ function Search({ settings }: { settings: Settings }) {
       <h2>Search</h2>
       <label class="row">
         <span>results</span>
-        <input
+        <Field
           type="range"
           min={1}
           max={16}
           value={settings.count}
           aria-valuetext={`${settings.count} results`}
-          onChange={(event) => set({ count: Number(event.currentTarget.value) })}
+          onEnd={(text) => set({ count: Number(text) })}
         />
         <output>{settings.count}</output>
       </label>
       {isScene && (
         <label class="row" title="Which of the results that were found: the best, or those that look most different">
           <span>different</span>
-          <input
+          <Field
             type="range"
             min={0}
             max={1}
@@ -182,35 +178,32 @@ function Search({ settings }: { settings: Settings }) {
             value={settings.strength}
             aria-label="how different"
             aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
-            onChange={(event) => set({ strength: Number(event.currentTarget.value) })}
+            onEnd={(text) => set({ strength: Number(text) })}
           />
           <output>{STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}</output>
         </label>
       )}
       <label class="row">
         <span>effort</span>
-        <input
+        <Field
           type="range"
           min={-2}
           max={3}
           step={1}
           value={Math.log2(settings.effort ?? 1)}
           aria-valuetext={`${settings.effort} times`}
-          onChange={(event) => set({ effort: 2 ** Number(event.currentTarget.value) })}
+          onEnd={(text) => set({ effort: 2 ** Number(text) })}
         />
         <output>{settings.effort}×</output>
       </label>
       <label class="row">
         <span>seed</span>
-        <input
+        <Field
           type="number"
           min={0}
           placeholder="another each time"
           value={settings.seed ?? ""}
-          onChange={(event) => {
-            const text = event.currentTarget.value;
-            set({ seed: text === "" ? null : Number(text) });
-          }}
+          onEnd={(text) => set({ seed: text === "" ? null : Number(text) })}
         />
       </label>
       {running === null ? (
