@@ -25,6 +25,8 @@ KEPT = {
     "compare": "studio-compare.png",
     "shadow": "studio-shadow.png",
     "dark": "studio-dark.png",
+    "rules": "studio-coloring.png",
+    "falls": "studio-structure.png",
 }
 
 #: Seconds, from facts that were measured on people: 0.1 feels direct, 1 keeps the thought.

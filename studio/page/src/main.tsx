@@ -3,7 +3,7 @@
 import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import "./style.css";
-import { easel, placeOf } from "./pictures";
+import { easel, placeOf, plan } from "./pictures";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
 import { Canvas, shown, stage } from "./ui/canvas";
@@ -129,6 +129,7 @@ Object.assign(window, {
       return shown.bests;
     },
     get isGhostShown() {
+      if (store.kind.value === "coloring") return plan.value !== null;
       return stage.things.source("target") === (store.target.value?.source ?? null);
     },
     get ghost() {
