@@ -173,7 +173,7 @@ class Dragging:
         self.across = _across(along)
         self.values = {choice.path: choice.value for choice in trace.choices}
         self._grips = self._gripped(part, grab)
-        self.grip = self._grip(grab if grab is not None else to)
+        self.grip = self._grip(None if grab is None else _point("grab", grab), None if to is None else _point("to", to))
         self._warm: dict[int, float] = {}
 
     # ---- what is held, and what may move
@@ -202,25 +202,22 @@ class Dragging:
                 found.append((n, k, middle, shape))
         return found
 
-    def _grip(self, near: Point | None) -> Grip:
-        """The point that is held: `near` itself where it is on the part, else the middle of the nearest shape."""
-        goal = None if near is None else _point("grab", near)
-        places = self._grips
+    def _grip(self, grab: Vector | None, to: Vector | None) -> Grip:
+        """The point that is held: `grab`, fixed to the shape that it is nearest to; without it the middle of the shape
+        that is nearest to where it should go."""
+        goal = to if grab is None else grab
 
         def distance(one: tuple[int, int, Vector, Any]) -> float:
             low, high = (np.array(corner) for corner in one[3].aabb())
             return 0.0 if goal is None else float(np.linalg.norm(np.clip(goal, low, high) - goal))
 
-        n, k, frame, shape = min(places, key=distance)
-        low, high = (np.array(corner) for corner in shape.aabb())
-        slack = 0.05 * self.size
-        address = self.start.trace.parts[n][0]
-        self._at = n
-        if goal is None or not np.all((goal >= low - slack) & (goal <= high + slack)):
-            return Grip(address, k, (0.0, 0.0, 0.0), np.zeros(3))
-        shares = np.linalg.lstsq(frame[1:].T, goal - frame[0], rcond=1e-9)[0]
-        offset = goal - frame[0] - shares @ frame[1:]
-        return Grip(address, k, tuple(float(s) for s in shares), offset)
+        self._at, shape, frame, _ = min(self._grips, key=distance)
+        address = self.start.trace.parts[self._at][0]
+        if grab is None:
+            return Grip(address, shape, (0.0, 0.0, 0.0), np.zeros(3))
+        shares = np.linalg.lstsq(frame[1:].T, grab - frame[0], rcond=1e-9)[0]
+        offset = grab - frame[0] - shares @ frame[1:]
+        return Grip(address, shape, tuple(float(s) for s in shares), offset)
 
     def _movable(self, state: State) -> set[int]:
         """Choices that may move: all that are not held, in calls that the part can depend on."""
@@ -528,7 +525,9 @@ def _movers(place: Place, size: float) -> set[str]:
 
 def _bounds(ranges: Vector) -> tuple[Vector, Vector]:
     """The ends between which values stay, within those of their ranges."""
-    width = np.where(np.isfinite(ranges[:, 1] + ranges[:, 2]), ranges[:, 2] - ranges[:, 1], ranges[:, 3])
+    is_between = np.isfinite(ranges[:, 1]) & np.isfinite(ranges[:, 2])
+    width = ranges[:, 3].copy()
+    width[is_between] = ranges[is_between, 2] - ranges[is_between, 1]
     low, high = ranges[:, 1] + MARGIN * width, ranges[:, 2] - MARGIN * width
     # A value that is nearer to an end may stay there.
     return np.minimum(low, ranges[:, 0]), np.maximum(high, ranges[:, 0])
