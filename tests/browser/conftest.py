@@ -6,10 +6,12 @@ import os
 import shutil
 from collections.abc import Iterator
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
-from studio_process import PILE, Served, serving
+from studio_fixtures import pile, served
+from studio_process import Served
+
+__all__ = ["browser", "open_page", "pile", "served"]
 
 BROWSER = os.environ.get("NIWAKI_BROWSER") or shutil.which("chromium")
 # `make test-studio` installs Playwright, and says so where there is no browser.
@@ -26,19 +28,6 @@ def browser() -> Iterator[object]:
         found = driver.chromium.launch(executable_path=BROWSER, chromium_sandbox=False, args=flags)
         yield found
         found.close()
-
-
-@pytest.fixture(scope="session")
-def pile(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    place = tmp_path_factory.mktemp("models") / "pile.py"
-    place.write_text(PILE)
-    return place
-
-
-@pytest.fixture(scope="session")
-def served(tmp_path_factory: pytest.TempPathFactory, pile: Path) -> Iterator[Served]:
-    with serving(tmp_path_factory.mktemp("session"), pile) as one:
-        yield one
 
 
 @pytest.fixture

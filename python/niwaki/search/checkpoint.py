@@ -20,6 +20,7 @@ from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.errors.settings import bad, is_number
+from niwaki.inputs import bytes_of
 
 #: The version of the format, and of what the parts hold.
 FORMAT = 1
@@ -108,18 +109,14 @@ class Stored:
         ------
         InputError
             It is no checkpoint, one of another version, or damaged.
+        FileError
+            The file cannot be read, or is too large (`inputs.limits`).
         """
 
         def refused(reason: str) -> InputError:
             return InputError("bad-checkpoint", detail=f"`{path}`: {reason}")
 
-        if not path.is_file():
-            raise refused("it is no file")
-        try:
-            data = path.read_bytes()
-        except OSError as error:
-            raise refused(error.strerror or str(error)) from error
-        first, _, rest = data.partition(b"\n")
+        first, _, rest = bytes_of(path, "checkpoint").partition(b"\n")
         words = first.decode("ascii", "replace").rsplit(" ", 2)
         if len(words) != 3 or words[0] != MAGIC:
             raise refused("it is no checkpoint")

@@ -28,7 +28,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from niwaki.studio.messages import AnyCommand, Failed, Problem
 from niwaki.studio.security import Guard
-from niwaki.studio.session import Session
+from niwaki.studio.session import Session, obey
 from niwaki.studio.window import Window
 
 #: The page's files: no other path is read.
@@ -112,7 +112,7 @@ def _socket(session: Session) -> Any:
                 except (msgspec.MsgspecError, UnicodeError) as error:
                     window.tell(Failed(_id_of(text), Problem("bad-message", f"{error}")))
                     continue
-                await session.obey(window, command)
+                await obey(session, window, command)
         except (WebSocketDisconnect, KeyError, RuntimeError):
             # A binary message, or the end.
             pass

@@ -19,7 +19,7 @@ from watchfiles import awatch
 from niwaki.errors import InputError
 from niwaki.studio.security import Guard
 from niwaki.studio.server import COMMAND, application
-from niwaki.studio.session import Session
+from niwaki.studio.session import Session, begin, reload
 
 #: Connections at one time, and seconds in which each has to ask something.
 CONNECTIONS, FIRST_WORD = 256, 15.0
@@ -125,7 +125,7 @@ async def _serve(models: list[str], folder: Path, port: int, browser: bool) -> N
     key.touch(0o600)
     key.write_text(f"http://127.0.0.1:{port} {guard.key}\n")
     watching = asyncio.create_task(_watch(session, models))
-    beginning = asyncio.create_task(session.begin())
+    beginning = asyncio.create_task(begin(session))
     telling = asyncio.create_task(_tell(guard, port, browser))
     try:
         await server.serve(sockets=[door])
@@ -161,4 +161,4 @@ async def _watch(session: Session, models: list[str]) -> None:
     async for changes in awatch(*{path.parent for path in paths}, debounce=100, step=20, recursive=False):
         changed = {Path(place) for _, place in changes} & paths
         if changed:
-            await session.reload(changed)
+            await reload(session, changed)

@@ -10,13 +10,13 @@ from msgspec import inspect as look
 
 from niwaki.studio import messages
 
-HEADER = "// Written from python/niwaki/studio/messages.py by `make studio-page`; change it there.\n"
+HEADER = "// Written from python/niwaki/studio/messages by `make studio-page`; change it there.\n"
 
 
 def typescript() -> str:
     """Every message as an interface, and the unions of commands and of events."""
     commands = get_args(messages.AnyCommand)
-    events = [one for one in vars(messages).values() if _is_event(one)]
+    events = [one for one in vars(messages.events).values() if _is_event(one)]
     known: dict[str, look.StructType] = {}
     for kind in (*commands, *events, messages.View):
         _collect(look.type_info(kind), known)

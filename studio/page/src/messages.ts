@@ -1,4 +1,4 @@
-// Written from python/niwaki/studio/messages.py by `make studio-page`; change it there.
+// Written from python/niwaki/studio/messages by `make studio-page`; change it there.
 
 export const PROTOCOL = 1;
 

@@ -1,0 +1,138 @@
+"""What a client asks: a command for each thing that the page does."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from msgspec import Meta, Struct, field
+
+from niwaki.studio.messages.document import Address, Addresses, Ask, Count, Key, Settings, Text
+
+
+class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
+    """What a client asks."""
+
+    id: int = 0
+
+
+class Hello(Command, tag="hello"):
+    """The first message: the whole state is the answer."""
+
+    protocol: int
+
+
+class ChooseModel(Command, tag="model"):
+    """Take a model: a name of the gallery, or a reference that was named at the start."""
+
+    reference: Text
+
+
+class SetAsk(Command, tag="ask"):
+    """Say what the scene should be like."""
+
+    ask: Ask
+
+
+class Set(Command, tag="set"):
+    """Set arguments by name, or settings; what is left out stays."""
+
+    arguments: Annotated[dict[str, Any], Meta(max_length=200)] | None = None
+    settings: Settings | None = None
+
+
+class Run(Command, tag="run"):
+    """Search; pinned parts are held. A search that runs is stopped first, and nothing of it is kept."""
+
+
+class Stop(Command, tag="stop"):
+    """Stop the search; what it has found becomes results."""
+
+
+class PinParts(Command, tag="pin"):
+    """Hold parts of the picked result in what follows."""
+
+    parts: Addresses
+
+
+class FreeParts(Command, tag="free"):
+    """Hold them no more; all, where none is named."""
+
+    parts: Addresses = field(default_factory=list)
+
+
+class Reroll(Command, tag="reroll"):
+    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another."""
+
+    part: Address
+    count: Count = 1
+
+
+class Choose(Command, tag="choose"):
+    """Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result."""
+
+    address: Address
+    value: float | int | bool
+    phase: Literal["move", "end"] = "end"
+
+
+class Describe(Command, tag="describe"):
+    """Ask for the choices of a result, with places in the source."""
+
+    key: Key
+
+
+class Show(Command, tag="show"):
+    """Ask for the shape of a result."""
+
+    key: Key
+    detail: Literal["light", "fine"] = "light"
+
+
+class Pick(Command, tag="pick"):
+    """Go on with this result."""
+
+    key: Key
+
+
+class Star(Command, tag="star"):
+    """Mark a result, or take the mark away."""
+
+    key: Key
+    on: bool = True
+
+
+class Undo(Command, tag="undo"):
+    """Take the last step back."""
+
+
+class Redo(Command, tag="redo"):
+    """Take the step again that was taken back."""
+
+
+class Export(Command, tag="export"):
+    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats."""
+
+    key: Key
+    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json"]
+    scale: Annotated[float, Meta(gt=0.0, le=1e9)] | None = None
+
+
+AnyCommand = (
+    Hello
+    | ChooseModel
+    | SetAsk
+    | Set
+    | Run
+    | Stop
+    | PinParts
+    | FreeParts
+    | Reroll
+    | Choose
+    | Describe
+    | Show
+    | Pick
+    | Star
+    | Undo
+    | Redo
+    | Export
+)

@@ -1,0 +1,170 @@
+"""What clients are told."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from msgspec import Struct
+
+from niwaki.studio.messages.document import Ask, Key, Outcome, Pin, Point, Settings
+
+
+class Place(Struct):
+    """A place in a model's file, counted from 1; the end is excluded."""
+
+    path: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+class Problem(Struct):
+    """An error as the shell prints it."""
+
+    code: str
+    text: str
+    place: Place | None = None
+
+
+class Parameter(Struct):
+    """A parameter of a model; `default` only where it is a number, a text or a truth value."""
+
+    name: str
+    default: Any = None
+    is_required: bool = False
+
+
+class ModelInfo(Struct):
+    """A model that can be chosen."""
+
+    reference: str
+    title: str = ""
+    parameters: list[Parameter] = []
+    #: The target that it is usually grown into, as a `source`.
+    target: str | None = None
+    #: The style of its drawings; None for models in space.
+    draws: str | None = None
+    is_file: bool = False
+
+
+class ChoiceInfo(Struct):
+    """A choice of a result: its value, and the range of a slider where it has one."""
+
+    address: str
+    family: str
+    value: Any
+    low: float | None = None
+    high: float | None = None
+    is_whole: bool = False
+    place: Place | None = None
+
+
+class PartInfo(Struct):
+    """A primitive of a result, and the line that emits it."""
+
+    address: str
+    place: Place | None = None
+
+
+class Searching(Struct):
+    """The search that is running."""
+
+    run: int
+    done: int = 0
+    best: float | None = None
+    seconds: float = 0.0
+
+
+class View(Struct):
+    """All that every window shows; a patch has some of its fields."""
+
+    model: ModelInfo | None
+    arguments: dict[str, Any]
+    ask: Ask
+    settings: Settings
+    results: list[Outcome]
+    picked: Key | None
+    pins: list[Pin]
+    stars: list[Key]
+    models: list[ModelInfo]
+    targets: list[str]
+    problem: Problem | None
+    searching: Searching | None
+    #: A search that was running when the studio ended.
+    interrupted: bool
+    undo: int
+    redo: int
+
+
+class Event(Struct, tag_field="kind"):
+    """What a client is told."""
+
+    id: int = 0
+
+
+class State(Event, tag="state"):
+    """The whole state; `rev` counts the patches."""
+
+    session: str = ""
+    rev: int = 0
+    view: View | None = None
+
+
+class Patch(Event, tag="patch"):
+    """What has changed since the revision before."""
+
+    rev: int = 0
+    changes: dict[str, Any] = {}
+
+
+class Described(Event, tag="described"):
+    """The choices and parts of a result."""
+
+    key: Key | None = None
+    choices: list[ChoiceInfo] = []
+    parts: list[PartInfo] = []
+
+
+class Shape(Event, tag="shape"):
+    """The header of a frame with a mesh: see `niwaki.studio.worker.shapes`.
+
+    Attributes
+    ----------
+    what
+        "best" of a running search, a "result", a choice that is "moving", or the "ghost" of the target.
+    parts
+        Addresses; the mesh has the number of its part for each triangle.
+    """
+
+    what: Literal["best", "result", "moving", "ghost"] = "result"
+    key: Key | None = None
+    detail: Literal["light", "fine"] = "light"
+    vertices: int = 0
+    triangles: int = 0
+    parts: list[str] = []
+    low: Point = (0.0, 0.0, 0.0)
+    high: Point = (0.0, 0.0, 0.0)
+    #: Of a ghost: the point about which it is turned and scaled, where it stands.
+    pivot: Point = (0.0, 0.0, 0.0)
+    is_flat: bool = False
+    note: str = ""
+
+
+class Done(Event, tag="done"):
+    """A command has done its work."""
+
+    interrupted: bool = False
+
+
+class File(Event, tag="file"):
+    """A file to fetch from `/file/HASH`."""
+
+    hash: str = ""
+    name: str = ""
+
+
+class Failed(Event, tag="error"):
+    """A command was refused, or its work failed."""
+
+    problem: Problem | None = None

@@ -1,0 +1,142 @@
+"""What a worker is given. Its reports are events, how far a search is, and an answer last."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from msgspec import Struct
+
+from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
+from niwaki.studio.messages.events import Described, ModelInfo, Problem, Shape
+
+
+class Question(Struct):
+    """What is searched: a model with its arguments, what is asked, and held choices."""
+
+    model: str
+    arguments: dict[str, Any]
+    ask: Ask
+    settings: Settings
+    lock: Choices = {}
+
+
+class Job(Struct, kw_only=True, tag_field="kind"):
+    """Work for a worker process."""
+
+    id: int = 0
+
+
+class ListModels(Job, tag="models"):
+    """The models of the gallery and of these files."""
+
+    files: list[str]
+
+
+class Load(Job, tag="load"):
+    """Read a model, perhaps again."""
+
+    reference: str
+
+
+class Ghost(Job, tag="ghost"):
+    """The mesh of a target."""
+
+    question: Question
+
+
+class Grow(Job, tag="grow"):
+    """Search; results are written to `file`."""
+
+    question: Question
+    run: int
+    seed: int
+    file: str
+
+
+class Regrow(Job, tag="regrow"):
+    """Grow a part of one result again; results are written to `file`."""
+
+    question: Question
+    source: str
+    number: int
+    part: str
+    count: int
+    run: int
+    seed: int
+    file: str
+
+
+class Change(Job, tag="change"):
+    """Run a model again with the choices of a result, some of them changed; written to `file` where it is named."""
+
+    question: Question
+    source: str
+    number: int
+    changes: Choices
+    run: int
+    file: str = ""
+    origin: str = "choose"
+
+
+class Hold(Job, tag="hold"):
+    """The choices that hold these parts of a result."""
+
+    source: str
+    number: int
+    parts: list[str]
+
+
+class DescribeRun(Job, tag="describe"):
+    """The choices and parts of a result."""
+
+    question: Question
+    source: str
+    number: int
+    key: Key
+
+
+class ShowRun(Job, tag="show"):
+    """The shape of a result."""
+
+    source: str
+    number: int
+    key: Key
+    detail: Literal["light", "fine"]
+
+
+class WriteFile(Job, tag="write"):
+    """Write a result as a file into a folder."""
+
+    source: str
+    number: int
+    format: str
+    folder: str
+    scale: float | None = None
+
+
+AnyJob = ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | WriteFile
+
+
+class Answer(Struct, tag_field="kind", tag="answer"):
+    """The end of a job: what it found, or why it failed."""
+
+    id: int = 0
+    problem: Problem | None = None
+    outcomes: list[Outcome] = []
+    models: list[ModelInfo] = []
+    targets: list[str] = []
+    pins: list[Pin] = []
+    path: str = ""
+    interrupted: bool = False
+
+
+class Progressed(Struct, tag_field="kind", tag="progressed"):
+    """How far a search is."""
+
+    id: int = 0
+    done: int = 0
+    best: float | None = None
+    seconds: float = 0.0
+
+
+AnyReport = Answer | Progressed | Shape | Described

@@ -1,0 +1,81 @@
+"""Which function carries out which command.
+
+A function that returns nothing has done its work: the window's next command finds it done. A function that has to wait
+for a worker is `async`: it goes on beside other commands, and returns the worker's answer. A command that cannot be
+carried out is refused by raising `Refused`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from niwaki.studio import messages as m
+from niwaki.studio.session import (
+    exporting,
+    holding,
+    loading,
+    marking,
+    reshaping,
+    searching,
+    setting,
+    showing,
+)
+from niwaki.studio.session.state import Refused, Session
+from niwaki.studio.window import Window
+
+Work = Callable[[Session, Window, Any], Awaitable[m.Answer | None] | None]
+
+COMMANDS: dict[type[m.Command], Work] = {
+    m.ChooseModel: loading.choose_model,
+    m.SetAsk: setting.set_ask,
+    m.Set: setting.set_values,
+    m.Run: searching.run,
+    m.Stop: searching.stop,
+    m.PinParts: holding.pin,
+    m.FreeParts: holding.free,
+    m.Reroll: reshaping.reroll,
+    m.Choose: reshaping.choose,
+    m.Describe: showing.describe,
+    m.Show: showing.show,
+    m.Pick: marking.pick,
+    m.Star: marking.star,
+    m.Undo: marking.undo,
+    m.Redo: marking.redo,
+    m.Export: exporting.export,
+}
+
+
+async def obey(session: Session, window: Window, command: m.AnyCommand) -> None:
+    """Carry a command out; what it cannot do it says to the window that asked."""
+    await session.ready.wait()
+    try:
+        if isinstance(command, m.Hello):
+            if command.protocol != m.PROTOCOL:
+                raise Refused("protocol", f"this studio speaks protocol {m.PROTOCOL}")
+            session.welcome(window, command.id)
+            return
+        rest = COMMANDS[type(command)](session, window, command)
+    except Refused as refused:
+        window.tell(m.Failed(command.id, refused.problem))
+        return
+    if rest is None:
+        window.tell(m.Done(command.id))
+    else:
+        session.start(_finished(window, command.id, rest))
+
+
+async def _finished(window: Window, command: int, rest: Awaitable[m.Answer | None]) -> None:
+    """Tell the window how the rest of a command has ended."""
+    try:
+        answer = await rest or m.Answer()
+    except Refused as refused:
+        answer = m.Answer(problem=refused.problem)
+    except asyncio.CancelledError:
+        # Another search has taken the place of this one.
+        answer = m.Answer(interrupted=True)
+    if answer.problem is not None:
+        window.tell(m.Failed(command, answer.problem))
+    else:
+        window.tell(m.Done(command, answer.interrupted))

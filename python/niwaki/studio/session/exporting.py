@@ -1,0 +1,29 @@
+"""A result as a file, fetched by the hash of its bytes."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+from pathlib import Path
+
+from niwaki.studio import messages as m
+from niwaki.studio.session.state import Session
+from niwaki.studio.window import Window
+
+
+async def export(session: Session, window: Window, command: m.Export) -> m.Answer:
+    """Write a result as a file, or its recipe."""
+    source, files = session.source(command.key), session.journal.folder / "files"
+    folder = files / f"{command.key.run}-{command.key.number}"
+    answer = await session.desk.do(
+        m.WriteFile(**source, format=command.format, folder=str(folder), scale=command.scale)
+    )
+    if answer.problem is None:
+        data = await asyncio.to_thread(Path(answer.path).read_bytes)
+        name = hashlib.sha256(data).hexdigest()
+        place = files / name
+        if not place.is_dir():
+            place.mkdir()
+            (place / Path(answer.path).name).write_bytes(data)
+        window.tell(m.File(command.id, name, Path(answer.path).name))
+    return answer

@@ -1,0 +1,23 @@
+"""Pinned parts: the values that hold them are asked of a worker once, and go with each search."""
+
+from __future__ import annotations
+
+from niwaki.studio import messages as m
+from niwaki.studio.session.state import Session
+from niwaki.studio.window import Window
+
+
+async def pin(session: Session, window: Window, command: m.PinParts) -> m.Answer:
+    """Hold parts of the picked result in what follows."""
+    source = session.source(session.document.picked)
+    answer = await session.desk.do(m.Hold(**source, parts=command.parts))
+    if answer.problem is None:
+        left = [one for one in session.document.pins if one.part not in command.parts]
+        session.step("pin", {"pins": [*left, *answer.pins]})
+    return answer
+
+
+def free(session: Session, window: Window, command: m.FreeParts) -> None:
+    """Hold them no more; all, where none is named."""
+    left = [one for one in session.document.pins if command.parts and one.part not in command.parts]
+    session.step("free", {"pins": left})

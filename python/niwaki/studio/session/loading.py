@@ -1,0 +1,84 @@
+"""Models and targets: what can be chosen, and the present ones, read again where a file has changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from niwaki.studio import messages as m
+from niwaki.studio.frames import frame
+from niwaki.studio.session import reshaping
+from niwaki.studio.session.state import Refused, Session
+from niwaki.studio.window import Window
+
+
+async def begin(session: Session) -> None:
+    """Learn which models there are, and show the session's own."""
+    answer = await session.desk.do(m.ListModels(files=session.files))
+    session.models, session.targets, session.problem = answer.models, answer.targets, answer.problem
+    if answer.problem is not None and session.files:
+        # A file with an error does not hide the gallery.
+        rest = await session.desk.do(m.ListModels(files=[]))
+        broken = [m.ModelInfo(file, is_file=True) for file in session.files]
+        session.models, session.targets = [*broken, *rest.models], rest.targets
+    if session.document.model is None and session.models:
+        session.step("model", {"model": session.models[0].reference})
+    await load(session, keep=session.problem)
+    session.ready.set()
+    if session.document.model is not None:
+        # The first search finds its process started.
+        await session.searcher.do(m.Load(reference=session.document.model))
+
+
+def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
+    """Take another model; starred results stay."""
+    if command.reference not in {one.reference for one in session.models}:
+        text = f"`{command.reference}` is no model of the gallery, and was not named at the start"
+        raise Refused("unknown-model", text)
+    fresh = {"model": command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
+    session.step("model", {**fresh, "results": session.document.starred(), "picked": None})
+    session.start(load(session))
+
+
+async def load(session: Session, keep: m.Problem | None = None) -> None:
+    """Read the session's model, again where its file has changed."""
+    reference = session.document.model
+    if reference is None:
+        return
+    answer = await session.desk.do(m.Load(reference=reference))
+    session.problem = answer.problem or keep
+    if answer.models:
+        session.model = answer.models[0]
+        session.models = [session.model if one.reference == reference else one for one in session.models]
+    elif session.model is None or session.model.reference != reference:
+        session.model = next((one for one in session.models if one.reference == reference), None)
+    session.tell_all()
+    if answer.problem is None:
+        await load_ghost(session, None)
+
+
+async def load_ghost(session: Session, window: Window | None) -> None:
+    """Show the target, or that there is none."""
+
+    def report(header: Any, payload: bytes) -> None:
+        found.append(frame(msgspec.json.encode(header), payload))
+
+    found: list[bytes] = []
+    answer = await session.desk.do(m.Ghost(question=session.question()), report)
+    if answer.problem is not None and window is not None:
+        window.tell(m.Failed(0, answer.problem))
+    session.ghost = found[0] if found else frame(msgspec.json.encode(m.Shape(what="ghost")))
+    for one in session.windows:
+        one.put(session.ghost, "ghost")
+
+
+async def reload(session: Session, paths: set[Path]) -> None:
+    """Models whose files have changed: read again, and the picked result run again with its choices."""
+    reference = session.document.model
+    if reference is None or Path(reference.rpartition(":")[0] or reference) not in paths:
+        return
+    await load(session)
+    if session.problem is None and session.document.picked is not None:
+        await reshaping.reshape(session)

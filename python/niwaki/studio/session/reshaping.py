@@ -1,0 +1,64 @@
+"""Another form of the picked result: a part grown again, a choice with another value, the model as it is at present."""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+from niwaki.studio import messages as m
+from niwaki.studio.session.state import Session, of_model
+from niwaki.studio.window import Window
+
+
+async def reroll(session: Session, window: Window, command: m.Reroll) -> m.Answer:
+    """Grow a part again, in place."""
+    picked = session.document.picked
+    job = m.Regrow(
+        **session.source(picked),
+        **session.fresh_run(),
+        question=session.question(),
+        part=command.part,
+        count=command.count,
+        seed=secrets.randbits(53),
+    )
+    answer = await session.desk.do(job, session.reported)
+    if answer.outcomes:
+        session.placed("reroll", picked, of_model(answer.outcomes, job.question.model))
+    return answer
+
+
+def choose(session: Session, window: Window, command: m.Choose) -> Any:
+    """A slider: while it moves, the newest value is shown; at its end there is a result."""
+    session.wanted[command.phase] = command
+    return _chosen(session, command)
+
+
+async def _chosen(session: Session, command: m.Choose) -> m.Answer | None:
+    if session.wanted.get(command.phase) is not command:
+        return None
+    return await _changed(session, {command.address: command.value}, command.phase == "end", "choose")
+
+
+async def reshape(session: Session) -> None:
+    """Run the picked result with the present model and arguments."""
+    answer = await _changed(session, {}, True, "reload")
+    if answer is not None and answer.problem is not None:
+        session.problem = answer.problem
+        session.tell_all()
+
+
+async def _changed(session: Session, changes: dict[str, Any], is_end: bool, origin: str) -> m.Answer | None:
+    picked = session.document.picked
+    if picked is None or not session.journal.runs_file(picked.run).is_file():
+        return None
+    job = m.Change(
+        **session.source(picked),
+        **(session.fresh_run() if is_end else {"run": 0, "file": ""}),
+        question=session.question(),
+        changes=changes,
+        origin=origin,
+    )
+    answer = await session.desk.do(job, session.reported)
+    if answer.outcomes:
+        session.placed(origin, picked, of_model(answer.outcomes, job.question.model))
+    return answer

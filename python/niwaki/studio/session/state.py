@@ -1,0 +1,228 @@
+"""What a session has: its journal, its windows, its two workers; what windows see of it, and how a step is done."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import OrderedDict
+from collections.abc import Coroutine
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from niwaki.studio import messages as m
+from niwaki.studio.frames import frame
+from niwaki.studio.journal import Journal
+from niwaki.studio.process import Worker
+from niwaki.studio.window import Window, newest
+
+#: Bytes of shapes that are kept ready.
+SHAPES = 256 << 20
+
+
+class Refused(Exception):  # noqa: N818 - it is what happens to a command
+    """A command cannot be carried out; the window that asked is told why."""
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(text)
+        self.problem = m.Problem(code, text)
+
+
+class Session:
+    """One session and its open windows.
+
+    Parameters
+    ----------
+    folder
+        Where it is stored; a session that is there goes on.
+    files
+        References of models that may be chosen beside those of the gallery; each of a file that was named at the start.
+
+    Attributes
+    ----------
+    searcher, desk : Worker
+        The process that searches; the one that does what has to be quick.
+    ready : asyncio.Event
+        Set when commands can be carried out.
+    models, targets
+        What can be chosen.
+    model
+        The present one, as it was last read.
+    problem
+        The error of its file.
+    searching
+        How far the search is that runs.
+    search
+        Its task.
+    wanted
+        The newest value of a choice, by the phase of its slider.
+    """
+
+    def __init__(self, folder: Path, files: list[str]) -> None:
+        self.journal = Journal(folder)
+        self.document = self.journal.document()
+        self.windows: set[Window] = set()
+        self.files = files
+        self.searcher, self.desk = Worker(), Worker()
+        self.ready = asyncio.Event()
+        self.models: list[m.ModelInfo] = []
+        self.targets: list[str] = []
+        self.model: m.ModelInfo | None = None
+        self.problem: m.Problem | None = None
+        self.searching: m.Searching | None = None
+        self.search: asyncio.Task[m.Answer] | None = None
+        self.is_interrupted = self.journal.running is not None
+        self.wanted: dict[str, m.Choose] = {}
+        self.ghost: bytes | None = None
+        self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
+        self._told: dict[str, Any] = {}
+        self._rev = 0
+        self._tasks: set[asyncio.Task[Any]] = set()
+
+    async def end(self) -> None:
+        """End the workers."""
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(self.searcher.kill(), self.desk.kill())
+        self.journal.close()
+
+    def start(self, work: Coroutine[Any, Any, m.Answer | None]) -> asyncio.Task[Any]:
+        """Do work beside what else is done."""
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return task
+
+    # ---- what windows see
+
+    def view(self) -> m.View:
+        """All that every window shows."""
+        document = self.document
+        return m.View(
+            model=self.model,
+            arguments=document.arguments,
+            ask=document.ask,
+            settings=document.settings,
+            results=[one for one in document.results if one.model == document.model],
+            picked=document.picked,
+            pins=document.pins,
+            stars=document.stars,
+            models=self.models,
+            targets=self.targets,
+            problem=self.problem,
+            searching=self.searching,
+            interrupted=self.is_interrupted,
+            undo=self.journal.undoable,
+            redo=self.journal.redoable,
+        )
+
+    def welcome(self, window: Window, command: int) -> None:
+        """Give a window the whole state."""
+        self.windows.add(window)
+        window.tell(m.State(command, session=self.journal.name, rev=self._rev, view=self.view()))
+        if self.ghost is not None:
+            window.put(self.ghost)
+
+    def tell_all(self) -> None:
+        """Send what has changed since the last time."""
+        now = msgspec.to_builtins(self.view())
+        changes = {name: value for name, value in now.items() if self._told.get(name, ...) != value}
+        if changes:
+            self._told = now
+            self._rev += 1
+            for window in self.windows:
+                window.tell(m.Patch(rev=self._rev, changes=changes))
+
+    def reported(self, report: Any, payload: bytes) -> None:
+        """Pass on what a worker says while it works."""
+        if isinstance(report, m.Progressed) and self.searching is not None:
+            run = self.searching.run
+            self.searching = m.Searching(run, report.done, report.best, report.seconds)
+            event = m.Patch(rev=self._rev, changes={"searching": msgspec.to_builtins(self.searching)})
+            for window in self.windows:
+                window.put(msgspec.json.encode(event).decode(), "searching")
+        elif isinstance(report, m.Shape):
+            report.id = 0
+            data = frame(msgspec.json.encode(report), payload)
+            if report.what == "result" and report.key is not None:
+                self.keep(report.key, report.detail, data)
+            for window in self.windows:
+                window.put(data, newest(report))
+
+    # ---- steps
+
+    def step(self, name: str, changes: dict[str, Any]) -> None:
+        """Do a step, on the disk first."""
+        self.journal.step(name, msgspec.to_builtins(changes))
+        self.turned()
+
+    def turned(self) -> None:
+        """Show the document at the journal's head."""
+        self.document = self.journal.document()
+        self.tell_all()
+
+    def placed(self, name: str, old: m.Key | None, found: list[m.Outcome]) -> None:
+        """Put one outcome in the place of the result that it came from, or several behind it."""
+        results: list[m.Outcome] = []
+        if old not in {one.key for one in self.document.results}:
+            # It was taken back meanwhile.
+            results += found
+        for one in self.document.results:
+            if one.key != old:
+                results.append(one)
+                continue
+            if len(found) > 1 or one.key in self.document.stars:
+                results.append(one)
+            results += found
+        self.step(name, {"results": results, "picked": found[0].key})
+
+    # ---- results
+
+    def source(self, key: m.Key | None) -> dict[str, Any]:
+        """Where a worker finds a result; refused where there is none."""
+        if key is None or not self.journal.runs_file(key.run).is_file():
+            raise Refused("no-result", "there is no such result; run a search first")
+        return {"source": str(self.journal.runs_file(key.run)), "number": key.number}
+
+    def fresh_run(self) -> dict[str, Any]:
+        """The number and the file of a run that a command makes at once."""
+        number = self.journal.run()
+        self.journal.ended()
+        return {"run": number, "file": str(self.journal.runs_file(number))}
+
+    def keep(self, key: m.Key, detail: str, data: bytes) -> None:
+        """Keep the shape of a result ready."""
+        self._shapes[key, detail] = data
+        while sum(map(len, self._shapes.values())) > SHAPES:
+            self._shapes.popitem(last=False)
+
+    def shape(self, key: m.Key, detail: str) -> bytes | None:
+        """The shape of a result, where it is ready."""
+        return self._shapes.get((key, detail))
+
+    # ---- what is asked
+
+    def question(self) -> m.Question:
+        """What a search is to find, as a worker reads it."""
+        document = self.document
+        ask = document.ask
+        if ask.target is not None:
+            source = self.file_of(ask.target.source) or ask.target.source
+            ask = msgspec.structs.replace(ask, target=msgspec.structs.replace(ask.target, source=source))
+        lock: dict[str, Any] = {}
+        for pin in document.pins:
+            lock |= pin.choices
+        return m.Question(document.model or "", document.arguments, ask, document.settings, lock)
+
+    def file_of(self, source: str) -> str | None:
+        """What a worker reads for a target's source; None where there is no such target."""
+        if source.startswith("upload:"):
+            place = self.journal.folder / "uploads" / f"{source.removeprefix('upload:')}.stl"
+            is_hash = len(source) == 71 and all(c in "0123456789abcdef" for c in source[7:])
+            return str(place.resolve()) if is_hash and place.is_file() else None
+        return source if source in {*self.targets, "box", "ball", "column"} else None
+
+
+def of_model(outcomes: list[m.Outcome], model: str) -> list[m.Outcome]:
+    """Results with the reference of their model."""
+    return [msgspec.structs.replace(one, model=model) for one in outcomes]
