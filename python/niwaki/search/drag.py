@@ -42,6 +42,8 @@ DONE = 1e-4
 STEPS, REACH = 24, 1.5
 #: Descents that have come no nearer by this share in so many steps end.
 STALLED, PATIENCE = 0.02, 4
+#: So often a descent may enter another branch of the model.
+BRANCHES = 3
 #: Answers are the same if their choices differ by less than this, in deviations of the priors.
 SAME = 0.05
 #: Values of discrete choices that are tried, and those of them from which a descent begins.
@@ -193,6 +195,8 @@ class Dragging:
         free = {choice.address for choice in trace.choices}
         # A part that is held is placed as well: then nothing moves it, and the reason says so.
         self._all = self.start.placer.positions({}, free)
+        spreads = np.maximum(self._all.ranges()[:, 3], 1e-12).tolist()
+        self._spreads = {one[1]: spread for one, spread in zip(self._all.movables, spreads, strict=True)}
         found: list[tuple[int, int, Vector, Any]] = []
         for n in sorted(wanted):
             for k, shape in enumerate(trace.parts[n][1]):
@@ -253,10 +257,13 @@ class Dragging:
             there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
         # Impossible runs are no answers, but they say what forbids the place.
         answered: list[Dragged] = []
+        looked_at: list[dict[str, Any]] = []
         forbidden = ""
         for kind, state in sorted(there, key=lambda one: self._change(one[1])):
-            if len(answered) >= answers or any(self._is_same(state, other.sample) for other in answered):
+            after = _choices(state)
+            if len(answered) >= answers or any(self._is_same(after, other) for other in looked_at):
                 continue
+            looked_at.append(after)
             one = self._scored(kind, state)
             if one.sample.cause is None or self.sample.cause is not None:
                 answered.append(one)
@@ -305,9 +312,17 @@ class Dragging:
         return kept
 
     def _descend(
-        self, goal: Vector, start: State, names: set[str], warm: Mapping[int, float] | None = None
+        self,
+        goal: Vector,
+        start: State,
+        names: set[str],
+        warm: Mapping[int, float] | None = None,
+        branches: int = BRANCHES,
     ) -> State:
-        """Move these choices until the point is there, or no step brings it nearer."""
+        """Move these choices until the point is there, or no step brings it nearer.
+
+        Where a step leads into another branch of the model, the descent goes on from the run there.
+        """
         free = {choice.address for choice in start.trace.choices if choice.path in names}
         state = replace(start, values=dict(start.values), error=inf)
         origin = start.values
@@ -338,10 +353,15 @@ class Dragging:
             try:
                 there = self.place(replace(state, values={**origin, **values}), self.grip.part, free)
             except _engine.EngineFault:
-                # The run fails there, or makes other choices: a shorter step stays in its structure.
+                # The run fails there, or makes other choices.
                 there = None
+            is_other = there is None or [one[0] for one in there.movables] != [one[0] for one in here.movables]
+            if is_other and branches > 0:
+                other = self._branched(goal, replace(state, values={**origin, **values}), names, branches, error)
+                if other is not None:
+                    return other
             left = inf if there is None else float(np.linalg.norm(self.across @ (goal - there.point)))
-            if there is not None and len(there.movables) == len(z) and left < error:
+            if there is not None and not is_other and left < error:
                 z, here, error = tried, there, left
                 state.values = {**origin, **values}
                 reach, damping = min(2 * reach, REACH), max(damping / 10, 1e-9)
@@ -354,6 +374,22 @@ class Dragging:
             state.values = {**origin, **warm}
         state.error = error
         return state
+
+    def _branched(
+        self, goal: Vector, state: State, names: set[str], branches: int, error: float
+    ) -> State | None:
+        """The descent from a run with other choices, where the part is nearer in it; those that are missing are drawn."""
+        try:
+            trace = self._replayed(self.task, state, self.search.seed)
+        except _engine.EngineFault:
+            return None
+        other = State(trace, self.task.placer(trace.run), switched={"": self.grip.part})
+        here = self.place(other, self.grip.part, self._movable(other))
+        if here is None or float(np.linalg.norm(self.across @ (goal - here.point))) >= error:
+            return None
+        known = {choice.path for choice in state.trace.choices}
+        free = {name for name in _movers(here, self.size) if name in names or name not in known}
+        return self._descend(goal, other, free, branches=branches - 1)
 
     # ---- structure
 
@@ -404,27 +440,28 @@ class Dragging:
 
     def _change(self, state: State) -> float:
         """The sum of squares of the changes, in deviations; a changed structure comes after all others."""
-        ranges = dict(zip((m[0] for m in self._all.movables), self._all.ranges(), strict=True))
-        moved = [(x - ranges[a][0]) / max(ranges[a][3], 1e-12) for a, x in state.values.items() if a in ranges]
+        moved = [
+            (value - self.values[name]) / self._spreads[name]
+            for name, value in _choices(state).items()
+            if name in self._spreads
+        ]
         return float(np.square(moved).sum()) + (1e6 if state.switched else 0.0)
 
-    def _is_same(self, state: State, other: Sample) -> bool:
-        ranges = dict(zip((m[0] for m in self._all.movables), self._all.ranges(), strict=True))
-        theirs = {choice.address: choice.value for choice in other._trace.choices}
-        if state.switched:
-            return False
-        return all(
-            abs(state.values.get(a, ranges[a][0]) - theirs.get(a, inf)) < SAME * max(ranges[a][3], 1e-12)
-            for a in ranges
+    def _is_same(self, one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+        """Whether two runs differ by little in all of their choices."""
+        return one.keys() == other.keys() and all(
+            value == other[name]
+            or (isinstance(value, float) and abs(value - other[name]) < SAME * self._spreads.get(name, 0.0))
+            for name, value in one.items()
         )
 
-    def _replayed(self, task: _engine.Task, state: State) -> _engine.Trace:
-        paths = {c.path: state.values.get(c.address, c.value) for c in state.trace.choices}
-        with translated(self.search.model.name, choices=paths):
-            return task.replay(paths, self.search.seed if state.switched else None)
+    def _replayed(self, task: _engine.Task, state: State, seed: int | None = None) -> _engine.Trace:
+        return task.replay(_choices(state), seed)
 
     def _scored(self, kind: str, state: State) -> Dragged:
-        sample = Sample.of_trace(self._replayed(self.search.task, state), self.search, self.sample.seed)
+        with translated(self.search.model.name):
+            trace = self._replayed(self.search.task, state)
+        sample = Sample.of_trace(trace, self.search, self.sample.seed)
         after = sample.choices
         changed = {
             name: (self.values.get(name), after.get(name))
@@ -490,6 +527,11 @@ def dragged(
     return Dragging(search, sample, part, grab=grab, along=along, lock=lock, to=to).to(
         to, answers=answers, structure=structure
     )
+
+
+def _choices(state: State) -> dict[str, Any]:
+    """The choices of a run where they have been moved to, by readable address."""
+    return {c.path: state.values.get(c.address, c.value) for c in state.trace.choices}
 
 
 def _point(name: str, given: Point) -> Vector:
