@@ -15,9 +15,8 @@ import time
 from collections import Counter
 from typing import Any
 
-import numpy as np
-
 import niwaki as nw
+import numpy as np
 from niwaki.gallery import entry as find
 from niwaki.search.drag import NEAR, Drag, Dragging
 

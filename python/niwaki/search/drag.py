@@ -22,10 +22,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
-from niwaki.result import Sample, parts
+from niwaki.result import Result, Sample, Watch, parts
 from niwaki.targets.sketches import Score
 
 if TYPE_CHECKING:
@@ -46,6 +47,8 @@ STALLED, PATIENCE = 0.02, 4
 BRANCHES = 3
 #: Answers are the same if their choices differ by less than this, in deviations of the priors.
 SAME = 0.05
+#: Another structure that does not reach the point is given as the nearest where it leaves this share at most.
+WORTH = 0.8
 #: Values of discrete choices that are tried, and those of them from which a descent begins.
 TRIED, BEGUN = 32, 6
 #: A number stays this share of its range away from an end that is no value.
@@ -70,6 +73,8 @@ class Dragged:
         "outermost" those of the model itself, "structure" discrete choices, too.
     part : str
         The address of the part that is there.
+    holds : dict
+        The choices that place the part there, with their values: a `lock` with which the rest is grown again.
     """
 
     sample: Sample
@@ -78,6 +83,51 @@ class Dragged:
     share: float
     kind: str
     part: str
+    holds: dict[str, Any]
+
+    def follow(
+        self, *, seed: int | None = None, threads: int | None = None, progress: Watch | None = None
+    ) -> Result:
+        """Grow the rest again around the part, by the method of the sample's search, which holds what places the part.
+
+        Parameters
+        ----------
+        seed
+            Decides every random choice; that of the search when left out.
+        threads, progress
+            As for `niwaki.run`.
+
+        Raises
+        ------
+        InputError
+            With the part there every particle is impossible.
+        """
+        search = self.sample.search
+        lock = {**(search.lock or {}), **self.holds}
+        own = replace(search, lock=lock, choices=None, seed=search.seed if seed is None else seed)
+        return own.run(threads=threads, progress=progress)
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A part that is being dragged: the run as it is, without its score.
+
+    Attributes
+    ----------
+    scene : Scene
+        The scene of the run.
+    point : tuple
+        Where the held point is, scene units.
+    share : float
+        What is left to where it should be, as a share of the scene's size.
+    reason : str
+        Why it is not there; empty where it is.
+    """
+
+    scene: Scene
+    point: tuple[float, float, float]
+    share: float
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -167,7 +217,9 @@ class Dragging:
             self.start = State(trace, self.task.placer(trace.run))
         scene = [address for address, _ in trace.parts]
         if not scene:
-            raise InputError("no-address", pattern=part, name=search.model.name, nearest="none: it has no part")
+            raise InputError(
+                "no-address", pattern=part, name=search.model.name, nearest="none: it has no part"
+            )
         boxes = np.array([shape.aabb() for _, shapes in trace.parts for shape in shapes])
         self.size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) or 1.0
         self.locked = set(sample.held(*lock)) if lock else set()
@@ -175,7 +227,9 @@ class Dragging:
         self.across = _across(along)
         self.values = {choice.path: choice.value for choice in trace.choices}
         self._grips = self._gripped(part, grab)
-        self.grip = self._grip(None if grab is None else _point("grab", grab), None if to is None else _point("to", to))
+        self.grip = self._grip(
+            None if grab is None else _point("grab", grab), None if to is None else _point("to", to)
+        )
         self._warm: dict[int, float] = {}
 
     # ---- what is held, and what may move
@@ -208,7 +262,8 @@ class Dragging:
 
     def _grip(self, grab: Vector | None, to: Vector | None) -> Grip:
         """The point that is held: `grab`, fixed to the shape that it is nearest to; without it the middle of the shape
-        that is nearest to where it should go."""
+        that is nearest to where it should go.
+        """
         goal = to if grab is None else grab
 
         def distance(one: tuple[int, int, Vector, Any]) -> float:
@@ -248,7 +303,9 @@ class Dragging:
         begun = self.place(self.start, self.grip.part, self._movable(self.start))
         names = [] if begun is None else _movers(begun, self.size)
         if begun is not None and names:
-            found = [(kind, self._descend(goal, self.start, names)) for kind, names in self._kinds(begun, names)]
+            found = [
+                (kind, self._descend(goal, self.start, names)) for kind, names in self._kinds(begun, names)
+            ]
         else:
             found = []
         there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
@@ -276,25 +333,26 @@ class Dragging:
             return Drag([], near, f"the run is impossible with `{self.grip.part}` there: {forbidden}")
         if not found:
             return Drag([], None, self._nothing_moves())
-        kind, state = min(found, key=lambda one: one[1].error)
+        # Another structure only where it is nearer by a good deal.
+        kind, state = min(found, key=lambda one: one[1].error / (WORTH if one[0] == "structure" else 1.0))
         return Drag([], self._scored(kind, state), self._too_far(goal, state))
 
-    def move(self, point: Point) -> tuple[_engine.Trace, float]:
-        """The run with the least change, without its score, and what is left to the point: for a pointer that moves.
-
-        It goes on from where the last point was.
-        """
+    def move(self, point: Point) -> Moved:
+        """The part with the least change, for a pointer that moves: it goes on from where the last point was."""
         goal = _point("to", point)
         begun = self.place(self.start, self.grip.part, self._movable(self.start))
-        if begun is None:
-            return self.start.trace, float(np.linalg.norm(self.across @ (goal - self._middle())))
-        state = self._descend(goal, self.start, _movers(begun, self.size), self._warm)
-        self._warm = state.values
-        return self._replayed(self.task, state), state.error
-
-    def _middle(self) -> Vector:
-        frame = self._all.frame(self._at, self.grip.shape)
-        return self._grips[0][2][0] if frame is None else self.grip.at(frame)
+        names = set() if begun is None else _movers(begun, self.size)
+        if begun is None or not names:
+            middle = next(frame[0] for n, k, frame, _ in self._grips if (n, k) == (self._at, self.grip.shape))
+            left = float(np.linalg.norm(self.across @ (goal - middle))) / self.size
+            return Moved(Scene(self.start.trace.parts), _triple(middle), left, self._nothing_moves())
+        state = self._descend(goal, self.start, names, self._warm)
+        self._warm = {} if state.switched else state.values
+        here = self.place(state, self.grip.part, self._movable(state))
+        assert here is not None
+        reason = "" if state.error <= NEAR * self.size else self._too_far(goal, state)
+        scene = Scene(self._replayed(self.task, state).parts)
+        return Moved(scene, _triple(here.point), state.error / self.size, reason)
 
     def _kinds(self, begun: Place, names: set[str]) -> list[tuple[str, set[str]]]:
         """Sets of choices that may change: the ways in which an edit can be meant."""
@@ -348,16 +406,22 @@ class Dragging:
             tried = np.clip(z + step, low, high)
             values = {
                 address: _wrapped(x) if is_angle else x
-                for (address, _, is_angle), x in zip(here.movables, (zero + spread * tried).tolist(), strict=True)
+                for (address, _, is_angle), x in zip(
+                    here.movables, (zero + spread * tried).tolist(), strict=True
+                )
             }
             try:
                 there = self.place(replace(state, values={**origin, **values}), self.grip.part, free)
             except _engine.EngineFault:
                 # The run fails there, or makes other choices.
                 there = None
-            is_other = there is None or [one[0] for one in there.movables] != [one[0] for one in here.movables]
+            is_other = there is None or [one[0] for one in there.movables] != [
+                one[0] for one in here.movables
+            ]
             if is_other and branches > 0:
-                other = self._branched(goal, replace(state, values={**origin, **values}), names, branches, error)
+                other = self._branched(
+                    goal, replace(state, values={**origin, **values}), names, branches, error
+                )
                 if other is not None:
                     return other
             left = inf if there is None else float(np.linalg.norm(self.across @ (goal - there.point)))
@@ -397,8 +461,10 @@ class Dragging:
         """Runs with another value of one discrete choice that decides the part, each moved to the point."""
         trace, begun = self.start.trace, []
         call = self.grip.part.rpartition("/")[0]
-        deciding = {*parts._deciding(call), call}
-        choices = [c for c in trace.choices if c.path.rpartition("/")[0] in deciding and c.path not in self.locked]
+        deciding = {*parts.deciding(call), call}
+        choices = [
+            c for c in trace.choices if c.path.rpartition("/")[0] in deciding and c.path not in self.locked
+        ]
         tries = 0
         for choice in reversed(choices):
             for value in _others(choice):
@@ -469,7 +535,17 @@ class Dragging:
             if self.values.get(name) != after.get(name)
         }
         part = state.switched.get("", self.grip.part)
-        return Dragged(sample, changed, state.error, state.error / self.size, kind, part)
+        here = self.place(state, part, self._movable(state))
+        movers = set() if here is None else _movers(here, self.size)
+        call = part.rpartition("/")[0]
+        deciding = {*parts.deciding(call), call}
+        free = {choice.path for choice in sample._trace.choices if choice.family != "delta"}
+        holds = {
+            name: value
+            for name, value in after.items()
+            if name in free and (name in movers or name.rpartition("/")[0] in deciding)
+        }
+        return Dragged(sample, changed, state.error, state.error / self.size, kind, part, holds)
 
     # ---- reasons
 
@@ -482,7 +558,11 @@ class Dragging:
             names += [name for name in self.search.lock if name not in names]
         if not names:
             return f"no choice of a real number moves `{part}`: its place follows from the source"
-        many = "the choice that moves it is held" if len(names) == 1 else f"all {len(names)} choices that move it are held"
+        many = (
+            "the choice that moves it is held"
+            if len(names) == 1
+            else f"all {len(names)} choices that move it are held"
+        )
         return f"nothing that is free moves `{part}`: {many} ({_listed(names)})"
 
     def _too_far(self, goal: Vector, state: State) -> str:
@@ -506,8 +586,12 @@ class Dragging:
         free = int((strength > 1e-6 * max(self.size, strength[0])).sum())
         wanted = int(round(float(np.trace(self.across))))
         if free < wanted:
-            where = {0: "not at all", 1: "along a line only", 2: "within a surface only"}[free]
-            return f"{left}: what is free moves it {where}"
+            moves = (
+                "does not move it that way",
+                "moves it along a line only",
+                "moves it within a surface only",
+            )
+            return f"{left}: what is free {moves[free]}"
         return f"{left}: beyond this the choices bring it no nearer"
 
 
@@ -541,6 +625,11 @@ def _point(name: str, given: Point) -> Vector:
     if point.shape != (3,) or not np.isfinite(point).all():
         raise bad(name, given, "a point of two or three finite numbers", "(1.0, 2.0, 0.0)")
     return point
+
+
+def _triple(point: Vector) -> tuple[float, float, float]:
+    x, y, z = point.tolist()
+    return x, y, z
 
 
 def _across(along: Point | None) -> Vector:
@@ -614,7 +703,9 @@ def _siblings(part: str) -> Iterable[str]:
         begin = part.rfind("[", 0, at)
         number = part[begin + 1 : at]
         if number.isdigit():
-            yield from (f"{part[: begin + 1]}{int(number) + by}{part[at:]}" for by in (1, -1) if int(number) + by >= 0)
+            yield from (
+                f"{part[: begin + 1]}{int(number) + by}{part[at:]}" for by in (1, -1) if int(number) + by >= 0
+            )
         at = part.find("]", at + 1)
 
 

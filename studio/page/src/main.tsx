@@ -5,7 +5,7 @@ import { useEffect, useState } from "preact/hooks";
 import "./style.css";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
-import { Canvas, shown, stage } from "./ui/canvas";
+import { Canvas, drag, shown, stage } from "./ui/canvas";
 import { Gallery } from "./ui/gallery";
 import { Inspector } from "./ui/inspector";
 import { Setup } from "./ui/setup";
@@ -55,7 +55,8 @@ function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
     return;
   }
   if (event.key === "Escape") {
-    if (store.isSearching.value) store.stop();
+    if (drag.isMoving) drag.cancel();
+    else if (store.isSearching.value) store.stop();
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
       setHandles(null);

@@ -117,6 +117,18 @@ export interface Choose {
   id?: number;
 }
 
+/** Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result. */
+export interface Drag {
+  kind: "drag";
+  part: string;
+  to: [number, number, number];
+  grab?: [number, number, number] | null;
+  along?: [number, number, number] | null;
+  phase?: "cancel" | "end" | "move";
+  follow?: boolean;
+  id?: number;
+}
+
 /** One result: the number of its run, and its place there. */
 export interface Key {
   run: number;
@@ -309,6 +321,24 @@ export interface Shape {
   pivot: [number, number, number];
   is_flat: boolean;
   note: string;
+  held: [number, number, number] | null;
+}
+
+/** A choice before and after a drag; None where the run has no such choice. */
+export interface Shifted {
+  address: string;
+  before: any;
+  after: any;
+}
+
+/** The end of a drag: what has changed in the first answer; or why the part is not there. */
+export interface Dragged {
+  kind: "dragged";
+  id: number;
+  part: string;
+  share: number;
+  reason: string;
+  changes: Shifted[];
 }
 
 /** A command has done its work. */
@@ -344,6 +374,7 @@ export type Command =
   | FreeParts
   | Reroll
   | Choose
+  | Drag
   | Describe
   | Show
   | Pick
@@ -357,6 +388,7 @@ export type Event =
   | Patch
   | Described
   | Shape
+  | Dragged
   | Done
   | File
   | Failed;

@@ -13,6 +13,8 @@ export const level = signal<string | null>(null);
 export const part = signal<string | null>(null);
 export const hovered = signal<string | null>(null);
 export const notices = signal<{ id: number; text: string; isError: boolean }[]>([]);
+/** A line of text at the foot of the scene: why a part that is dragged is not at the pointer. */
+export const quiet = signal("");
 export const tool = signal<"look" | "place" | "draw">("look");
 export const showGhost = signal(true);
 /** The camera, for what depends on it. */

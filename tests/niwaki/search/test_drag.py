@@ -7,10 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import niwaki as nw
 import numpy as np
 import pytest
-
-import niwaki as nw
 from niwaki import _engine, box, cylinder, emit, flip, gaussian, limb, poisson, rotation, uniform
 from niwaki.errors import InputError
 from niwaki.gallery import entries
@@ -126,7 +125,10 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
         assert found.best.sample.choices["b"] == b
     held = sample.drag("top", (a + b + 1.0, 0.5, deep), lock=["*"])
     assert held.best is None
-    assert held.reason == "nothing that is free moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
+    assert (
+        held.reason
+        == "nothing that is free moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
+    )
     # A search's own lock holds as well.
     locked = nw.run(post, seed=1, lock={"a": 0.25}).best.drag("top", (3.0, 0.5, deep))
     assert locked.best is not None

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct, field
 
-from niwaki.studio.messages.document import Address, Addresses, Ask, Count, Key, Settings, Text
+from niwaki.studio.messages.document import Address, Addresses, Ask, Count, Key, Point, Settings, Text
 
 
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
@@ -75,6 +75,29 @@ class Choose(Command, tag="choose"):
     phase: Literal["move", "end"] = "end"
 
 
+class Drag(Command, tag="drag"):
+    """Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result.
+
+    Attributes
+    ----------
+    grab
+        The point of the part that is held; its middle, where left out.
+    along
+        The direction in which a camera looks: distances along it do not count.
+    phase
+        A command that moves is left out where a newer one waits; "cancel" ends the drag with the result as it was.
+    follow
+        Whether the rest is grown again at the end, around the part.
+    """
+
+    part: Address
+    to: Point
+    grab: Point | None = None
+    along: Point | None = None
+    phase: Literal["move", "end", "cancel"] = "end"
+    follow: bool = False
+
+
 class Describe(Command, tag="describe"):
     """Ask for the choices of a result, with places in the source."""
 
@@ -128,6 +151,7 @@ AnyCommand = (
     | FreeParts
     | Reroll
     | Choose
+    | Drag
     | Describe
     | Show
     | Pick

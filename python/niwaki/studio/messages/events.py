@@ -132,7 +132,7 @@ class Shape(Event, tag="shape"):
     Attributes
     ----------
     what
-        "best" of a running search, a "result", a choice that is "moving", or the "ghost" of the target.
+        "best" of a running search, a "result", a choice or a part that is "moving", or the "ghost" of the target.
     parts
         Addresses; the mesh has the number of its part for each triangle.
     """
@@ -149,6 +149,31 @@ class Shape(Event, tag="shape"):
     pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False
     note: str = ""
+    #: Of a part that is dragged: where its held point is; the note says why it is not at the pointer.
+    held: Point | None = None
+
+
+class Shifted(Struct):
+    """A choice before and after a drag; None where the run has no such choice."""
+
+    address: str
+    before: Any
+    after: Any
+
+
+class Dragged(Event, tag="dragged"):
+    """The end of a drag: what has changed in the first answer; or why the part is not there.
+
+    Attributes
+    ----------
+    share
+        What is left to the pointer, as a share of the scene's size.
+    """
+
+    part: str = ""
+    share: float = 0.0
+    reason: str = ""
+    changes: list[Shifted] = []
 
 
 class Done(Event, tag="done"):

@@ -6,8 +6,8 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
-from niwaki.studio.messages.events import Described, ModelInfo, Problem, Shape
+from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
+from niwaki.studio.messages.events import Described, Dragged, ModelInfo, Problem, Shape
 
 
 class Question(Struct):
@@ -78,6 +78,20 @@ class Change(Job, tag="change"):
     origin: str = "choose"
 
 
+class DragPart(Job, tag="drag"):
+    """Drag a part of one result: its shape while it moves; answers, written to `file`, where it is named."""
+
+    question: Question
+    source: str
+    number: int
+    part: str
+    to: Point
+    grab: Point | None
+    along: Point | None
+    run: int = 0
+    file: str = ""
+
+
 class Hold(Job, tag="hold"):
     """The choices that hold these parts of a result."""
 
@@ -114,7 +128,9 @@ class WriteFile(Job, tag="write"):
     scale: float | None = None
 
 
-AnyJob = ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | WriteFile
+AnyJob = (
+    ListModels | Load | Ghost | Grow | Regrow | Change | DragPart | Hold | DescribeRun | ShowRun | WriteFile
+)
 
 
 class Answer(Struct, tag_field="kind", tag="answer"):
@@ -139,4 +155,4 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described
+AnyReport = Answer | Progressed | Shape | Described | Dragged

@@ -56,6 +56,8 @@ class Session:
         Its task.
     wanted
         The newest value of a choice, by the phase of its slider.
+    dragged, dragging
+        The newest point of a part that is dragged; held while one of them is gone to.
     """
 
     def __init__(self, folder: Path, files: list[str]) -> None:
@@ -73,6 +75,8 @@ class Session:
         self.search: asyncio.Task[m.Answer] | None = None
         self.is_interrupted = self.journal.running is not None
         self.wanted: dict[str, m.Choose] = {}
+        self.dragged: m.Drag | None = None
+        self.dragging = asyncio.Lock()
         self.ghost: bytes | None = None
         self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
         self._told: dict[str, Any] = {}

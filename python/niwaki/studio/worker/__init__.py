@@ -4,6 +4,7 @@
 - `models`   models by reference, as the page lists them
 - `asks`     what is asked, as a target and a score
 - `jobs`     searches, parts grown again, choices changed
+- `drag`     a part that is dragged
 - `runs`     stored runs: replayed, described, shown, written
 - `places`   where in the source a choice is made and a part is emitted, and how a choice's slider goes
 - `shapes`   a scene as a mesh for the page

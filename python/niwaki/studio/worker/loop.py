@@ -21,7 +21,7 @@ from niwaki.errors import NiwakiError
 from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
-from niwaki.studio.worker import jobs, models, runs
+from niwaki.studio.worker import drag, jobs, models, runs
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -100,6 +100,8 @@ def done(job: messages.AnyJob, send: Send, stopped: Stopped) -> messages.Answer:
             return jobs.regrow(job, send)
         case messages.Change():
             return jobs.change(job, send)
+        case messages.DragPart():
+            return drag.drag(job, send)
         case messages.Hold():
             return runs.hold(job)
         case messages.DescribeRun():

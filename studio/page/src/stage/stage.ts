@@ -14,6 +14,7 @@ import {
   Group,
   HemisphereLight,
   LineBasicMaterial,
+  LineDashedMaterial,
   LineSegments,
   Material,
   Mesh,
@@ -21,6 +22,7 @@ import {
   MeshStandardMaterial,
   PCFShadowMap,
   PerspectiveCamera,
+  Plane,
   PlaneGeometry,
   Raycaster,
   Scene,
@@ -53,6 +55,7 @@ export class Stage {
   private readonly shape = new Group();
   private readonly marks = new Group();
   private readonly ghost = new Group();
+  private readonly line = new Group();
   private ghostBox = new Box3();
   private look = COLORS.light;
   private isAsked = false;
@@ -85,6 +88,7 @@ export class Stage {
       this.shape,
       this.marks,
       this.ghost,
+      this.line,
     );
     this.camera.position.set(14, 9, 18);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -310,15 +314,56 @@ export class Stage {
 
   /** The address of the part under a point of the canvas, in CSS pixels. */
   partAt(x: number, y: number): string | null {
+    return this.hitAt(x, y)?.address ?? null;
+  }
+
+  private hitAt(x: number, y: number): { address: string; point: Vector3 } | null {
     const mesh = this.shape.children[0];
     if (this.piece === null || mesh === undefined) return null;
-    const { clientWidth, clientHeight } = this.canvas;
-    const place = new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
-    const ray = new Raycaster();
-    ray.setFromCamera(place, this.camera);
-    const hit = ray.intersectObject(mesh, false)[0];
+    const hit = this.rayTo(x, y).intersectObject(mesh, false)[0];
     if (hit?.faceIndex == null) return null;
-    return this.piece.header.parts[this.piece.owners[hit.faceIndex]] ?? null;
+    const address = this.piece.header.parts[this.piece.owners[hit.faceIndex]];
+    return address === undefined ? null : { address, point: hit.point };
+  }
+
+  private rayTo(x: number, y: number): Raycaster {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    return ray;
+  }
+
+  /** The part under a point of the canvas, and the point of the part that is seen there. */
+  holdAt(x: number, y: number): { address: string; point: Vector3 } | null {
+    const hit = this.hitAt(x, y);
+    return hit && { address: hit.address, point: hit.point };
+  }
+
+  /** The direction in which the camera looks at a point. */
+  sight(point: Vector3): Vector3 {
+    return point.clone().sub(this.camera.position).normalize();
+  }
+
+  /** The point of the canvas in the plane through `point` that faces the camera. */
+  across(x: number, y: number, point: Vector3): Vector3 {
+    const facing = this.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(facing, point);
+    return this.rayTo(x, y).ray.intersectPlane(plane, new Vector3()) ?? point.clone();
+  }
+
+  /** A line from where a dragged part is to where it should be; none without points. */
+  tether(from: Vector3 | null, to: Vector3 | null): void {
+    clear(this.line);
+    if (from !== null && to !== null) {
+      const geometry = new BufferGeometry().setFromPoints([from, to]);
+      const look = { color: this.look.selected, dashSize: 0.03, gapSize: 0.02, depthTest: false, transparent: true };
+      const scale = 1 / Math.max(from.distanceTo(to), 1e-9);
+      const line = new LineSegments(geometry, new LineDashedMaterial({ ...look, scale }));
+      line.computeLineDistances();
+      line.renderOrder = 2;
+      this.line.add(line);
+    }
+    this.draw();
   }
 
   /** Where a part is seen, in CSS pixels: a point that `partAt` answers with it. */

@@ -2,6 +2,7 @@
 
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { Drag } from "../stage/drag";
 import { isBelow } from "../stage/meshes";
 import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
@@ -12,6 +13,7 @@ import { Pen } from "./pen";
 import { currentTarget } from "./setup";
 
 export let stage: Stage;
+export let drag: Drag;
 /** What is on the stage: of tests and of the page itself. */
 export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
 
@@ -24,6 +26,7 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
       (target) => void store.tell({ kind: "ask", ask: { target } }),
       () => (store.eye.value = stage.eye()),
     );
+    drag = new Drag(stage);
     const watch = new ResizeObserver(([entry]) => stage.resize(entry.contentRect.width, entry.contentRect.height));
     watch.observe(holder.current!);
     follow();
@@ -37,21 +40,31 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
       <canvas
         ref={canvas}
         tabIndex={0}
-        aria-label="The scene. Drag to look around, click a part to select it."
-        onPointerDown={(event) => (down.current = at(event))}
+        aria-label="The scene. Drag to look around, click a part to select it, drag the selected part to move it."
+        onPointerDown={(event) => {
+          down.current = at(event);
+          if (event.button === 0 && drag.press(...at(event))) event.currentTarget.setPointerCapture(event.pointerId);
+        }}
         onPointerMove={(event) => {
+          if (drag.move(...at(event))) return;
           if (event.buttons === 0 && store.tool.value === "look") store.hovered.value = stage.partAt(...at(event));
         }}
         onPointerLeave={() => (store.hovered.value = null)}
         onPointerUp={(event) => {
           const from = down.current;
           const to = at(event);
+          if (drag.release(event.shiftKey)) return;
           if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) store.select(stage.partAt(...to));
         }}
       />
       <Pen />
       <Problem />
       <Notices />
+      {store.quiet.value !== "" && (
+        <p class="reason" role="status">
+          {store.quiet.value}
+        </p>
+      )}
     </main>
   );
 }
@@ -92,6 +105,7 @@ function follow(): void {
       if (shape.note) store.note(shape.note);
     } else if (shape.what === "best" || shape.what === "moving") {
       put(shape, payload);
+      drag.shown(shape);
     } else if (store.sameKey(shape.key, store.picked.value) && !store.isSearching.value) {
       if (shape.detail === "fine" || !(shown.detail === "fine" && store.sameKey(shown.key, shape.key))) {
         put(shape, payload);
