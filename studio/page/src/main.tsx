@@ -101,6 +101,9 @@ Object.assign(window, {
     get frames() {
       return stage.frames;
     },
+    get drag() {
+      return { left: drag.left, reason: store.quiet.value };
+    },
     pointOf: (address: string) => stage.pointOf(address),
   },
 });

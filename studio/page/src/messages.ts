@@ -322,6 +322,7 @@ export interface Shape {
   is_flat: boolean;
   note: string;
   held: [number, number, number] | null;
+  left: number;
 }
 
 /** A choice before and after a drag; None where the run has no such choice. */

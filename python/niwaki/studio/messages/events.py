@@ -151,6 +151,8 @@ class Shape(Event, tag="shape"):
     note: str = ""
     #: Of a part that is dragged: where its held point is; the note says why it is not at the pointer.
     held: Point | None = None
+    #: What is left from there to the pointer, as a share of the scene's size.
+    left: float = 0.0
 
 
 class Shifted(Struct):

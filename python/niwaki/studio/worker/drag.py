@@ -28,6 +28,7 @@ def drag(job: DragPart, send: Any) -> Answer:
             key=Key(job.run),
             is_flat=runs.is_flat(dragging.sample),
             held=moved.point,
+            left=moved.share,
             note=note,
         )
         send(header, payload)

@@ -12,6 +12,8 @@ const SLACK = 4;
 export class Drag {
   private held: { part: string; grab: Vector3; from: [number, number]; isMoving: boolean } | null = null;
   private goal = new Vector3();
+  /** What was left to the pointer, as a share of the scene's size. */
+  left = 0;
 
   constructor(private readonly stage: Stage) {}
 
@@ -60,6 +62,7 @@ export class Drag {
   shown(shape: Shape): void {
     if (!this.isMoving || shape.held === null) return;
     store.quiet.value = shape.note;
+    this.left = shape.left;
     this.stage.tether(shape.note === "" ? null : new Vector3(...shape.held), this.goal);
   }
 
