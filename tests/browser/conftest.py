@@ -9,6 +9,7 @@ from importlib.util import find_spec
 
 import pytest
 from studio_fixtures import pile, served
+from studio_page import LIMITS, OUT, times
 from studio_process import Served
 
 __all__ = ["browser", "open_page", "pile", "served"]
@@ -30,6 +31,18 @@ def browser() -> Iterator[object]:
         found.close()
 
 
+@pytest.fixture(autouse=True, scope="session")
+def table():
+    """Write the times of the journeys."""
+    yield
+    OUT.mkdir(parents=True, exist_ok=True)
+    lines = [f"{name:12} {seconds:6.2f} s   limit {LIMITS[name]:4.1f} s" for name, seconds in times.items()]
+    (OUT / "times.txt").write_text("\n".join(lines) + "\n")
+    print("\n" + "\n".join(lines))
+    if os.environ.get("NIWAKI_TIMES"):
+        assert not [name for name, seconds in times.items() if seconds > 2 * LIMITS[name]]
+
+
 @pytest.fixture
 def open_page(browser, request):
     """A function that opens a window of a studio; no script of the page may have failed at the end."""
@@ -42,7 +55,7 @@ def open_page(browser, request):
         page = context.new_page()
         page.errors = []
         page.on("pageerror", lambda one: page.errors.append(str(one)))
-        page.set_default_timeout(60_000)
+        page.set_default_timeout(30_000)
         page.goto(f"{served.url}/open?token={token or served.link()}")
         page.wait_for_function("window.__studio?.view?.model")
         return page

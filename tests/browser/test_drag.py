@@ -10,7 +10,7 @@ import io
 import numpy as np
 import pytest
 from PIL import Image
-from test_journeys import OUT, at_rest, choose, click_part, grow, timed, until
+from studio_page import OUT, at_rest, choose, click_part, grow, timed, until
 
 #: The frames of the animation: size in pixels, colours, and how long each is shown, milliseconds.
 SIZE, COLORS, STEP = (420, 360), 48, 90

@@ -11,10 +11,20 @@ from itertools import count
 import msgspec
 
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
-from niwaki.studio.messages import Answer, AnyJob, AnyReport, Described, Dragged, Problem, Progressed, Shape
+from niwaki.studio.messages import (
+    Answer,
+    AnyJob,
+    AnyReport,
+    Described,
+    Difference,
+    Dragged,
+    Problem,
+    Progressed,
+    Shape,
+)
 
 #: What is reported before a job has ended, with the bytes of a mesh.
-Report = Callable[[Progressed | Shape | Described | Dragged, bytes], None]
+Report = Callable[[Progressed | Shape | Described | Difference | Dragged, bytes], None]
 #: Seconds in which a job has to end after it was asked to; then its process is killed.
 GRACE = 2.0
 

@@ -68,7 +68,8 @@ def _type(kind: look.Type) -> str:
         case look.StructType():
             return kind.cls.__name__
         case look.UnionType():
-            return " | ".join(dict.fromkeys(_type(one) for one in kind.types))
+            given = [one for one in kind.types if not isinstance(one, look.CustomType)]
+            return " | ".join(dict.fromkeys(_type(one) for one in given))
         case look.ListType():
             inner = _type(kind.item_type)
             return f"({inner})[]" if "|" in inner else f"{inner}[]"

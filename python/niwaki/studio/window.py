@@ -50,4 +50,6 @@ class Window:
 
 def newest(header: Shape) -> str:
     """The kind of a shape of which only the newest counts; empty for those that all count."""
+    if header.what == "obstacle":
+        return f"obstacle {header.number}"
     return header.what if header.what in ("best", "moving", "ghost") else ""

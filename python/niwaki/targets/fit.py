@@ -97,3 +97,62 @@ def _measured(spec: _engine.SketchSpec, scene: Scene) -> dict[str, float]:
     for part in scene:
         sketch.add(list(part.shapes))
     return sketch.measures()
+
+
+def cells(score: Score, scene: Scene) -> Cells | None:
+    """Which cells of its target a scene fills, as its first `match_volume` counts them; None without one.
+
+    The engine's sketch is asked: a box inside some cells adds as many filled cells as of these were empty. So the
+    sums over the cells are those of the score to the unit.
+    """
+    for call in score.asks:
+        if call.function == "match_volume" and call.grid is not None:
+            sketch = _engine.Sketch([call.spec])
+            for part in scene:
+                sketch.add(list(part.shapes))
+            low, high = np.asarray(call.grid.domain)
+            return Cells(low, high, call.grid.cells(), _filled(sketch, low, high, call.grid.dims))
+    return None
+
+
+@dataclass(frozen=True)
+class Cells:
+    """The cells of a target's grid, (x, y, z).
+
+    Attributes
+    ----------
+    low, high : (3,) float64
+        Corners of the grid, scene units.
+    wanted, made : bool
+        Which of them the target fills, and the scene.
+    """
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    wanted: NDArray[np.bool_]
+    made: NDArray[np.bool_]
+
+
+def _filled(
+    sketch: _engine.Sketch, low: NDArray[np.float64], high: NDArray[np.float64], dims: tuple[int, int, int]
+) -> NDArray[np.bool_]:
+    """The cells that are filled: blocks that are neither full nor empty are halved."""
+    size = (high - low) / np.array(dims)
+    made = np.zeros(dims, dtype=np.bool_)
+    waiting: list[tuple[tuple[int, ...], tuple[int, ...]]] = [((0, 0, 0), dims)]
+    while waiting:
+        first, last = waiting.pop()
+        start, end = np.array(first), np.array(last)
+        block = Shape.box((low + 0.5 * (start + end) * size).tolist(), ((end - start - 0.5) * size).tolist())
+        before = sketch.measures()["filled"]
+        sketch.add([block])
+        count, empty = int(np.prod(end - start)), round(sketch.measures()["filled"] - before)
+        sketch.remove([block])
+        if empty == 0:
+            made[first[0] : last[0], first[1] : last[1], first[2] : last[2]] = True
+        elif empty < count:
+            axis = int(np.argmax(end - start))
+            middle = (first[axis] + last[axis]) // 2
+            waiting.append((first, (*last[:axis], middle, *last[axis + 1 :])))
+            waiting.append(((*first[:axis], middle, *first[axis + 1 :]), last))
+    return made

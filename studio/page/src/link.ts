@@ -1,6 +1,6 @@
 // The socket: commands out, events and frames in. The page has no other way to the studio, but for uploads and files.
 
-import type { Command, Event, Shape } from "./messages";
+import type { Command, Difference, Event, Shape } from "./messages";
 import { PROTOCOL } from "./messages";
 
 type Sent = Command extends infer C ? (C extends { id?: number } ? Omit<C, "id"> : never) : never;
@@ -29,7 +29,7 @@ export class Refused extends Error {
 
 export function connect(
   onEvent: (event: Event) => void,
-  onShape: (shape: Shape, payload: ArrayBuffer) => void,
+  onShape: (shape: Shape | Difference, payload: ArrayBuffer) => void,
   onState: (isOpen: boolean) => void,
 ): Link {
   const waiting = new Map<number, Waiting>();
@@ -76,7 +76,7 @@ export function connect(
         answered(event);
       } else {
         const length = new DataView(data).getUint32(0, true);
-        const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Shape;
+        const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Shape | Difference;
         onShape(header, data.slice(4 + length));
       }
     };

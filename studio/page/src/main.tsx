@@ -10,15 +10,11 @@ import { Gallery } from "./ui/gallery";
 import { Inspector } from "./ui/inspector";
 import { Setup } from "./ui/setup";
 
-type Mode = "translate" | "scale" | "rotate" | null;
-
 function App() {
-  const [handles, setHandles] = useState<Mode>(null);
   const [isDropping, setDropping] = useState(false);
   useEffect(() => {
-    const key = (event: KeyboardEvent) => pressed(event, setHandles);
-    addEventListener("keydown", key);
-    return () => removeEventListener("keydown", key);
+    addEventListener("keydown", pressed);
+    return () => removeEventListener("keydown", pressed);
   }, []);
   return (
     <div
@@ -36,15 +32,15 @@ function App() {
       }}
     >
       <Bar onFit={() => stage.fit()} />
-      <Setup handles={handles} setHandles={setHandles} />
-      <Canvas handles={handles} />
+      <Setup />
+      <Canvas />
       <Inspector />
       <Gallery />
     </div>
   );
 }
 
-function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
+function pressed(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
   const isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range";
   const isCommand = event.ctrlKey || event.metaKey;
@@ -59,7 +55,7 @@ function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
     else if (store.isSearching.value) store.stop();
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
-      setHandles(null);
+      store.thing.value = null;
       store.select(null);
     }
     return;
@@ -68,6 +64,7 @@ function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
   if (event.key === "Enter" && target.tagName !== "BUTTON") store.run();
   else if (event.key === "f") stage.fit();
   else if (event.key === "t") store.showGhost.value = !store.showGhost.value;
+  else if (event.key === "x") store.showDifference.value = !store.showDifference.value;
   else if (event.key === "d") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
   else if (event.key === "r" && level) store.reroll(level, 1);
   else if (event.key === "p" && level) store.pinOrFree(level);
@@ -103,6 +100,22 @@ Object.assign(window, {
     },
     get drag() {
       return { left: drag.left, reason: store.quiet.value };
+    },
+    get things() {
+      return stage.things.names;
+    },
+    get counts() {
+      return store.difference.value === null ? null : store.counts.value;
+    },
+    get differs() {
+      return `${store.difference.value?.header.key?.number ?? ""}`;
+    },
+    get handle() {
+      return stage.handlePoint();
+    },
+    get bounds() {
+      const { low, high } = stage.piece?.header ?? {};
+      return { low, high };
     },
     pointOf: (address: string) => stage.pointOf(address),
   },

@@ -16,7 +16,7 @@ export interface ChooseModel {
   id?: number;
 }
 
-/** A volume to fill: where it comes from, and how it is placed. */
+/** A solid in the scene, to fill or to avoid: where it comes from, and how it is placed. */
 export interface TargetAsk {
   source: string;
   move?: [number, number, number];
@@ -38,29 +38,32 @@ export interface Eye {
   fov: number;
 }
 
-/** A silhouette drawn by hand, over the view of a camera. */
+/** A silhouette or a shadow drawn by hand, over the view of a camera. */
 export interface Sketch {
   strokes: Stroke[];
   aspect: number;
   camera?: Eye | null;
+  kind?: "shadow" | "silhouette";
 }
 
-/** What a scene should be like; with nothing in it, what the model of the gallery is usually asked. */
-export interface Ask {
+/** Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target. */
+export interface AskChange {
   target?: TargetAsk | null;
   sketch?: Sketch | null;
   floor?: number | null;
+  obstacles?: TargetAsk[];
+  light?: [number, number, number];
 }
 
-/** Say what the scene should be like. */
+/** Say what the scene should be like; what is left out stays. */
 export interface SetAsk {
   kind: "ask";
-  ask: Ask;
+  ask: AskChange;
   id?: number;
 }
 
-/** How to search. */
-export interface Settings {
+/** Other values of some fields of `Settings`. */
+export interface SettingsChange {
   count?: number;
   seed?: number | null;
   effort?: number;
@@ -70,7 +73,7 @@ export interface Settings {
 export interface Set {
   kind: "set";
   arguments?: Record<string, any> | null;
-  settings?: Settings | null;
+  settings?: SettingsChange | null;
   id?: number;
 }
 
@@ -150,6 +153,13 @@ export interface Show {
   id?: number;
 }
 
+/** Ask where a result differs from what is wanted. */
+export interface ShowDifference {
+  kind: "difference";
+  key: Key;
+  id?: number;
+}
+
 /** Go on with this result. */
 export interface Pick {
   kind: "pick";
@@ -201,6 +211,22 @@ export interface ModelInfo {
   target: string | null;
   draws: string | null;
   is_file: boolean;
+}
+
+/** What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked. */
+export interface Ask {
+  target?: TargetAsk | null;
+  sketch?: Sketch | null;
+  floor?: number | null;
+  obstacles?: TargetAsk[];
+  light?: [number, number, number];
+}
+
+/** How to search. */
+export interface Settings {
+  count?: number;
+  seed?: number | null;
+  effort?: number;
 }
 
 /** The numbers of a result, as the gallery shows them; scores in nats. */
@@ -310,7 +336,8 @@ export interface Described {
 export interface Shape {
   kind: "shape";
   id: number;
-  what: "best" | "ghost" | "moving" | "result";
+  what: "best" | "ghost" | "moving" | "obstacle" | "result";
+  number: number;
   key: Key | null;
   detail: "fine" | "light";
   vertices: number;
@@ -340,6 +367,17 @@ export interface Dragged {
   share: number;
   reason: string;
   changes: Shifted[];
+}
+
+/** The header of a frame with a byte for each cell of a target, or each pixel of a picture. */
+export interface Difference {
+  kind: "difference";
+  id: number;
+  key: Key | null;
+  size: [number, number, number];
+  low: [number, number, number];
+  high: [number, number, number];
+  is_picture: boolean;
 }
 
 /** A command has done its work. */
@@ -378,6 +416,7 @@ export type Command =
   | Drag
   | Describe
   | Show
+  | ShowDifference
   | Pick
   | Star
   | Undo
@@ -390,6 +429,7 @@ export type Event =
   | Described
   | Shape
   | Dragged
+  | Difference
   | Done
   | File
   | Failed;

@@ -2,7 +2,8 @@
 
 import { computed, signal } from "@preact/signals";
 import { connect, Refused } from "./link";
-import type { Described, Event, Eye, Key, Outcome, Shape, View } from "./messages";
+import type { AskChange, Described, Difference, Event, Eye, Key, Outcome, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { Mode } from "./stage/things";
 
 export const view = signal<View | null>(null);
 export const isOpen = signal(false);
@@ -17,10 +18,22 @@ export const notices = signal<{ id: number; text: string; isError: boolean }[]>(
 export const quiet = signal("");
 export const tool = signal<"look" | "place" | "draw">("look");
 export const showGhost = signal(true);
+/** The object of the scene that has handles, and what they do. */
+export const thing = signal<{ name: string; mode: Mode } | null>(null);
+/** Whether the difference to what is wanted is shown; where the picked result differs. */
+export const showDifference = signal(false);
+export const difference = signal<{ header: Difference; marks: Uint8Array } | null>(null);
+/** How many cells or pixels are wanted and filled, wanted only, filled only. */
+export const counts = computed(() => {
+  const found = [0, 0, 0, 0];
+  for (const mark of difference.value?.marks ?? []) found[mark]++;
+  return { covered: found[1], missing: found[2], outside: found[3] };
+});
 /** The camera, for what depends on it. */
 export const eye = signal<Eye | null>(null);
 /** Of the pen, in heights of the view. */
 export const penWidth = signal(0.06);
+export const sketchKind = signal<"silhouette" | "shadow">("silhouette");
 export const theme = signal<"light" | "dark">(
   matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
 );
@@ -69,7 +82,10 @@ function heard(event: Event): void {
 
 const link = connect(
   heard,
-  (shape, payload) => listeners.forEach((one) => one(shape, payload)),
+  (header, payload) => {
+    if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
+    else listeners.forEach((one) => one(header, payload));
+  },
   (open) => (isOpen.value = open),
 );
 
@@ -95,6 +111,23 @@ export function run(): void {
 export function stop(): void {
   void tell({ kind: "stop" });
 }
+export function ask(change: AskChange): void {
+  void tell({ kind: "ask", ask: change });
+}
+export function set(settings: SettingsChange): void {
+  void tell({ kind: "set", settings });
+}
+/** The target as it is asked, or the model's usual one. */
+export const target = computed<TargetAsk | null>(() => {
+  const now = view.value;
+  if (now === null || now.ask.sketch != null) return null;
+  return now.ask.target ?? (now.model?.target ? { source: now.model.target } : null);
+});
+export function avoid(solid: TargetAsk): void {
+  const obstacles = view.value?.ask.obstacles ?? [];
+  ask({ obstacles: [...obstacles, solid] });
+  thing.value = { name: `obstacle ${obstacles.length}`, mode: "translate" };
+}
 export function select(address: string | null): void {
   part.value = address;
   level.value = address === null ? null : address.split("/").slice(0, -1).join("/");
@@ -116,7 +149,8 @@ export async function exported(format: "glb" | "stl" | "obj" | "svg" | "png" | "
   anchor.click();
   note(`${found.name} is written`);
 }
-export async function uploaded(file: File): Promise<void> {
+/** Sends a mesh, to grow into it or to keep away from it. */
+export async function uploaded(file: File, isObstacle = false): Promise<void> {
   note(`Reading ${file.name}`);
   const answer = await fetch(`/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
   const found = await answer.json();
@@ -125,5 +159,6 @@ export async function uploaded(file: File): Promise<void> {
     return;
   }
   for (const one of found.notes as string[]) note(`${file.name}: ${one}`);
-  void tell({ kind: "ask", ask: { target: { source: found.source } } });
+  if (isObstacle) avoid({ source: found.source });
+  else ask({ target: { source: found.source } });
 }

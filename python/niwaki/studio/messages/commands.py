@@ -4,9 +4,23 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from msgspec import Meta, Struct, field
+from msgspec import UNSET, Meta, Struct, UnsetType, field
 
-from niwaki.studio.messages.document import Address, Addresses, Ask, Count, Key, Point, Settings, Text
+from niwaki.studio.messages.document import (
+    Address,
+    Addresses,
+    Count,
+    Effort,
+    Key,
+    Length,
+    Light,
+    Obstacles,
+    Point,
+    Seed,
+    Sketch,
+    TargetAsk,
+    Text,
+)
 
 
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
@@ -27,17 +41,35 @@ class ChooseModel(Command, tag="model"):
     reference: Text
 
 
-class SetAsk(Command, tag="ask"):
-    """Say what the scene should be like."""
+class AskChange(Struct, frozen=True, forbid_unknown_fields=True):
+    """Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target."""
 
-    ask: Ask
+    target: TargetAsk | None | UnsetType = UNSET
+    sketch: Sketch | None | UnsetType = UNSET
+    floor: Length | None | UnsetType = UNSET
+    obstacles: Obstacles | UnsetType = UNSET
+    light: Light | UnsetType = UNSET
+
+
+class SetAsk(Command, tag="ask"):
+    """Say what the scene should be like; what is left out stays."""
+
+    ask: AskChange
+
+
+class SettingsChange(Struct, frozen=True, forbid_unknown_fields=True):
+    """Other values of some fields of `Settings`."""
+
+    count: Count | UnsetType = UNSET
+    seed: Seed | None | UnsetType = UNSET
+    effort: Effort | UnsetType = UNSET
 
 
 class Set(Command, tag="set"):
     """Set arguments by name, or settings; what is left out stays."""
 
     arguments: Annotated[dict[str, Any], Meta(max_length=200)] | None = None
-    settings: Settings | None = None
+    settings: SettingsChange | None = None
 
 
 class Run(Command, tag="run"):
@@ -111,6 +143,12 @@ class Show(Command, tag="show"):
     detail: Literal["light", "fine"] = "light"
 
 
+class ShowDifference(Command, tag="difference"):
+    """Ask where a result differs from what is wanted."""
+
+    key: Key
+
+
 class Pick(Command, tag="pick"):
     """Go on with this result."""
 
@@ -154,6 +192,7 @@ AnyCommand = (
     | Drag
     | Describe
     | Show
+    | ShowDifference
     | Pick
     | Star
     | Undo

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
@@ -14,12 +14,13 @@ Point = tuple[Length, Length, Length]
 Addresses = Annotated[list[Address], Meta(max_length=10_000)]
 Count = Annotated[int, Meta(ge=1, le=48)]
 Seed = Annotated[int, Meta(ge=0, lt=2**53)]
+Effort = Annotated[float, Meta(gt=0.0, le=64.0)]
 #: Values of choices by address, as `niwaki.search.data.Writer` writes them.
 Choices = dict[str, Any]
 
 
 class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
-    """A volume to fill: where it comes from, and how it is placed.
+    """A solid in the scene, to fill or to avoid: where it comes from, and how it is placed.
 
     Attributes
     ----------
@@ -41,6 +42,14 @@ class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
     turn: Length = 0.0
 
 
+Obstacles = Annotated[list[TargetAsk], Meta(max_length=16)]
+Light = tuple[
+    Annotated[float, Meta(ge=-1.0, le=1.0)],
+    Annotated[float, Meta(ge=-1.0, le=-0.02)],
+    Annotated[float, Meta(ge=-1.0, le=1.0)],
+]
+
+
 class Eye(Struct, frozen=True, forbid_unknown_fields=True):
     """A perspective camera; `fov` is vertical, degrees."""
 
@@ -58,7 +67,7 @@ class Stroke(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
-    """A silhouette drawn by hand, over the view of a camera.
+    """A silhouette or a shadow drawn by hand, over the view of a camera.
 
     Attributes
     ----------
@@ -66,19 +75,34 @@ class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
         Width of the picture over its height.
     camera
         What saw it; None for a drawing in the plane.
+    kind
+        What the strokes are: the scene itself as the camera sees it, or its shadow on the floor.
     """
 
     strokes: Annotated[list[Stroke], Meta(min_length=1, max_length=500)]
     aspect: Annotated[float, Meta(gt=0.1, lt=10.0)]
     camera: Eye | None = None
+    kind: Literal["silhouette", "shadow"] = "silhouette"
 
 
 class Ask(Struct, frozen=True, forbid_unknown_fields=True):
-    """What a scene should be like; with nothing in it, what the model of the gallery is usually asked."""
+    """What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked.
+
+    Attributes
+    ----------
+    floor
+        Nothing reaches below this height.
+    obstacles
+        Solids that nothing comes near.
+    light
+        The direction in which the light travels that casts a shadow.
+    """
 
     target: TargetAsk | None = None
     sketch: Sketch | None = None
     floor: Length | None = None
+    obstacles: Obstacles = []
+    light: Light = (-0.55, -1.0, -0.5)
 
 
 class Settings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -96,7 +120,7 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
 
     count: Count = 8
     seed: Seed | None = None
-    effort: Annotated[float, Meta(gt=0.0, le=64.0)] = 1.0
+    effort: Effort = 1.0
 
 
 class Key(Struct, frozen=True, forbid_unknown_fields=True):

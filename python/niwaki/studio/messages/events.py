@@ -132,12 +132,15 @@ class Shape(Event, tag="shape"):
     Attributes
     ----------
     what
-        "best" of a running search, a "result", a choice or a part that is "moving", or the "ghost" of the target.
+        "best" of a running search, a "result", a choice or a part that is "moving", the "ghost" of the target, or an "obstacle".
+    number
+        Of the obstacle.
     parts
         Addresses; the mesh has the number of its part for each triangle.
     """
 
-    what: Literal["best", "result", "moving", "ghost"] = "result"
+    what: Literal["best", "result", "moving", "ghost", "obstacle"] = "result"
+    number: int = 0
     key: Key | None = None
     detail: Literal["light", "fine"] = "light"
     vertices: int = 0
@@ -176,6 +179,27 @@ class Dragged(Event, tag="dragged"):
     share: float = 0.0
     reason: str = ""
     changes: list[Shifted] = []
+
+
+class Difference(Event, tag="difference"):
+    """The header of a frame with a byte for each cell of a target, or each pixel of a picture.
+
+    1 is wanted and filled, 2 is wanted only, 3 is filled only; x runs fastest, then y, then z. A picture has its first
+    row on top.
+
+    Attributes
+    ----------
+    size
+        Cells along x, y and z; columns, rows and 1.
+    low, high
+        Corners of the grid, or of the window of a drawing; both are the same for a picture seen by a camera.
+    """
+
+    key: Key | None = None
+    size: tuple[int, int, int] = (0, 0, 0)
+    low: Point = (0.0, 0.0, 0.0)
+    high: Point = (0.0, 0.0, 0.0)
+    is_picture: bool = False
 
 
 class Done(Event, tag="done"):

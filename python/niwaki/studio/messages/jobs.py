@@ -7,7 +7,7 @@ from typing import Any, Literal
 from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
-from niwaki.studio.messages.events import Described, Dragged, ModelInfo, Problem, Shape
+from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Problem, Shape
 
 
 class Question(Struct):
@@ -118,6 +118,14 @@ class ShowRun(Job, tag="show"):
     detail: Literal["light", "fine"]
 
 
+class FindDifference(Job, tag="difference"):
+    """Where a result differs from what is wanted."""
+
+    source: str
+    number: int
+    key: Key
+
+
 class WriteFile(Job, tag="write"):
     """Write a result as a file into a folder."""
 
@@ -129,7 +137,18 @@ class WriteFile(Job, tag="write"):
 
 
 AnyJob = (
-    ListModels | Load | Ghost | Grow | Regrow | Change | DragPart | Hold | DescribeRun | ShowRun | WriteFile
+    ListModels
+    | Load
+    | Ghost
+    | Grow
+    | Regrow
+    | Change
+    | DragPart
+    | Hold
+    | DescribeRun
+    | ShowRun
+    | FindDifference
+    | WriteFile
 )
 
 
@@ -155,4 +174,4 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described | Dragged
+AnyReport = Answer | Progressed | Shape | Described | Difference | Dragged

@@ -41,6 +41,7 @@ COMMANDS: dict[type[m.Command], Work] = {
     m.Drag: dragging.drag,
     m.Describe: showing.describe,
     m.Show: showing.show,
+    m.ShowDifference: showing.show_difference,
     m.Pick: marking.pick,
     m.Star: marking.star,
     m.Undo: marking.undo,

@@ -11,7 +11,7 @@ from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.session import reshaping
 from niwaki.studio.session.state import Refused, Session
-from niwaki.studio.window import Window
+from niwaki.studio.window import Window, newest
 
 
 async def begin(session: Session) -> None:
@@ -60,18 +60,21 @@ async def load(session: Session, keep: m.Problem | None = None) -> None:
 
 
 async def load_ghost(session: Session, window: Window | None) -> None:
-    """Show the target, or that there is none."""
+    """Show the target, or that there is none, and the obstacles."""
 
     def report(header: Any, payload: bytes) -> None:
-        found.append(frame(msgspec.json.encode(header), payload))
+        found.append((newest(header), frame(msgspec.json.encode(header), payload)))
 
-    found: list[bytes] = []
+    found: list[tuple[str, bytes]] = []
     answer = await session.desk.do(m.Ghost(question=session.question()), report)
     if answer.problem is not None and window is not None:
         window.tell(m.Failed(0, answer.problem))
-    session.ghost = found[0] if found else frame(msgspec.json.encode(m.Shape(what="ghost")))
+    if "ghost" not in dict(found):
+        found.append(("ghost", frame(msgspec.json.encode(m.Shape(what="ghost")))))
+    session.ghosts = dict(found)
     for one in session.windows:
-        one.put(session.ghost, "ghost")
+        for kind, data in found:
+            one.put(data, kind)
 
 
 async def reload(session: Session, paths: set[Path]) -> None:

@@ -1,4 +1,4 @@
-"""Choices and shapes of a result, for the window that asks."""
+"""Choices and shapes of a result, and how it differs from what is wanted, for the window that asks."""
 
 from __future__ import annotations
 
@@ -37,3 +37,14 @@ async def show(session: Session, window: Window, command: m.Show) -> m.Answer:
     if found is not None:
         window.put(found)
     return answer
+
+
+async def show_difference(session: Session, window: Window, command: m.ShowDifference) -> m.Answer:
+    """Where a result differs from what is wanted."""
+
+    def report(found: Any, payload: bytes) -> None:
+        found.id = command.id
+        window.put(frame(msgspec.json.encode(found), payload))
+
+    job = m.FindDifference(**session.source(command.key), key=command.key)
+    return await session.desk.do(job, report)

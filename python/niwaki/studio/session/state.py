@@ -54,6 +54,8 @@ class Session:
         How far the search is that runs.
     search
         Its task.
+    ghosts
+        Frames of the target and of obstacles, by kind.
     wanted
         The newest value of a choice, by the phase of its slider.
     dragged, dragging
@@ -77,7 +79,7 @@ class Session:
         self.wanted: dict[str, m.Choose] = {}
         self.dragged: m.Drag | None = None
         self.dragging = asyncio.Lock()
-        self.ghost: bytes | None = None
+        self.ghosts: dict[str, bytes] = {}
         self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
         self._told: dict[str, Any] = {}
         self._rev = 0
@@ -124,8 +126,8 @@ class Session:
         """Give a window the whole state."""
         self.windows.add(window)
         window.tell(m.State(command, session=self.journal.name, rev=self._rev, view=self.view()))
-        if self.ghost is not None:
-            window.put(self.ghost)
+        for kind, data in self.ghosts.items():
+            window.put(data, kind)
 
     def tell_all(self) -> None:
         """Send what has changed since the last time."""
@@ -210,13 +212,18 @@ class Session:
         """What a search is to find, as a worker reads it."""
         document = self.document
         ask = document.ask
-        if ask.target is not None:
-            source = self.file_of(ask.target.source) or ask.target.source
-            ask = msgspec.structs.replace(ask, target=msgspec.structs.replace(ask.target, source=source))
+        target = None if ask.target is None else self._read(ask.target)
+        ask = msgspec.structs.replace(
+            ask, target=target, obstacles=[self._read(one) for one in ask.obstacles]
+        )
         lock: dict[str, Any] = {}
         for pin in document.pins:
             lock |= pin.choices
         return m.Question(document.model or "", document.arguments, ask, document.settings, lock)
+
+    def _read(self, solid: m.TargetAsk) -> m.TargetAsk:
+        """A solid with the file that a worker reads."""
+        return msgspec.structs.replace(solid, source=self.file_of(solid.source) or solid.source)
 
     def file_of(self, source: str) -> str | None:
         """What a worker reads for a target's source; None where there is no such target."""

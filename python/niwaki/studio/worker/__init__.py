@@ -6,6 +6,7 @@
 - `jobs`     searches, parts grown again, choices changed
 - `drag`     a part that is dragged
 - `runs`     stored runs: replayed, described, shown, written
+- `differences`  where a result differs from what is wanted
 - `places`   where in the source a choice is made and a part is emitted, and how a choice's slider goes
 - `shapes`   a scene as a mesh for the page
 - `uploads`  a mesh that a user sent, read within limits

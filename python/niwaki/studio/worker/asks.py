@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, radians, sin
+from math import cos, dist, radians, sin
 from pathlib import Path
 from typing import Any
 
@@ -38,8 +38,10 @@ def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
     score, start, guide = nw.Score(), dict[str, Any](), None
     if ask.floor is not None:
         score *= nw.floor(ask.floor)
+    for obstacle in ask.obstacles:
+        score *= nw.avoid(placed(obstacle)[0])
     if ask.sketch is not None and ask.sketch.camera is not None:
-        score *= nw.match_image(mask(ask.sketch, MASK_HEIGHT), camera(ask.sketch))
+        score *= _seen(ask, ask.sketch)
     elif entry is not None and entry.draws is not None and entry.window is not None:
         score, start = _drawn(found, ask)
         guide = shipped(found.model)
@@ -77,6 +79,17 @@ def _drawn(found: ModelReference, ask: Ask) -> tuple[nw.Score, dict[str, Any]]:
     if {one for one in ("x", "y", "ahead")} <= set(found.model.core().parameters):
         start = dict(zip(("x", "y", "ahead"), drawing.place(entry.window), strict=True))
     return drawing.score(entry.window), start
+
+
+def _seen(ask: Ask, sketch: Sketch) -> nw.Score:
+    """The score of a silhouette, or of a shadow on the floor."""
+    wanted, seen_by = mask(sketch, MASK_HEIGHT), camera(sketch)
+    if sketch.kind == "silhouette":
+        return nw.match_image(wanted, seen_by)
+    # As far as the camera can see it well.
+    (x, _, z), reach = seen_by.look_at, 4.0 * dist(seen_by.position, seen_by.look_at)
+    ground = nw.Receiver.floor(ask.floor or 0.0, (x - reach, z - reach), (x + reach, z + reach))
+    return nw.match_shadow(wanted, ask.light, ground, seen_by)
 
 
 def mask(sketch: Sketch, height: int) -> NDArray[np.bool_]:

@@ -14,7 +14,7 @@ from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.search import Search
 from niwaki.shell.references import ModelReference
-from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow
+from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
 from niwaki.studio.worker import asks, models, runs, shapes
 
 #: Rounds of `improve` at effort 1: its own usual number.
@@ -24,18 +24,24 @@ REGROWN = 100
 
 
 def ghost(job: Ghost, send: Any) -> Answer:
-    """The mesh of the target."""
+    """The meshes of the target and of the obstacles."""
     found = models.reference(job.question.model)
     ask = job.question.ask
-    placed = None if ask.sketch is not None else ask.target or asks.usual(found)
-    if placed is not None:
-        target, foot = asks.placed(placed)
-        many = len(target.faces) > shapes.GHOST_TRIANGLES
-        note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
-        header, payload = shapes.ghost(target, foot, note)
-        header.id = job.id
-        send(header, payload)
+    aim = None if ask.sketch is not None else ask.target or asks.usual(found)
+    if aim is not None:
+        _solid(aim, job.id, send, what="ghost")
+    for number, obstacle in enumerate(ask.obstacles):
+        _solid(obstacle, job.id, send, what="obstacle", number=number)
     return Answer()
+
+
+def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
+    target, foot = asks.placed(ask)
+    many = len(target.faces) > shapes.GHOST_TRIANGLES
+    note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
+    described, payload = shapes.ghost(target, foot, note, **header)
+    described.id = job
+    send(described, payload)
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:

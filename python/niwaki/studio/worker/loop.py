@@ -21,7 +21,7 @@ from niwaki.errors import NiwakiError
 from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
-from niwaki.studio.worker import drag, jobs, models, runs
+from niwaki.studio.worker import differences, drag, jobs, models, runs
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -108,6 +108,8 @@ def done(job: messages.AnyJob, send: Send, stopped: Stopped) -> messages.Answer:
             return runs.describe(job, send)
         case messages.ShowRun():
             return runs.show(job, send)
+        case messages.FindDifference():
+            return differences.find(job, send)
         case messages.WriteFile():
             return runs.write(job)
 

@@ -34,15 +34,15 @@ def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tupl
     return _packed([part.address for part in scene.parts], pieces, detail=detail, **header)
 
 
-def ghost(target: Target, pivot: tuple[float, float, float], note: str = "") -> tuple[Shape, bytes]:
-    """The header and the payload of a target."""
+def ghost(
+    target: Target, pivot: tuple[float, float, float], note: str = "", **header: Any
+) -> tuple[Shape, bytes]:
+    """The header and the payload of a target or an obstacle."""
     vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
-    header, data = _packed(
-        [], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", pivot=pivot, note=note
-    )
+    described, data = _packed([], [(0, GHOST_COLOR, vertices, None, faces)], pivot=pivot, note=note, **header)
     low, high = target.bounds.tolist()
-    header.low, header.high = tuple(low), tuple(high)
-    return header, data
+    described.low, described.high = tuple(low), tuple(high)
+    return described, data
 
 
 def _fine(scene: Scene) -> list[tuple[int, Any, NDArray[Any], NDArray[Any] | None, NDArray[Any]]]:

@@ -24,7 +24,7 @@ export class Drag {
 
   /** The pointer goes down; whether it holds the selected part, and not the camera. */
   press(x: number, y: number): boolean {
-    const hit = store.tool.value === "look" && !store.isSearching.value ? this.stage.holdAt(x, y) : null;
+    const hit = store.tool.value === "look" && !store.isSearching.value ? this.stage.hitAt(x, y) : null;
     if (hit === null || hit.address !== store.part.value) return false;
     this.held = { part: hit.address, grab: hit.point, from: [x, y], isMoving: false };
     this.stage.setOrbiting(false);

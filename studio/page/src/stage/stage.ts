@@ -32,15 +32,16 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { TransformControls } from "three/addons/controls/TransformControls.js";
-import type { Eye, Shape, TargetAsk } from "../messages";
+import type { Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import { cubes, KINDS, sheet } from "./cells";
 import { frame } from "./framing";
 import { subset, unpacked } from "./meshes";
+import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
-  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16 },
-  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45 },
+  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16 },
+  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45 },
 };
 
 export class Stage {
@@ -49,24 +50,25 @@ export class Stage {
   piece: Piece | null = null;
   private readonly renderer: WebGLRenderer;
   private readonly orbit: OrbitControls;
-  private readonly handles: TransformControls;
+  readonly things: Things;
   private readonly sun = new DirectionalLight(0xfff9ef, 2.3);
   private readonly ground: Mesh;
   private readonly shape = new Group();
   private readonly marks = new Group();
-  private readonly ghost = new Group();
   private readonly line = new Group();
+  private differences = new Group();
   private ghostBox = new Box3();
+  private ask: Ask = {};
   private look = COLORS.light;
+  private theme: "light" | "dark" = "light";
   private isAsked = false;
   private isFramed = false;
-  private asked: TargetAsk | null = null;
   /** Pixels may be drawn again. */
   frames = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly onPlaced: (ask: TargetAsk) => void,
+    onPlaced: (change: AskChange) => void,
     private readonly onLook: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -87,8 +89,8 @@ export class Stage {
       this.ground,
       this.shape,
       this.marks,
-      this.ghost,
       this.line,
+      this.differences,
     );
     this.camera.position.set(14, 9, 18);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -97,15 +99,9 @@ export class Stage {
       this.draw();
       this.onLook();
     });
-    this.handles = new TransformControls(this.camera, canvas);
-    this.handles.setSpace("local");
-    this.handles.size = 0.8;
-    this.handles.addEventListener("dragging-changed", ({ value }) => {
-      this.orbit.enabled = !value;
-      if (!value) this.place();
-    });
-    this.handles.addEventListener("change", () => this.draw());
-    this.scene.add(this.handles.getHelper());
+    const dragging = (isDragging: boolean) => (this.orbit.enabled = !isDragging);
+    this.things = new Things(this.camera, canvas, onPlaced, dragging, () => this.draw());
+    this.scene.add(this.things.group, this.things.handles.getHelper());
     this.paint("light");
   }
 
@@ -129,13 +125,11 @@ export class Stage {
   }
 
   paint(theme: "light" | "dark"): void {
+    this.theme = theme;
     this.look = COLORS[theme];
     this.scene.background = new Color(this.look.paper);
     (this.ground.material as ShadowMaterial).opacity = this.look.shade;
-    this.ghost.traverse((one) => {
-      const material = (one as Mesh).material as (Material & { color: Color }) | undefined;
-      material?.color.set(this.look.ghost);
-    });
+    this.things.paint(this.look);
     this.draw();
   }
 
@@ -159,32 +153,40 @@ export class Stage {
     this.draw();
   }
 
-  /** Show the ghost of a target where it is placed. */
-  setGhost(header: Shape, payload: ArrayBuffer, ask: TargetAsk | null): void {
-    this.handles.detach();
-    clear(this.ghost);
-    this.ghostBox.makeEmpty();
-    this.asked = ask;
-    if (header.triangles > 0) {
-      const { geometry } = unpacked(header, payload);
-      const turn = ((ask?.turn ?? 0) * Math.PI) / 180;
-      const pivot = new Vector3(...header.pivot);
-      geometry.translate(-pivot.x, -pivot.y, -pivot.z).rotateY(-turn);
-      this.ghost.position.copy(pivot);
-      this.ghost.rotation.set(0, turn, 0);
-      this.ghost.scale.set(1, 1, 1);
-      const color = this.look.ghost;
-      const fill = new MeshBasicMaterial({ color, transparent: true, opacity: 0.1, depthWrite: false });
-      const line = new LineBasicMaterial({ color, transparent: true, opacity: 0.7 });
-      this.ghost.add(new Mesh(geometry, fill), new LineSegments(new EdgesGeometry(geometry, 24), line));
-      this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
+  /** Show the target or an obstacle where it is placed. */
+  setSolid(name: string, header: Shape, payload: ArrayBuffer, asked: TargetAsk | null): void {
+    this.things.setSolid(name, header, payload, asked);
+    if (kindOf(name) === "target") {
+      this.ghostBox.makeEmpty();
+      if (header.triangles > 0) this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
     this.settle();
     this.draw();
   }
 
+  /** What is asked, apart from solids: floor, light and camera. */
+  setAsk(ask: Ask): void {
+    this.ask = ask;
+    this.settle();
+    this.draw();
+  }
+
   setGhostVisible(isVisible: boolean): void {
-    this.ghost.visible = isVisible;
+    this.things.setGhostVisible(isVisible);
+    this.draw();
+  }
+
+  /** Show where the scene differs from what is wanted in its place, or the scene itself. */
+  setDifference(header: Difference | null, marks: Uint8Array): void {
+    clear(this.differences);
+    this.scene.remove(this.differences);
+    const isSeen = header?.is_picture === true && header.low[0] === header.high[0];
+    if (header !== null && !isSeen) {
+      this.differences = (header.is_picture ? sheet : cubes)(header, marks, KINDS[this.theme]);
+      this.scene.add(this.differences);
+    }
+    const hides = header !== null && !header.is_picture;
+    this.shape.visible = this.marks.visible = !hides;
     this.draw();
   }
 
@@ -225,9 +227,12 @@ export class Stage {
     if (box.isEmpty()) return;
     const middle = box.getCenter(new Vector3());
     const radius = Math.max(0.5 * box.getSize(new Vector3()).length(), 1e-3);
-    this.ground.position.set(middle.x, box.min.y - 0.002 * radius, middle.z);
+    this.things.update(this.ask, middle, radius);
+    const isOnFloor = this.ask.floor != null || this.ask.sketch?.kind === "shadow";
+    this.ground.position.set(middle.x, (isOnFloor ? (this.ask.floor ?? 0) : box.min.y) - 0.002 * radius, middle.z);
     this.ground.scale.setScalar(40 * radius);
-    this.sun.position.copy(middle).addScaledVector(new Vector3(0.55, 1.0, 0.5).normalize(), 4 * radius);
+    const light = new Vector3(...(this.ask.light ?? [-0.55, -1, -0.5])).normalize();
+    this.sun.position.copy(middle).addScaledVector(light, -4 * radius);
     this.sun.target.position.copy(middle);
     const side = 1.9 * radius;
     Object.assign(this.sun.shadow.camera, { left: -side, right: side, top: side, bottom: -side });
@@ -247,6 +252,27 @@ export class Stage {
     this.orbit.update();
     this.isFramed = true;
     this.draw();
+  }
+
+  /** A solid of unit size above what is there, where the camera sees it. */
+  above(source: string): TargetAsk {
+    const box = this.bounds();
+    if (box.isEmpty()) return { source };
+    const side = Math.max(round(box.getSize(new Vector3()).length() / 8), 1e-3);
+    const middle = box.getCenter(new Vector3());
+    return { source, move: [round(middle.x), round(box.max.y + 0.3 * side), round(middle.z)], scale: [side, side, side] };
+  }
+
+  /** The lowest height of what is there. */
+  bottom(): number {
+    const box = this.bounds();
+    return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
+  }
+
+  /** A light from behind the scene, so that its shadow falls towards the camera. */
+  lightFromBehind(): [number, number, number] {
+    const ahead = this.camera.getWorldDirection(new Vector3()).setY(0).normalize();
+    return [round(-0.6 * ahead.x - 0.25 * ahead.z), -1, round(-0.6 * ahead.z + 0.25 * ahead.x)];
   }
 
   /** The next content is looked at. */
@@ -275,40 +301,21 @@ export class Stage {
 
   // ---- handles
 
-  setHandles(mode: "translate" | "scale" | "rotate" | null): void {
-    if (mode === null || this.ghost.children.length === 0) this.handles.detach();
-    else {
-      this.handles.attach(this.ghost);
-      this.handles.setMode(mode);
-      this.handles.showX = this.handles.showZ = mode !== "rotate";
-    }
+  /** Put handles on an object of the scene, or take them away. */
+  setHandles(name: string | null, mode: Mode): void {
+    this.things.select(name, mode);
     this.draw();
   }
 
-  /** The handles were let go: the target as it now stands. */
-  private place(): void {
-    const ask = this.asked;
-    if (ask === null) return;
-    const { position, rotation, scale } = this.ghost;
-    const was = ask.scale ?? [1, 1, 1];
-    const moved = ask.move ?? [0, 0, 0];
-    const from = this.pivot;
-    this.onPlaced({
-      source: ask.source,
-      move: [
-        round(moved[0] + position.x - from.x),
-        round(moved[1] + position.y - from.y),
-        round(moved[2] + position.z - from.z),
-      ],
-      scale: [
-        round(Math.max(was[0] * scale.x, 1e-3)),
-        round(Math.max(was[1] * scale.y, 1e-3)),
-        round(Math.max(was[2] * scale.z, 1e-3)),
-      ],
-      turn: round((rotation.y * 180) / Math.PI),
-    });
+  /** Where the handles are seen, in CSS pixels. */
+  handlePoint(): [number, number] | null {
+    const at = this.things.at?.clone().project(this.camera);
+    return at == null ? null : this.pixel(at);
   }
-  pivot = new Vector3();
+
+  private pixel(at: Vector3): [number, number] {
+    return [((at.x + 1) / 2) * this.canvas.clientWidth, ((1 - at.y) / 2) * this.canvas.clientHeight];
+  }
 
   // ---- picking
 
@@ -317,26 +324,14 @@ export class Stage {
     return this.hitAt(x, y)?.address ?? null;
   }
 
-  private hitAt(x: number, y: number): { address: string; point: Vector3 } | null {
+  /** The part under a point of the canvas, and the point of the part that is seen there. */
+  hitAt(x: number, y: number): { address: string; point: Vector3 } | null {
     const mesh = this.shape.children[0];
     if (this.piece === null || mesh === undefined) return null;
-    const hit = this.rayTo(x, y).intersectObject(mesh, false)[0];
+    const hit = this.ray(x, y).intersectObject(mesh, false)[0];
     if (hit?.faceIndex == null) return null;
     const address = this.piece.header.parts[this.piece.owners[hit.faceIndex]];
     return address === undefined ? null : { address, point: hit.point };
-  }
-
-  private rayTo(x: number, y: number): Raycaster {
-    const { clientWidth, clientHeight } = this.canvas;
-    const ray = new Raycaster();
-    ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
-    return ray;
-  }
-
-  /** The part under a point of the canvas, and the point of the part that is seen there. */
-  holdAt(x: number, y: number): { address: string; point: Vector3 } | null {
-    const hit = this.hitAt(x, y);
-    return hit && { address: hit.address, point: hit.point };
   }
 
   /** The direction in which the camera looks at a point. */
@@ -348,7 +343,7 @@ export class Stage {
   across(x: number, y: number, point: Vector3): Vector3 {
     const facing = this.camera.getWorldDirection(new Vector3());
     const plane = new Plane().setFromNormalAndCoplanarPoint(facing, point);
-    return this.rayTo(x, y).ray.intersectPlane(plane, new Vector3()) ?? point.clone();
+    return this.ray(x, y).ray.intersectPlane(plane, new Vector3()) ?? point.clone();
   }
 
   /** A line from where a dragged part is to where it should be; none without points. */
@@ -366,6 +361,18 @@ export class Stage {
     this.draw();
   }
 
+  /** The obstacle, light or camera under a point of the canvas. */
+  thingAt(x: number, y: number): string | null {
+    return this.things.hit(this.ray(x, y));
+  }
+
+  private ray(x: number, y: number): Raycaster {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    return ray;
+  }
+
   /** Where a part is seen, in CSS pixels: a point that `partAt` answers with it. */
   pointOf(address: string): [number, number] | null {
     const piece = this.piece;
@@ -379,15 +386,14 @@ export class Stage {
       point.set(0, 0, 0);
       for (let c = 0; c < 3; c++) point.add(new Vector3().fromBufferAttribute(at, corners[3 * k + c]));
       point.divideScalar(3).project(this.camera);
-      const x = ((point.x + 1) / 2) * this.canvas.clientWidth;
-      const y = ((1 - point.y) / 2) * this.canvas.clientHeight;
+      const [x, y] = this.pixel(point);
       if (this.partAt(x, y) === address) return [x, y];
     }
     return null;
   }
 }
 
-const round = (value: number): number => Math.round(value * 1e4) / 1e4;
+const round = (value: number): number => Math.round(value * 1e3) / 1e3;
 
 /** A geometry with the vertices of its own triangles only, for edges. */
 function compact(geometry: BufferGeometry): BufferGeometry {

@@ -42,6 +42,15 @@ export function Bar({ onFit }: { onFit: () => void }) {
         </button>
         <button
           class="icon-button"
+          title="Difference to what is wanted (X)"
+          aria-pressed={store.showDifference.value}
+          disabled={store.picked.value === null}
+          onClick={() => (store.showDifference.value = !store.showDifference.value)}
+        >
+          <Icon name="difference" />
+        </button>
+        <button
+          class="icon-button"
           title="Draw a silhouette to grow into (D)"
           aria-pressed={store.tool.value === "draw"}
           onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}

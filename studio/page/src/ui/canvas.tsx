@@ -8,22 +8,22 @@ import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
 import * as store from "../store";
 import { shapeOf } from "./gallery";
+import { Legend } from "./difference";
 import { Icon } from "./icons";
 import { Pen } from "./pen";
-import { currentTarget } from "./setup";
 
 export let stage: Stage;
 export let drag: Drag;
 /** What is on the stage: of tests and of the page itself. */
 export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
 
-export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" | null }) {
+export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
   const holder = useRef<HTMLDivElement>(null);
   useEffect(() => {
     stage = new Stage(
       canvas.current!,
-      (target) => void store.tell({ kind: "ask", ask: { target } }),
+      store.ask,
       () => (store.eye.value = stage.eye()),
     );
     drag = new Drag(stage);
@@ -31,7 +31,6 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
     watch.observe(holder.current!);
     follow();
   }, []);
-  useEffect(() => stage?.setHandles(handles), [handles]);
 
   const down = useRef<[number, number] | null>(null);
   const at = (event: PointerEvent): [number, number] => [event.offsetX, event.offsetY];
@@ -54,10 +53,11 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
           const from = down.current;
           const to = at(event);
           if (drag.release(event.shiftKey)) return;
-          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) store.select(stage.partAt(...to));
+          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) clicked(...to);
         }}
       />
       <Pen />
+      <Legend />
       <Problem />
       <Notices />
       {store.quiet.value !== "" && (
@@ -67,6 +67,14 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
       )}
     </main>
   );
+}
+
+function clicked(x: number, y: number): void {
+  const part = stage.partAt(x, y);
+  const name = part === null ? stage.thingAt(x, y) : null;
+  store.select(part);
+  if (name !== null) store.thing.value = { name, mode: "translate" };
+  else if (part === null) store.thing.value = null;
 }
 
 function Problem() {
@@ -100,9 +108,10 @@ function Notices() {
 function follow(): void {
   store.onShape((shape, payload) => {
     if (shape.what === "ghost") {
-      stage.pivot.set(...shape.pivot);
-      stage.setGhost(shape, payload, currentTarget());
+      stage.setSolid("target", shape, payload, store.target.value);
       if (shape.note) store.note(shape.note);
+    } else if (shape.what === "obstacle") {
+      stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);
     } else if (shape.what === "best" || shape.what === "moving") {
       put(shape, payload);
       drag.shown(shape);
@@ -162,6 +171,25 @@ function follow(): void {
     void [store.level.value, store.hovered.value, store.pinned.value, store.part.value];
     remark();
   });
+  effect(() => {
+    if (store.view.value !== null) stage.setAsk(store.view.value.ask);
+  });
+  // The difference of the picked result, asked for when it is looked at.
+  let asked = "";
+  effect(() => {
+    const key = store.isSearching.value || !store.showDifference.value ? null : store.picked.value;
+    const name = key === null ? "" : store.nameOf(key);
+    if (name === asked) return;
+    asked = name;
+    store.difference.value = null;
+    if (key !== null) void store.tell({ kind: "difference", key });
+  });
+  effect(() => {
+    void store.theme.value;
+    const found = store.showDifference.value ? store.difference.value : null;
+    stage.setDifference(found?.header ?? null, found?.marks ?? new Uint8Array());
+  });
+  effect(() => stage.setHandles(store.thing.value?.name ?? null, store.thing.value?.mode ?? "translate"));
   effect(() => stage.setGhostVisible(store.showGhost.value));
   effect(() => {
     document.documentElement.dataset.theme = store.theme.value;

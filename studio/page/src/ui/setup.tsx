@@ -1,23 +1,12 @@
 // The left side: the model and its arguments, what to grow into, how to search.
 
 import { useRef } from "preact/hooks";
-import type { Parameter, Settings, TargetAsk } from "../messages";
+import type { Parameter, Settings } from "../messages";
 import * as store from "../store";
 import { Icon } from "./icons";
+import { Handles, Objects, title } from "./objects";
 
-const title = (name: string): string => {
-  const bare = name.replace(/^.*\//, "").replace("gallery:", "").replace(/_/g, " ");
-  return bare.startsWith("upload:") ? "your mesh" : bare;
-};
-
-/** The target as it is asked, or the model's usual one. */
-export function currentTarget(): TargetAsk | null {
-  const view = store.view.value;
-  if (view === null || view.ask.sketch != null) return null;
-  return view.ask.target ?? (view.model?.target ? { source: view.model.target } : null);
-}
-
-export function Setup({ handles, setHandles }: { handles: string | null; setHandles: (mode: any) => void }) {
+export function Setup() {
   const view = store.view.value;
   if (view === null) return <aside class="side" aria-label="Model and target" />;
   return (
@@ -42,7 +31,8 @@ export function Setup({ handles, setHandles }: { handles: string | null; setHand
             <Argument key={one.name} parameter={one} />
           ))}
       </section>
-      <Target handles={handles} setHandles={setHandles} />
+      <Target />
+      <Objects />
       <Search settings={view.settings} />
     </aside>
   );
@@ -81,11 +71,11 @@ function Argument({ parameter }: { parameter: Parameter }) {
   );
 }
 
-function Target({ handles, setHandles }: { handles: string | null; setHandles: (mode: any) => void }) {
+function Target() {
   const view = store.view.value!;
   const input = useRef<HTMLInputElement>(null);
-  const target = currentTarget();
-  const place = (source: string) => void store.tell({ kind: "ask", ask: { target: { source } } });
+  const target = store.target.value;
+  const place = (source: string) => store.ask({ target: { source } });
   const isSketched = view.ask.sketch != null;
   const own = target?.source.startsWith("upload:") ? [target.source] : [];
   return (
@@ -93,8 +83,8 @@ function Target({ handles, setHandles }: { handles: string | null; setHandles: (
       <h2>Grow into</h2>
       {isSketched ? (
         <div class="group">
-          <span>What you drew</span>
-          <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+          <span>{view.ask.sketch?.kind === "shadow" ? "The shadow you drew" : "What you drew"}</span>
+          <button class="text-button" onClick={() => store.ask({ sketch: null })}>
             clear
           </button>
         </div>
@@ -126,24 +116,9 @@ function Target({ handles, setHandles }: { handles: string | null; setHandles: (
       )}
       {target !== null && (
         <div class="group" role="group" aria-label="Place the target">
-          {(
-            [
-              ["translate", "Move"],
-              ["scale", "Scale"],
-              ["rotate", "Turn"],
-            ] as const
-          ).map(([mode, name]) => (
-            <button
-              key={mode}
-              class="button small"
-              aria-pressed={handles === mode}
-              onClick={() => setHandles(handles === mode ? null : mode)}
-            >
-              {name}
-            </button>
-          ))}
+          <Handles name="target" />
           {view.ask.target != null && (
-            <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+            <button class="text-button" onClick={() => store.ask({ target: null })}>
               reset
             </button>
           )}
@@ -170,9 +145,9 @@ function Target({ handles, setHandles }: { handles: string | null; setHandles: (
 
 function Search({ settings }: { settings: Settings }) {
   const view = store.view.value!;
-  const set = (changes: Settings) => void store.tell({ kind: "set", settings: { ...settings, ...changes } });
+  const { set } = store;
   const running = view.searching;
-  const cannot = view.model === null || (view.model.draws === null && currentTarget() === null && !view.ask.sketch);
+  const cannot = view.model === null || (view.model.draws === null && store.target.value === null && !view.ask.sketch);
   return (
     <section>
       <h2>Search</h2>

@@ -1,0 +1,107 @@
+"""What tests do with the studio's page, and how long it takes.
+
+Times are of a software renderer, and are printed; where `NIWAKI_TIMES` is set (two quiet cores) none may be more than
+twice its limit.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+
+#: Where pictures and times go.
+OUT = Path("out/studio")
+
+#: Seconds, from facts that were measured on people: 0.1 feels direct, 1 keeps the thought.
+LIMITS = {
+    "model": 0.3,
+    "first shape": 0.3,
+    "gallery": 3.0,
+    "part": 0.1,
+    "pin": 0.1,
+    "re-roll": 0.5,
+    "undo": 0.1,
+    "drag": 0.2,
+    "refit": 2.0,
+    "stroke": 0.1,
+    "error": 0.5,
+    "mended": 0.5,
+    "difference": 0.1,
+    "export": 2.0,
+}
+times: dict[str, float] = {}
+
+
+class timed:
+    """The time of a step of a journey."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __enter__(self):
+        """Begin."""
+        self.begun = time.perf_counter()
+
+    def __exit__(self, kind, *_):
+        """End."""
+        if kind is None:
+            times[self.name] = time.perf_counter() - self.begun
+
+
+def until(page, expression):
+    """Wait until an expression of the page holds."""
+    page.wait_for_function(expression, polling=10)
+
+
+def picture(page, name):
+    """A screenshot, to be looked at."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    page.wait_for_timeout(500)
+    page.screenshot(path=OUT / f"{name}.png")
+
+
+def choose(page, reference, count=3, seed=1):
+    """Choose a model, how many results and the seed."""
+    page.select_option("select[aria-label=Model]", reference)
+    until(page, f"window.__studio.view.model.reference == {json.dumps(reference)}")
+    slider = page.get_by_role("slider", name="results")
+    slider.fill(str(count))
+    page.locator("input[placeholder='another each time']").fill(str(seed))
+    page.locator("input[placeholder='another each time']").blur()
+    until(
+        page,
+        f"window.__studio.view.settings.count == {count} && window.__studio.view.settings.seed == {seed}",
+    )
+
+
+def grow(page):
+    """Press Grow, and wait for its end."""
+    runs = page.evaluate("window.__studio.view.picked?.run ?? -1")
+    page.locator("button.primary").click()
+    until(page, f"!window.__studio.view.searching && (window.__studio.view.picked?.run ?? -1) != {runs}")
+
+
+def at_rest(page):
+    """Wait for the fine shape and its choices."""
+    until(page, "window.__studio.shown.detail == 'fine' && window.__studio.described")
+
+
+def click_part(page, address):
+    """Click where a part is seen."""
+    box = page.locator("main.stage").bounding_box()
+    x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
+    page.mouse.click(box["x"] + x, box["y"] + y)
+
+
+def visible(page, word):
+    """The address of a part that is seen, with this word in it."""
+    found = "window.__studio.shown.parts.find(one => one.includes(%s) && window.__studio.pointOf(one))"
+    return page.evaluate(found % json.dumps(word))
+
+
+def camera(page):
+    """Where the camera stands."""
+    return np.array(page.evaluate("window.__studio.camera"))
