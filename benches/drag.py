@@ -1,8 +1,8 @@
 """How often a part that is dragged arrives, and how long that takes: `python benches/drag.py [DRAGS]`.
 
-Random drags of random parts of five gallery models: each to a point at most a tenth of the scene away, in the plane that
-faces the camera of our pictures. "pointer": what counts is where the part is seen; "point": the depth counts, too. A
-quarter of the choices is held in every drag, and must not move. A drag arrives within 1 % of the scene's size, or is
+Random drags of random parts of five gallery models: each to a point at most a tenth of the scene away, in the plane
+that faces the camera of our pictures. "pointer": what counts is where the part is seen; "point": the depth counts, too.
+A quarter of the choices is held in every drag, and must not move. A drag arrives within 1 % of the scene's size, or is
 refused with a reason.
 """
 

@@ -4,6 +4,9 @@
 //! plus a sum of three directions that the shape was made with (`niwaki_vm::builtins::shapes`), so a point fixed to a
 //! shape moves, turns and stretches with it. Its derivatives are three reverse sweeps over the recorded graph. Factors,
 //! observations and scores of the scene are not looked at: an impossible run has positions, too.
+//!
+//! Where numbers of the program may move, a choice whose distribution they change keeps its place in it: so many
+//! deviations from the mean, or its share of the way between two bounds.
 
 use crate::graph::{Graph, Id};
 use crate::operation::Op;
@@ -53,6 +56,8 @@ pub struct Positions {
     pub movables: Vec<Movable>,
     /// The parts of the scene: their readable addresses, and their shapes.
     pub parts: Vec<(String, Vec<Framed>)>,
+    /// Choices that keep their place in a distribution that inputs change: their addresses and values.
+    followed: Vec<(u128, Id)>,
     graph: Graph,
 }
 
@@ -81,6 +86,7 @@ struct Placer<'a> {
     run: &'a Placed<'a>,
     movables: Vec<Movable>,
     parts: Vec<(String, Vec<Vec<Var>>)>,
+    followed: Vec<(u128, Var)>,
 }
 
 /// Records the positions of a run.
@@ -88,7 +94,7 @@ struct Placer<'a> {
 /// # Errors
 /// A missing choice, or a fault of the program.
 pub fn positions(run: &Placed<'_>) -> Result<Positions, Box<RunFault>> {
-    let mut placer = Placer { run, movables: run.inputs.clone(), parts: vec![] };
+    let mut placer = Placer { run, movables: run.inputs.clone(), parts: vec![], followed: vec![] };
     let (finished, sheet) = with_notes(|| {
         let inputs: Vec<Var> = run.inputs.iter().map(|input| Var::input(input.value)).collect();
         let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
@@ -107,7 +113,8 @@ pub fn positions(run: &Placed<'_>) -> Result<Positions, Box<RunFault>> {
     };
     let parts = placer.parts.into_iter();
     let parts = parts.map(|(path, shapes)| (path, shapes.into_iter().map(&mut framed).collect())).collect();
-    Ok(Positions { movables: placer.movables, parts, graph })
+    let followed = placer.followed.into_iter().map(|(address, x)| (address, x.id(&mut graph))).collect();
+    Ok(Positions { movables: placer.movables, parts, followed, graph })
 }
 
 impl Placer<'_> {
@@ -132,6 +139,18 @@ impl Placer<'_> {
     }
 }
 
+/// The value with the place in its distribution that `x` has in the recorded one; `None` for families without one.
+fn keeping_its_place(dist: &Dist<Var>, x: f64) -> Option<Var> {
+    let c = Var::from_f64;
+    let scaled = |from: Var, by: Var| from + c((x - from.value()) / by.value()) * by;
+    match dist {
+        Dist::Gaussian { mean, sd } => Some(scaled(*mean, *sd)),
+        Dist::Laplace { loc, scale } => Some(scaled(*loc, *scale)),
+        Dist::Uniform { lo, hi } => Some(scaled(*lo, *hi - *lo)),
+        _ => None,
+    }
+}
+
 impl Answers<Var> for Placer<'_> {
     fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
         if let Dist::Delta(value) = dist {
@@ -150,6 +169,12 @@ impl Answers<Var> for Placer<'_> {
             && let Some(moving) = self.moving(at, dist, x)
         {
             return Ok(Answer::Go(Value::Real(moving)));
+        }
+        if let Draw::Real(x) = draw
+            && let Some(same) = keeping_its_place(dist, x).filter(|same| same.varies())
+        {
+            self.followed.push((at.address(), same));
+            return Ok(Answer::Go(Value::Real(same.at(x))));
         }
         Ok(Answer::Go(draw_to_value(draw.convert(&Var::from_f64))))
     }
@@ -205,11 +230,25 @@ impl Positions {
         Some(self.numbers(&graph, &rows))
     }
 
+    /// The values of the choices that keep their places, by address, where the movables have the values `x`.
+    ///
+    /// # Panics
+    /// When there is not one number for each movable.
+    pub fn followed(&self, x: &[f64]) -> HashMap<u128, f64> {
+        let nodes: Vec<Id> = self.followed.iter().map(|(_, id)| *id).collect();
+        let addresses = self.followed.iter().map(|(address, _)| *address);
+        addresses.zip(numbers(&self.graph, &nodes, x)).collect()
+    }
+
     /// Numbers of nodes in the run.
     fn numbers(&self, graph: &Graph, nodes: &[Id]) -> Vec<f64> {
-        let tape = Tape::of(graph, nodes, &[]);
-        let mut lanes: Lanes<1> = tape.lanes();
         let x: Vec<f64> = self.movables.iter().map(|one| one.value).collect();
-        lanes.outputs(&tape, &x).to_vec()
+        numbers(graph, nodes, &x)
     }
+}
+
+fn numbers(graph: &Graph, nodes: &[Id], x: &[f64]) -> Vec<f64> {
+    let tape = Tape::of(graph, nodes, &[]);
+    let mut lanes: Lanes<1> = tape.lanes();
+    lanes.outputs(&tape, x)
 }

@@ -86,6 +86,19 @@ impl PyPositions {
         PyArray1::from_vec(py, numbers).reshape([all.len(), 4])
     }
 
+    /// The values, by address, of choices that keep their places in distributions that arguments or constants change, where
+    /// what may move has the values ``x``.
+    fn followed(&self, py: Python<'_>, x: Vec<f64>) -> PyResult<HashMap<u128, f64>> {
+        if x.len() != self.positions.movables.len() {
+            return Err(PyIndexError::new_err(format!(
+                "{} numbers for {}",
+                x.len(),
+                self.positions.movables.len()
+            )));
+        }
+        Ok(py.detach(|| self.positions.followed(&x)))
+    }
+
     /// The parts of the scene: their readable addresses, and the number of their shapes.
     #[getter]
     fn parts(&self) -> Vec<(String, usize)> {

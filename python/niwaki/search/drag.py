@@ -1,7 +1,7 @@
 """Dragging a part of a run to a point: the choices above it are moved by the derivatives of its position.
 
-The position of a point fixed to a part is a function of the real choices that the part depends on; the engine records it
-with its derivatives (`crates/grad/src/positions.rs`). Each answer is a damped Gauss-Newton descent (Levenberg 1944,
+The position of a point fixed to a part is a function of the real choices that the part depends on; the engine records
+it with its derivatives (`crates/grad/src/positions.rs`). Each answer is a damped Gauss-Newton descent (Levenberg 1944,
 Marquardt 1963) to
 
     argmin  |position(x) - to|^2 + damping |z|^2,    z = (x - start) / spread,
@@ -27,6 +27,7 @@ from niwaki.errors import InputError
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample, Watch, parts
+from niwaki.search.source import NEAR, SourceChange, explained
 from niwaki.targets.sketches import Score
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ if TYPE_CHECKING:
 Vector = NDArray[np.float64]
 Point = Sequence[float]
 
-#: A part is there when what is left is less than this share of the scene's size.
-NEAR = 0.01
 #: A descent ends at this share.
 DONE = 1e-4
 #: Steps of a descent at most, and the longest first one, in deviations of the priors.
@@ -69,8 +68,8 @@ class Dragged:
     distance, share : float
         What is left to the point: scene units, and as a share of the scene's size.
     kind : str
-        What was allowed to change: "least" all choices, "fewest" as few as possible, "own" those of the part's own call,
-        "outermost" those of the model itself, "structure" discrete choices, too.
+        What was allowed to change: "least" all choices, "fewest" the three that move it most, "own" those of the part's
+        own call, "outermost" those of the model itself, "structure" discrete choices, too.
     part : str
         The address of the part that is there.
     holds : dict
@@ -232,6 +231,13 @@ class Dragging:
         )
         self._warm: dict[int, float] = {}
 
+    def source(self, point: Point, most: int = 3) -> list[SourceChange]:
+        """The changes of the model's file that take the part to a point, those that change it least first.
+
+        There are none for a model without a file of its own, such as those of the gallery.
+        """
+        return explained(self, _point("to", point), most)
+
     # ---- what is held, and what may move
 
     def _gripped(self, part: str, grab: Point | None) -> list[tuple[int, int, Vector, Any]]:
@@ -261,8 +267,10 @@ class Dragging:
         return found
 
     def _grip(self, grab: Vector | None, to: Vector | None) -> Grip:
-        """The point that is held: `grab`, fixed to the shape that it is nearest to; without it the middle of the shape
-        that is nearest to where it should go.
+        """The point that is held.
+
+        It is `grab`, fixed to the shape that it is nearest to; without it the middle of the shape that is nearest to
+        where it should go.
         """
         goal = to if grab is None else grab
 
@@ -442,7 +450,7 @@ class Dragging:
     def _branched(
         self, goal: Vector, state: State, names: set[str], branches: int, error: float
     ) -> State | None:
-        """The descent from a run with other choices, where the part is nearer in it; those that are missing are drawn."""
+        """The descent from a run with other choices, where the part is nearer in it; missing ones are drawn."""
         try:
             trace = self._replayed(self.task, state, self.search.seed)
         except _engine.EngineFault:
@@ -567,7 +575,8 @@ class Dragging:
 
     def _too_far(self, goal: Vector, state: State) -> str:
         part = state.switched.get("", self.grip.part)
-        left = f"the nearest that `{part}` can come is {state.error:.3g} away ({state.error / self.size:.1%} of the scene)"
+        share = f"{state.error / self.size:.1%} of the scene"
+        left = f"the nearest that `{part}` can come is {state.error:.3g} away ({share})"
         here = self.place(state, part, self._movable(state))
         assert here is not None
         low, high = _bounds(here.ranges)

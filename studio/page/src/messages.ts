@@ -132,6 +132,13 @@ export interface Drag {
   id?: number;
 }
 
+/** Write a change of the model's file that the last drag has offered; the difference is the one that was shown. */
+export interface Rewrite {
+  kind: "rewrite";
+  difference: string;
+  id?: number;
+}
+
 /** One result: the number of its run, and its place there. */
 export interface Key {
   run: number;
@@ -359,6 +366,13 @@ export interface Shifted {
   after: any;
 }
 
+/** A change of the model's file that explains a drag. */
+export interface Offer {
+  says: string;
+  difference: string;
+  is_instead: boolean;
+}
+
 /** The end of a drag: what has changed in the first answer; or why the part is not there. */
 export interface Dragged {
   kind: "dragged";
@@ -367,6 +381,7 @@ export interface Dragged {
   share: number;
   reason: string;
   changes: Shifted[];
+  offers: Offer[];
 }
 
 /** The header of a frame with a byte for each cell of a target, or each pixel of a picture. */
@@ -414,6 +429,7 @@ export type Command =
   | Reroll
   | Choose
   | Drag
+  | Rewrite
   | Describe
   | Show
   | ShowDifference

@@ -1,4 +1,4 @@
-"""A part that is dragged through the studio: what moves is shown, what is pinned stays, the end is a result or a reason."""
+"""A part that is dragged through the studio: it is shown as it moves; at the end there is a result or a reason."""
 
 from __future__ import annotations
 

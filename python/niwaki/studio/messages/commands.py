@@ -130,6 +130,12 @@ class Drag(Command, tag="drag"):
     follow: bool = False
 
 
+class Rewrite(Command, tag="rewrite"):
+    """Write a change of the model's file that the last drag has offered; the difference is the one that was shown."""
+
+    difference: Annotated[str, Meta(max_length=200_000)]
+
+
 class Describe(Command, tag="describe"):
     """Ask for the choices of a result, with places in the source."""
 
@@ -190,6 +196,7 @@ AnyCommand = (
     | Reroll
     | Choose
     | Drag
+    | Rewrite
     | Describe
     | Show
     | ShowDifference

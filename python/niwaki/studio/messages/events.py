@@ -132,7 +132,8 @@ class Shape(Event, tag="shape"):
     Attributes
     ----------
     what
-        "best" of a running search, a "result", a choice or a part that is "moving", the "ghost" of the target, or an "obstacle".
+        "best" of a running search, a "result", a choice or a part that is "moving", the "ghost" of the target, or an
+        "obstacle".
     number
         Of the obstacle.
     parts
@@ -166,6 +167,22 @@ class Shifted(Struct):
     after: Any
 
 
+class Offer(Struct):
+    """A change of the model's file that explains a drag.
+
+    Attributes
+    ----------
+    difference
+        The change as a unified difference.
+    is_instead
+        Whether it takes the place of the changed choices; else they change with it.
+    """
+
+    says: str
+    difference: str
+    is_instead: bool = True
+
+
 class Dragged(Event, tag="dragged"):
     """The end of a drag: what has changed in the first answer; or why the part is not there.
 
@@ -179,6 +196,7 @@ class Dragged(Event, tag="dragged"):
     share: float = 0.0
     reason: str = ""
     changes: list[Shifted] = []
+    offers: list[Offer] = []
 
 
 class Difference(Event, tag="difference"):

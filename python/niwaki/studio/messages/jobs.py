@@ -92,6 +92,12 @@ class DragPart(Job, tag="drag"):
     file: str = ""
 
 
+class RewriteFile(Job, tag="rewrite"):
+    """Write a change that the last drag has offered."""
+
+    difference: str
+
+
 class Hold(Job, tag="hold"):
     """The choices that hold these parts of a result."""
 
@@ -144,6 +150,7 @@ AnyJob = (
     | Regrow
     | Change
     | DragPart
+    | RewriteFile
     | Hold
     | DescribeRun
     | ShowRun

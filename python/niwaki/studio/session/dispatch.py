@@ -39,6 +39,7 @@ COMMANDS: dict[type[m.Command], Work] = {
     m.Reroll: reshaping.reroll,
     m.Choose: reshaping.choose,
     m.Drag: dragging.drag,
+    m.Rewrite: dragging.rewrite,
     m.Describe: showing.describe,
     m.Show: showing.show,
     m.ShowDifference: showing.show_difference,

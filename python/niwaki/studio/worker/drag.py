@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+from niwaki.errors import InputError
 from niwaki.result import Result
 from niwaki.search.data import Writer
 from niwaki.search.drag import Dragging
-from niwaki.studio.messages import Answer, Dragged, DragPart, Key, Pin, Shifted
+from niwaki.search.source import SourceChange
+from niwaki.studio.messages import Answer, Dragged, DragPart, Key, Offer, Pin, RewriteFile, Shifted
 from niwaki.studio.worker import jobs, models, runs, shapes
 
 #: The drag that goes on, with what it began with: of a pointer that moves only the first command prepares it.
 _going: list[tuple[Any, Dragging]] = []
+#: The changes of the model's file that the last drag has offered.
+_offered: list[SourceChange] = []
 
 
 def drag(job: DragPart, send: Any) -> Answer:
@@ -19,7 +23,6 @@ def drag(job: DragPart, send: Any) -> Answer:
     dragging = _dragging(job)
     if not job.file:
         moved = dragging.move(job.to)
-        note = moved.reason
         header, payload = shapes.shape(
             moved.scene,
             "light",
@@ -29,18 +32,21 @@ def drag(job: DragPart, send: Any) -> Answer:
             is_flat=runs.is_flat(dragging.sample),
             held=moved.point,
             left=moved.share,
-            note=note,
+            note=moved.reason,
         )
         send(header, payload)
         return Answer()
     found = dragging.to(job.to)
     best = found.best
     _going.clear()
+    _offered[:] = dragging.source(job.to)
+    offers = [Offer(one.says, one.difference(), not one.choices) for one in _offered]
     if best is None or best.sample.cause is not None:
-        send(Dragged(job.id, job.part, 1.0 if best is None else best.share, found.reason))
+        share = 1.0 if best is None else best.share
+        send(Dragged(job.id, job.part, share, found.reason, offers=offers))
         return Answer()
     changes = [Shifted(name, runs.shown(a), runs.shown(b)) for name, (a, b) in best.changed.items()]
-    send(Dragged(job.id, best.part, best.share, found.reason, changes))
+    send(Dragged(job.id, best.part, best.share, found.reason, changes, offers))
     samples = [one.sample for one in found.answers] or [best.sample]
     result = Result(dragging.search, samples, dragging.search.seed)
     outcomes = runs.store(result, models.reference(job.question.model), job.run, job.file, "drag")
@@ -50,6 +56,15 @@ def drag(job: DragPart, send: Any) -> Answer:
     return Answer(
         outcomes=outcomes, pins=[Pin(best.part, {name: write(value) for name, value in best.holds.items()})]
     )
+
+
+def rewrite(job: RewriteFile) -> Answer:
+    """Write a change of the model's file."""
+    for one in _offered:
+        if one.difference() == job.difference:
+            one.apply()
+            return Answer()
+    raise InputError("nothing-offered")
 
 
 def _dragging(job: DragPart) -> Dragging:

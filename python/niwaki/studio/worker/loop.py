@@ -102,6 +102,8 @@ def done(job: messages.AnyJob, send: Send, stopped: Stopped) -> messages.Answer:
             return jobs.change(job, send)
         case messages.DragPart():
             return drag.drag(job, send)
+        case messages.RewriteFile():
+            return drag.rewrite(job)
         case messages.Hold():
             return runs.hold(job)
         case messages.DescribeRun():

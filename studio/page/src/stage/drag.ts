@@ -26,6 +26,7 @@ export class Drag {
   press(x: number, y: number): boolean {
     const hit = store.tool.value === "look" && !store.isSearching.value ? this.stage.hitAt(x, y) : null;
     if (hit === null || hit.address !== store.part.value) return false;
+    store.offers.value = [];
     this.held = { part: hit.address, grab: hit.point, from: [x, y], isMoving: false };
     this.stage.setOrbiting(false);
     return true;
@@ -69,6 +70,8 @@ export class Drag {
   private async end(isFollowed: boolean): Promise<void> {
     const answer = await this.tell("end", isFollowed);
     const found = answer?.kind === "dragged" ? answer : null;
+    store.offers.value = found?.offers ?? [];
+    store.hasDragged.value = (found?.changes.length ?? 0) > 0;
     if (found === null || found.reason !== "") {
       if (found !== null) store.note(found.reason);
       if (found === null || found.changes.length === 0) back();

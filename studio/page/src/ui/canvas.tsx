@@ -10,6 +10,7 @@ import * as store from "../store";
 import { shapeOf } from "./gallery";
 import { Legend } from "./difference";
 import { Icon } from "./icons";
+import { Offers } from "./offers";
 import { Pen } from "./pen";
 
 export let stage: Stage;
@@ -60,6 +61,7 @@ export function Canvas() {
       <Legend />
       <Problem />
       <Notices />
+      <Offers />
       {store.quiet.value !== "" && (
         <p class="reason" role="status">
           {store.quiet.value}
