@@ -1,9 +1,9 @@
 """How often a part that is dragged arrives, and how long that takes: `python benches/drag.py [DRAGS]`.
 
 Random drags of random parts of five gallery models: each to a point at most a tenth of the scene away, in the plane
-that faces the camera of our pictures. "pointer": what counts is where the part is seen; "point": the depth counts, too.
-A quarter of the choices is held in every drag, and must not move. A drag arrives within 1 % of the scene's size, or is
-refused with a reason.
+that faces the camera of our pictures. "pointer": what counts is where the part is seen; "point": the depth counts,
+too. A quarter of the choices is held in every drag, and must not move. A drag arrives within 1 % of the scene's size,
+or is refused with a reason.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 from niwaki.gallery import entry as find
-from niwaki.search.drag import NEAR, Drag, Dragging
+from niwaki.search.drag import Drag, Dragging
+from niwaki.search.source import NEAR
 
 #: The models, and how a run of each is searched for.
 MODELS = ("simple-ship", "spaceship", "building", "gnarly-tree", "niwaki-tree")
@@ -55,6 +56,7 @@ def main(drags: int) -> None:
 def grown(name: str) -> Any:
     """The best of a short search."""
     entry = find(name)
+    assert entry is not None
     target = entry.target()
     return nw.grow(entry.model, target, voxel=entry.voxel, particles=entry.particles, seed=1).best
 

@@ -430,8 +430,8 @@ class Placer:
         self,
         values: Mapping[int, float],
         free: set[int],
-        arguments: Mapping[int, float] = {},
-        constants: Mapping[int, float] = {},
+        arguments: Mapping[int, float] = ...,
+        constants: Mapping[int, float] = ...,
     ) -> Positions: ...
 
 @final

@@ -19,8 +19,7 @@ from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
     from niwaki import Result
-    from niwaki.search import Search
-    from niwaki.search.drag import Drag
+    from niwaki.search import Drag, Search
 
 
 class Sample:

@@ -284,7 +284,7 @@ class Dragging:
             return Grip(address, shape, (0.0, 0.0, 0.0), np.zeros(3))
         shares = np.linalg.lstsq(frame[1:].T, grab - frame[0], rcond=1e-9)[0]
         offset = grab - frame[0] - shares @ frame[1:]
-        return Grip(address, shape, tuple(float(s) for s in shares), offset)
+        return Grip(address, shape, _triple(shares), offset)
 
     def _movable(self, state: State) -> set[int]:
         """Choices that may move: all that are not held, in calls that the part can depend on."""
@@ -309,7 +309,7 @@ class Dragging:
         """The answers for a point: see `Sample.drag`."""
         goal = _point("to", point)
         begun = self.place(self.start, self.grip.part, self._movable(self.start))
-        names = [] if begun is None else _movers(begun, self.size)
+        names = set[str]() if begun is None else _movers(begun, self.size)
         if begun is not None and names:
             found = [
                 (kind, self._descend(goal, self.start, names)) for kind, names in self._kinds(begun, names)

@@ -90,8 +90,8 @@ class SourceChange:
     def difference(self) -> str:
         """The change as a unified difference."""
         name = Path(self.path).name
-        lines = (text.splitlines(keepends=True) for text in (self.text, self.changed))
-        return "".join(difflib.unified_diff(*lines, fromfile=name, tofile=name, n=1))
+        before, after = (text.splitlines(keepends=True) for text in (self.text, self.changed))
+        return "".join(difflib.unified_diff(before, after, fromfile=name, tofile=name, n=1))
 
     def apply(self) -> None:
         """Write the file, completely or not at all.
@@ -123,7 +123,7 @@ def explained(dragging: Dragging, goal: Vector, most: int = 3) -> list[SourceCha
     model = dragging.search.model
     function = getattr(model, "function", None)
     found = None if function is None else find_function(function)
-    if found is None:
+    if function is None or found is None:
         return []
     file, node = found
     path = Path(file.path)
@@ -157,7 +157,9 @@ def explained(dragging: Dragging, goal: Vector, most: int = 3) -> list[SourceCha
         changes = [
             change for group in groups if (change := descent.change(group, file.path, text)) is not None
         ]
-    return sorted(changes, key=lambda one: sum(map(_size, one.edits)))[:most]
+    # A group of which one number changes is that number alone.
+    different = {one.edits: one for one in reversed(changes) if one.edits}
+    return sorted(different.values(), key=lambda one: sum(map(_size, one.edits)))[:most]
 
 
 @dataclass
@@ -258,11 +260,10 @@ def _defaults(node: ast.FunctionDef | ast.Lambda) -> Iterator[tuple[int, str, as
 
 def _value(node: ast.expr) -> float | None:
     """The number that an expression writes."""
-    is_minus = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub)
-    inner = node.operand if is_minus else node
-    if not isinstance(inner, ast.Constant) or not isinstance(inner.value, float):
-        return None
-    return -inner.value if is_minus else inner.value
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        inner = _value(node.operand)
+        return None if inner is None else -inner
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, float) else None
 
 
 def _together(numbers: Sequence[_Number], tree: ast.Module) -> Iterator[list[_Number]]:

@@ -10,10 +10,10 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki import _engine, box, cylinder, emit, flip, gaussian, limb, poisson, rotation, uniform
+from niwaki import box, cylinder, emit, flip, gaussian, limb, poisson, rotation, uniform
 from niwaki.errors import InputError
 from niwaki.gallery import entries
-from niwaki.search.drag import NEAR
+from niwaki.search.source import NEAR
 
 SPACE = [one.name for one in entries() if one.target_name is not None or one.draws is not None]
 
@@ -214,11 +214,12 @@ def test_bad_drags_are_refused() -> None:
         sample.drag("top", (0, 0, float("nan")))
 
 
-def test_a_recording_knows_the_numbers_it_is_given() -> None:
-    """An argument moves as a choice does."""
+def test_a_mean_that_moves_takes_its_choice_along() -> None:
     sample = nw.run(arm, 2.0, seed=3).best
-    placer = sample.search.task.placer(sample._run)
-    positions = placer.positions({}, set(), arguments={0: 2.0})
+    positions = sample.search.task.placer(sample._run).positions({}, set(), arguments={0: 2.0})
     assert [one[0] for one in positions.movables] == [0]
-    assert all(positions.slopes(n, 0, (0, 0, 0)) is None for n in range(2))
-    assert isinstance(positions, _engine.Positions)
+    angle, reach = sample.choices["angle"], sample.choices["reach"]
+    np.testing.assert_allclose(
+        positions.slopes(1, 0, (0, 0, 0))[:, 0], [np.cos(angle), np.sin(angle), 0.0], atol=1e-12
+    )
+    assert list(positions.followed([2.5]).values()) == pytest.approx([reach + 0.5])

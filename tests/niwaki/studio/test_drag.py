@@ -115,3 +115,23 @@ def test_a_drag_that_is_cancelled_leaves_the_result(ship):
     ship.ask("drag", part=part, to=[0, 0, 0.3], phase="move")
     ship.ask("drag", part=part, to=[0, 0, 0.3], phase="cancel")
     assert ship.view["picked"] == picked
+
+
+def test_a_default_that_explains_a_drag_is_written_when_accepted(connected, pile):
+    text = pile.read_text()
+    connected.ask("model", reference=str(pile))
+    connected.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+    connected.ask("ask", ask={"target": {"source": "box", "scale": [2.0, 3.0, 2.0]}})
+    connected.ask("run")
+    (part,) = [one for one in shown(connected) if "i[3]" in one]
+    middle = shown(connected)[part]
+    to = (middle + [0.0, 3.5 / 8, 0.0]).tolist()
+    told = connected.ask("drag", part=part, to=to, phase="end")
+    first = told["offers"][0]
+    assert first["says"] == "line 7: 3.0 becomes 3.5"
+    assert pile.read_text() == text
+    with pytest.raises(studio.StudioError, match="has not offered"):
+        connected.ask("rewrite", difference="---")
+    connected.ask("rewrite", difference=first["difference"])
+    assert pile.read_text() == text.replace("height: float = 3.0", "height: float = 3.5")
+    pile.write_text(text)
