@@ -9,11 +9,13 @@ import io
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageDraw
 from studio_page import OUT, at_rest, choose, click_part, grow, timed, until
 
 #: The frames of the animation: size in pixels, colours, and how long each is shown, milliseconds.
-SIZE, COLORS, STEP = (420, 360), 48, 90
+SIZE, COLORS, STEP = (480, 400), 64, 90
+#: The share of the scene's height that they show.
+ZOOM = 0.86
 
 
 @pytest.fixture
@@ -38,17 +40,21 @@ def branch(page):
     return address, box["x"] + x, box["y"] + y
 
 
-def frame(page):
+def frame(page, pointer=None):
+    """A frame of the animation: what is around the middle of the scene, with the pointer."""
     box = page.locator("main.stage").bounding_box()
-    side = min(box["width"], box["height"] * SIZE[0] / SIZE[1])
-    clip = {
-        "x": box["x"] + (box["width"] - side) / 2,
-        "y": box["y"],
-        "width": side,
-        "height": side * SIZE[1] / SIZE[0],
-    }
+    height = ZOOM * box["height"]
+    width = height * SIZE[0] / SIZE[1]
+    left, top = box["x"] + (box["width"] - width) / 2, box["y"]
+    clip = {"x": left, "y": top, "width": width, "height": height}
     with Image.open(io.BytesIO(page.screenshot(clip=clip))) as shot:
-        return shot.convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
+        picture = shot.convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
+    if pointer is not None:
+        x, y = (pointer[0] - left) * SIZE[0] / width, (pointer[1] - top) * SIZE[1] / height
+        pen = ImageDraw.Draw(picture)
+        pen.ellipse((x - 7, y - 7, x + 7, y + 7), outline=(255, 255, 255), width=4)
+        pen.ellipse((x - 6, y - 6, x + 6, y + 6), outline=(30, 30, 34), width=2)
+    return picture
 
 
 def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
@@ -58,18 +64,21 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     until(page, "window.__studio.selection.part")
     picked = page.evaluate("window.__studio.view.picked")
     before = np.array(page.evaluate("window.__studio.camera"))
-    frames = [frame(page)] * 4
+    page.evaluate("document.activeElement.blur()")
+    frames = [frame(page, (x, y))] * 6
     page.mouse.move(x, y)
     page.mouse.down()
     with timed("drag"):
-        page.mouse.move(x + 12, y - 6, steps=3)
+        page.mouse.move(x + 9, y - 5, steps=2)
         until(page, "window.__studio.shown.what == 'moving'")
-    for step in range(1, 9):
-        page.mouse.move(x + 12 + 7 * step, y - 6 - 4 * step, steps=2)
-        page.wait_for_timeout(120)
-        frames.append(frame(page))
+    for step in range(1, 15):
+        to = (x + 9 + 7 * step, y - 5 - 4 * step)
+        page.mouse.move(*to)
+        page.wait_for_timeout(150)
+        frames.append(frame(page, to))
     drag = page.evaluate("window.__studio.drag")
     assert drag["left"] <= 0.01 or drag["reason"]
+    frames += [frames[-1]] * 6
     page.keyboard.down("Shift")
     with timed("refit"):
         page.mouse.up()
@@ -77,7 +86,7 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     page.keyboard.up("Shift")
     at_rest(page)
     page.wait_for_timeout(400)
-    frames += [frame(page)] * 10
+    frames += [frame(page)] * 16
     assert (np.array(page.evaluate("window.__studio.camera")) == before).all()
     OUT.mkdir(parents=True, exist_ok=True)
     first, *rest = [one.quantize(COLORS, dither=Image.Dither.NONE) for one in frames]
