@@ -14,6 +14,7 @@ change. Where no real choice takes the part there, discrete choices that decide 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from math import inf, pi, tau
 from typing import TYPE_CHECKING, Any
@@ -48,6 +49,8 @@ BRANCHES = 3
 SAME = 0.05
 #: Another structure that does not reach the point is given as the nearest where it leaves this share at most.
 WORTH = 0.8
+#: Descents from other values where the first ones give no answer, and how far these are, in deviations of the priors.
+ELSEWHERE, AROUND = 6, 0.5
 #: Values of discrete choices that are tried, and those of them from which a descent begins.
 TRIED, BEGUN = 32, 6
 #: A number stays this share of its range away from an end that is no value.
@@ -69,7 +72,8 @@ class Dragged:
         What is left to the point: scene units, and as a share of the scene's size.
     kind : str
         What was allowed to change: "least" all choices, "fewest" the three that move it most, "own" those of the part's
-        own call, "outermost" those of the model itself, "structure" discrete choices, too.
+        own call, "outermost" those of the model itself, "other" all, from other values, "structure"
+        discrete choices, too.
     part : str
         The address of the part that is there.
     holds : dict
@@ -310,20 +314,40 @@ class Dragging:
         goal = _point("to", point)
         begun = self.place(self.start, self.grip.part, self._movable(self.start))
         names = set[str]() if begun is None else _movers(begun, self.size)
-        if begun is not None and names:
+        if begun is None or not names:
+            found: list[tuple[str, State]] = []
+        else:
             found = [
                 (kind, self._descend(goal, self.start, names)) for kind, names in self._kinds(begun, names)
             ]
-        else:
-            found = []
+        answered, forbidden = self._possible(found, answers)
+        if found and not answered:
+            others = [("other", state) for state in self._elsewhere(goal, names)]
+            found += others
+            answered, forbidden = self._possible(others, answers, forbidden)
+        if structure and not answered:
+            others = [("structure", state) for state in self._structures(goal)]
+            found += others
+            answered, forbidden = self._possible(others, answers, forbidden)
+        if answered:
+            return Drag(answered)
         there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
-        if structure and not there:
-            found += [("structure", state) for state in self._structures(goal)]
-            there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
-        # Impossible runs are no answers, but they say what forbids the place.
+        if there:
+            near = self._scored(*there[0])
+            return Drag([], near, f"the run is impossible with `{self.grip.part}` there: {forbidden}")
+        if not found:
+            return Drag([], None, self._nothing_moves())
+        # Another structure only where it is nearer by a good deal.
+        kind, state = min(found, key=lambda one: one[1].error / (WORTH if one[0] == "structure" else 1.0))
+        return Drag([], self._scored(kind, state), self._too_far(goal, state))
+
+    def _possible(
+        self, found: Sequence[tuple[str, State]], answers: int, forbidden: str = ""
+    ) -> tuple[list[Dragged], str]:
+        """The answers among these: there, different, and possible, the least change first; or what forbids one."""
         answered: list[Dragged] = []
         looked_at: list[dict[str, Any]] = []
-        forbidden = ""
+        there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
         for kind, state in sorted(there, key=lambda one: self._change(one[1])):
             after = _choices(state)
             if len(answered) >= answers or any(self._is_same(after, other) for other in looked_at):
@@ -334,16 +358,28 @@ class Dragging:
                 answered.append(one)
             else:
                 forbidden = forbidden or one.sample.cause
-        if answered:
-            return Drag(answered)
-        if there:
-            near = self._scored(*there[0])
-            return Drag([], near, f"the run is impossible with `{self.grip.part}` there: {forbidden}")
-        if not found:
-            return Drag([], None, self._nothing_moves())
-        # Another structure only where it is nearer by a good deal.
-        kind, state = min(found, key=lambda one: one[1].error / (WORTH if one[0] == "structure" else 1.0))
-        return Drag([], self._scored(kind, state), self._too_far(goal, state))
+        return answered, forbidden
+
+    def _elsewhere(self, goal: Vector, names: set[str]) -> list[State]:
+        """Descents that begin at other values of the choices, drawn around those of the run: by the search's seed."""
+        rng = np.random.default_rng(self.search.seed)
+        first = self.place(self.start, self.grip.part, self._movable(self.start))
+        assert first is not None
+        low, high = _bounds(first.ranges)
+        moving = np.array([name in names for _, name, _ in first.movables])
+        found = []
+        for _ in range(ELSEWHERE):
+            drawn = first.ranges[:, 0] + rng.normal(size=len(moving)) * first.ranges[:, 3] * AROUND
+            values = np.clip(drawn, low, high).tolist()
+            warm = {
+                one[0]: value
+                for one, value, is_in in zip(first.movables, values, moving, strict=True)
+                if is_in
+            }
+            # A run with these values may fail, or make other choices.
+            with suppress(_engine.EngineFault):
+                found.append(self._descend(goal, self.start, names, warm, is_near_warm=True))
+        return found
 
     def move(self, point: Point) -> Moved:
         """The part with the least change, for a pointer that moves: it goes on from where the last point was."""
@@ -384,10 +420,12 @@ class Dragging:
         names: set[str],
         warm: Mapping[int, float] | None = None,
         branches: int = BRANCHES,
+        is_near_warm: bool = False,
     ) -> State:
         """Move these choices until the point is there, or no step brings it nearer.
 
-        Where a step leads into another branch of the model, the descent goes on from the run there.
+        Where a step leads into another branch of the model, the descent goes on from the run there. The change is least
+        from the start; `is_near_warm`: from where the descent begins.
         """
         free = {choice.address for choice in start.trace.choices if choice.path in names}
         state = replace(start, values=dict(start.values), error=inf)
@@ -400,13 +438,15 @@ class Dragging:
         low, high = _bounds(first.ranges)
         low, high = (low - zero) / spread, (high - zero) / spread
         z = (here.ranges[:, 0] - zero) / spread
+        center = z if is_near_warm else np.zeros(len(z))
         error = float(np.linalg.norm(self.across @ (goal - here.point)))
         reach, damping, held = REACH, 1e-4, [error]
         for _ in range(STEPS):
             if error <= DONE * self.size or reach < 1e-6:
                 break
             rows = self.across @ here.slopes * spread
-            aim = _step(rows, self.across @ (goal - here.point) + rows @ z, damping, low, high)
+            left = self.across @ (goal - here.point) + rows @ (z - center)
+            aim = center + _step(rows, left, damping, low - center, high - center)
             step = aim - z
             longest = float(np.abs(step).max(initial=0.0))
             if longest > reach:
@@ -432,9 +472,9 @@ class Dragging:
                 )
                 if other is not None:
                     return other
-            left = inf if there is None else float(np.linalg.norm(self.across @ (goal - there.point)))
-            if there is not None and not is_other and left < error:
-                z, here, error = tried, there, left
+            nearer = inf if there is None else float(np.linalg.norm(self.across @ (goal - there.point)))
+            if there is not None and not is_other and nearer < error:
+                z, here, error = tried, there, nearer
                 state.values = {**origin, **values}
                 reach, damping = min(2 * reach, REACH), max(damping / 10, 1e-9)
                 held.append(error)
