@@ -28,10 +28,9 @@ pub struct Blame {
 /// else made impossible have none.
 pub(crate) fn blame(task: &Task, runs: Vec<Vec<Entry>>) -> (Vec<Blame>, usize) {
     let mut counts: BTreeMap<_, Blame> = BTreeMap::new();
-    let unscored = Task { sketches: vec![], ..task.clone() };
     let seen = runs.len();
     for entries in runs {
-        let Ok(trace) = replay(&unscored, Source::Addresses(by_address(&entries)), Missing::Stop) else {
+        let Ok(trace) = replay(task, Source::Addresses(by_address(&entries)), Missing::Stop) else {
             continue;
         };
         let Some((constraint, part, other)) = first_forbidden(task, &trace.parts) else { continue };

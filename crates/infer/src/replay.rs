@@ -79,7 +79,8 @@ pub enum Missing {
         /// The stream.
         stream: u64,
     },
-    /// The future stops there: the log is of a run that was stopped.
+    /// The future stops there: the log is of a run that was stopped. What made that run impossible stops the replay,
+    /// too, as a run without choices has nothing else to stop at.
     Stop,
 }
 
@@ -111,12 +112,43 @@ impl Chooser for Sourced<'_> {
     }
 }
 
+/// What a choice and a part take beside their addresses, as objects of Python, which a person reads them by: bytes.
+const CHOICE: usize = 512;
+const PART: usize = 1024;
+
 struct Replay<'a> {
     task: &'a Task,
     chooser: Sourced<'a>,
     trace: Trace,
     record: Record,
     written: HashMap<u64, Vec<(Value, u32)>>,
+    /// Bytes of the names and parts so far, which the run itself does not have.
+    named: usize,
+}
+
+impl Replay<'_> {
+    /// The readable address of a choice or a part that takes so many bytes.
+    fn path(&mut self, at: &At<'_, f64>, bytes: usize) -> Result<String, Fault> {
+        let (path, budget) = (at.path(), self.task.limits.bytes);
+        self.named = self.named.saturating_add(path.len() + bytes);
+        if self.named <= budget {
+            return Ok(path);
+        }
+        let needs = format!(
+            "the model's choices and parts, with their addresses, need more than {} MB",
+            budget >> 20
+        );
+        Err(Fault::new("memory-budget", needs)
+            .with_help("check that every loop and recursion ends, or raise `max_memory`"))
+    }
+
+    /// Goes on, or stops where the run that is followed did.
+    fn on<A>(&self, answer: A) -> Answer<A> {
+        match self.chooser.missing {
+            Missing::Stop if self.record.cause.is_some() => Answer::Pause,
+            _ => Answer::Go(answer),
+        }
+    }
 }
 
 impl Answers<f64> for Replay<'_> {
@@ -127,9 +159,9 @@ impl Answers<f64> for Replay<'_> {
         };
         let Chosen { value, log_prior: log_density, .. } = chosen;
         self.record.choose(seen.address, &value, log_density);
-        let family = dist.family().name();
+        let (path, family) = (self.path(at, CHOICE)?, dist.family().name());
         self.trace.choices.push(Choice {
-            path: at.path(),
+            path,
             address: seen.address,
             family,
             value: value.clone(),
@@ -140,12 +172,13 @@ impl Answers<f64> for Replay<'_> {
 
     fn score(&mut self, at: &At<'_, f64>, factor: Factor, log: f64) -> Result<Answer<()>, Fault> {
         self.record.factor(check_factor(log)?, || factor_name(at, factor));
-        Ok(Answer::Go(()))
+        Ok(self.on(()))
     }
 
     fn held(&mut self, at: &At<'_, f64>, dist: &Dist, value: &Value, log: f64) -> Result<Answer<()>, Fault> {
+        let path = self.path(at, CHOICE)?;
         self.trace.choices.push(Choice {
-            path: at.path(),
+            path,
             address: at.address(),
             family: dist.family().name(),
             value: value.clone(),
@@ -160,9 +193,10 @@ impl Answers<f64> for Replay<'_> {
 
     fn emit(&mut self, at: &At<'_, f64>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
         let place = Call { function: at.function.name.clone(), file: at.function.file, span: at.site.span };
-        self.trace.parts.push(Part { path: at.path(), shapes: shapes.to_vec(), place });
+        let path = self.path(at, PART + size_of_val(shapes))?;
+        self.trace.parts.push(Part { path, shapes: shapes.to_vec(), place });
         self.record.emit(shapes);
-        Ok(Answer::Go(()))
+        Ok(self.on(()))
     }
 
     fn query(&mut self, at: &At<'_, f64>, key: &Value, value: &Value) -> Result<(), Fault> {
@@ -203,10 +237,10 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     state.remember_origins();
     let (trace, record) = (Trace::default(), Record::start(&task.sketches));
     let chooser = Sourced { source, missing };
-    let mut answers = Replay { task, chooser, trace, record, written: HashMap::new() };
+    let mut answers = Replay { task, chooser, trace, record, written: HashMap::new(), named: 0 };
     if missing == Missing::Stop {
         let mut stuck = Vec::new();
-        loop {
+        while answers.record.cause.is_none() {
             let next = state.runnable().iter().find(|future| !stuck.contains(future));
             let Some(next) = next else { break };
             if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {

@@ -76,7 +76,7 @@ def run(
         Values of choices by address that every run has; see `Search`.
     max_steps
         Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
-        one step for every eight of them.
+        one step for every eight of them, a primitive 256.
     max_memory
         Most bytes of a run, or of a population or several chains together: calls, values and choices.
     threads

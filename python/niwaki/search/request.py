@@ -93,7 +93,7 @@ class Search:
         The chains that continue from the best of each run, `mh(...)`.
     max_steps
         Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
-        one step for every eight of them.
+        one step for every eight of them, a primitive 256.
     max_memory
         Most bytes of a run, or of a population or several chains together: calls, values and choices.
     """

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import niwaki as nw
 import pytest
+from niwaki.errors import InputError
 
 BOUND = 64 << 20
 
@@ -199,6 +200,18 @@ CASES = {
 }
 
 
+@nw.model
+def endless_line(x=0.0):
+    nw.emit(nw.box((x, 0, 0), (1, 1, 1)))
+    endless_line(x + 2)
+
+
+@nw.model
+def endless_pile():
+    nw.emit(nw.box((0, 0, 0), (1, 1, 1)))
+    endless_pile()
+
+
 def peak() -> int:
     """Bytes of the largest resident set of this process."""
     line = next(
@@ -319,6 +332,35 @@ def test_an_endless_recursion_ends_with_its_stack():
         nw.run(calls, method=nw.forward(1), seed=1, max_steps=2_000_000)
     assert "step-budget" in str(met.value) and "more ..." in str(met.value)
     assert time.process_time() - start < 2.0
+
+
+def test_endless_scenes_end_by_their_steps():
+    for method in (nw.forward(1), nw.smc(2), nw.mh(1)):
+        with pytest.raises(nw.ModelFault, match="step-budget"):
+            nw.run(endless_line, method=method, seed=1, max_steps=100_000)
+
+
+def test_the_readable_addresses_and_parts_of_a_run_are_bounded():
+    deep = nw.run(nested, 3000, seed=1, max_memory=8 << 20)
+    with pytest.raises(nw.ModelFault, match="memory-budget"):
+        _ = deep.best.parts
+    assert len(nw.run(nested, 300, seed=1, max_memory=8 << 20).best.parts) == 300
+
+
+@nw.model
+def nested(depth):
+    nw.emit(nw.box((2 * depth, 0, 0), (1, 1, 1)))
+    if depth > 1:
+        nested(depth - 1)
+
+
+def test_what_made_a_search_impossible_is_told_without_running_on():
+    """The run died at its second part; it would never end."""
+    start = time.process_time()
+    with pytest.raises(InputError, match="runs into another part") as met:
+        nw.run(endless_pile, method=nw.smc(2), score=nw.no_self_intersection(), seed=1)
+    assert "barrier 2" in str(met.value)
+    assert time.process_time() - start < 1.0
 
 
 if __name__ == "__main__":

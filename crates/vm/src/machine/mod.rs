@@ -53,7 +53,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// How much a run may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Calls, iterations and backward jumps, of one run; an operation on many elements counts one for every 8 of them.
+    /// Calls, iterations and backward jumps, of one run; an operation on many elements counts one for every 8 of
+    /// them, a primitive 256.
     pub steps: u64,
     /// Bytes of nodes, registers and values, of one run.
     pub bytes: usize,

@@ -12,6 +12,9 @@ use crate::fault::Fault;
 use crate::value::{Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
+/// Steps of an emission: a search takes about as long to add a primitive to its sketches.
+const EMISSION: u64 = 256;
+
 /// How to continue after a site.
 pub(super) enum After {
     /// At the next instruction.
@@ -141,14 +144,16 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// The shapes of an `emit`: its arguments, with lists and tuples of them flattened.
+    /// The shapes of an `emit`: its arguments, with lists and tuples of them flattened. It costs the steps that a search
+    /// takes to add a primitive to its sketches.
     pub(super) fn collect_shapes(
         &mut self,
-        state: &State<S>,
+        state: &mut State<S>,
         r: Registers<'_, S>,
         site: &Site,
     ) -> Result<(), Fault> {
         self.shapes.clear();
+        state.steps = state.steps.saturating_add(EMISSION);
         r.gather(state, &self.scratch, site.args, &mut self.buffer);
         self.buffer.reverse();
         while let Some(value) = self.buffer.pop() {

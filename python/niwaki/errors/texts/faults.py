@@ -270,7 +270,7 @@ FAULTS = (
         "the model ran longer than its budget of steps",
         "still running here",
         why="a program that never ends would stop the whole search; calls, iterations and every eight elements of an "
-        "operation on many are steps, and those of an `infer` count in the run around it",
+        "operation on many are steps, a primitive takes 256, and those of an `infer` count in the run around it",
         help="bound the recursion or the loop (give it a depth), search with fewer runs inside, or raise `max_steps`",
         example="def grow():\n    grow()",
         cure="def grow(depth):\n    if depth > 0:\n        grow(depth - 1)",
