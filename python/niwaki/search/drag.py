@@ -27,6 +27,7 @@ from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
+from niwaki.once import cached_property
 from niwaki.result import Result, Sample, Watch, parts
 from niwaki.search.source import NEAR, SourceChange, explained
 from niwaki.targets.sketches import Score
@@ -294,6 +295,11 @@ class Dragging:
         """Choices that may move: all that are not held, in calls that the part can depend on."""
         return {choice.address for choice in state.trace.choices if choice.path not in self.locked}
 
+    @cached_property
+    def _begun(self) -> Place | None:
+        """The point in the run where the drag begins, with all that may move."""
+        return self.place(self.start, self.grip.part, self._movable(self.start))
+
     def place(self, state: State, part: str, free: set[int]) -> Place | None:
         """The point and its derivatives; None where nothing moves it."""
         positions = state.placer.positions(state.values, free)
@@ -312,7 +318,7 @@ class Dragging:
     def to(self, point: Point, *, answers: int = 4, structure: bool = True) -> Drag:
         """The answers for a point: see `Sample.drag`."""
         goal = _point("to", point)
-        begun = self.place(self.start, self.grip.part, self._movable(self.start))
+        begun = self._begun
         names = set[str]() if begun is None else _movers(begun, self.size)
         if begun is None or not names:
             found: list[tuple[str, State]] = []
@@ -363,7 +369,7 @@ class Dragging:
     def _elsewhere(self, goal: Vector, names: set[str]) -> list[State]:
         """Descents that begin at other values of the choices, drawn around those of the run: by the search's seed."""
         rng = np.random.default_rng(self.search.seed)
-        first = self.place(self.start, self.grip.part, self._movable(self.start))
+        first = self._begun
         assert first is not None
         low, high = _bounds(first.ranges)
         moving = np.array([name in names for _, name, _ in first.movables])
@@ -384,7 +390,7 @@ class Dragging:
     def move(self, point: Point) -> Moved:
         """The part with the least change, for a pointer that moves: it goes on from where the last point was."""
         goal = _point("to", point)
-        begun = self.place(self.start, self.grip.part, self._movable(self.start))
+        begun = self._begun
         names = set() if begun is None else _movers(begun, self.size)
         if begun is None or not names:
             middle = next(frame[0] for n, k, frame, _ in self._grips if (n, k) == (self._at, self.grip.shape))
