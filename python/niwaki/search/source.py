@@ -26,7 +26,7 @@ from niwaki.lang.compiled import compile_core, translated
 from niwaki.lang.lower import lower
 
 if TYPE_CHECKING:
-    from niwaki.search.drag import Dragging, Vector
+    from niwaki.search.drag.held import Held, Vector
     from niwaki.search.request import Search
 
 #: Steps of a descent, and numbers that are tried: those that move the point most.
@@ -118,9 +118,9 @@ class _Number:
     name: str = ""
 
 
-def explained(dragging: Dragging, goal: Vector, most: int = 3) -> list[SourceChange]:
+def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
     """The changes of the model's file that take the held point to a goal, those that change the source least first."""
-    model = dragging.search.model
+    model = held.search.model
     function = getattr(model, "function", None)
     found = None if function is None else find_function(function)
     if function is None or found is None:
@@ -138,7 +138,7 @@ def explained(dragging: Dragging, goal: Vector, most: int = 3) -> list[SourceCha
         for key, span in core.lifted.items()
         if span.file == file
     ]
-    args = _arguments(dragging.search)
+    args = _arguments(held.search)
     numbers += [
         _Number("arguments", place, span_of(default, file), args[place], name)
         for place, name, default in _defaults(node)
@@ -146,10 +146,10 @@ def explained(dragging: Dragging, goal: Vector, most: int = 3) -> list[SourceCha
     ]
     with translated(model.name):
         task = _engine.Task(compile_core(core), args)
-        if dragging.search.lock:
-            task = task.holding(dict(dragging.search.lock))
-        placer = task.placer(dragging.start.trace.run)
-        descent = _Descent(dragging, placer, goal)
+        if held.search.lock:
+            task = task.holding(dict(held.search.lock))
+        placer = task.placer(held.start.trace.run)
+        descent = _Descent(held, placer, goal)
         begun = descent.look(numbers, [one.value for one in numbers], {})
         reach = {} if begun is None else dict(enumerate(np.linalg.norm(begun.slopes, axis=0).tolist()))
         moving = [numbers[k] for k in sorted(reach, key=lambda k: -reach[k]) if reach[k] > 0][:TRIED]
@@ -174,9 +174,9 @@ class _Look:
 class _Descent:
     """Numbers that are moved until the held point is at a goal."""
 
-    def __init__(self, dragging: Dragging, placer: _engine.Placer, goal: Vector) -> None:
-        self.dragging, self.placer, self.goal = dragging, placer, goal
-        self.names = {choice.address: choice.path for choice in dragging.start.trace.choices}
+    def __init__(self, held: Held, placer: _engine.Placer, goal: Vector) -> None:
+        self.held, self.placer, self.goal = held, placer, goal
+        self.names = {choice.address: choice.path for choice in held.start.trace.choices}
 
     def look(
         self, numbers: Sequence[_Number], values: Sequence[float], choices: Mapping[int, float]
@@ -189,8 +189,8 @@ class _Descent:
             positions = self.placer.positions(choices, set(), **kinds)
         except _engine.EngineFault:
             return None
-        grip = self.dragging.grip
-        number = next((n for n, (address, _) in enumerate(positions.parts) if address == grip.part), None)
+        grip, part = self.held.grip, self.held.start.part
+        number = next((n for n, (address, _) in enumerate(positions.parts) if address == part), None)
         frame = None if number is None else positions.frame(number, grip.shape)
         if number is None or frame is None:
             return None
@@ -204,7 +204,7 @@ class _Descent:
     def change(self, numbers: list[_Number], path: str, text: str) -> SourceChange | None:
         """The change of these numbers that takes the point to the goal; None where none does."""
         numbers = sorted(numbers, key=lambda one: (one.kind, one.key))
-        across, size = self.dragging.across, self.dragging.size
+        across, size = self.held.across, self.held.size
         values, choices = [one.value for one in numbers], dict[int, float]()
         scale = np.maximum(np.abs(values), 0.01 * size)
         here = self.look(numbers, values, choices)
