@@ -46,13 +46,17 @@ class Dragging(Held):
     def to(self, point: Point, *, answers: int = 4, structure: bool = True) -> Drag:
         """The answers for a point: see `Sample.drag`."""
         goal = point_of("to", point)
+        with translated(self.search.model.name):
+            return self._to(goal, answers, structure)
+
+    def _to(self, goal: Vector, answers: int, structure: bool) -> Drag:
         begun = self.begun
         names = set[str]() if begun is None else self.movers(begun)
         if begun is None or not names:
             found: list[tuple[str, State]] = []
         else:
             found = [
-                (kind, descend(self, goal, self.start, names)) for kind, names in self._kinds(begun, names)
+                (kind, descend(self, goal, self.start, some)) for kind, some in self._kinds(begun, names)
             ]
         answered, forbidden = self._possible(found, answers)
         if found and not answered:
@@ -118,6 +122,10 @@ class Dragging(Held):
     def move(self, point: Point) -> Moved:
         """The part with the least change, for a pointer that moves: it goes on from where the last point was."""
         goal = point_of("to", point)
+        with translated(self.search.model.name):
+            return self._move(goal)
+
+    def _move(self, goal: Vector) -> Moved:
         begun = self.begun
         names = set() if begun is None else self.movers(begun)
         if begun is None or not names:
@@ -164,8 +172,7 @@ class Dragging(Held):
         )
 
     def _scored(self, kind: str, state: State) -> Dragged:
-        with translated(self.search.model.name):
-            trace = self.replayed(self.search.task, state)
+        trace = self.replayed(self.search.task, state)
         sample = Sample.of_trace(trace, self.search, self.sample.seed)
         after = sample.choices
         changed = {
