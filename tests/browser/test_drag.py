@@ -9,8 +9,9 @@ import io
 
 import numpy as np
 import pytest
+from niwaki import studio
 from PIL import Image, ImageDraw
-from studio_page import OUT, at_rest, choose, click_part, grow, timed, until
+from studio_page import OUT, at_rest, choose, click_part, grow, picture, timed, until
 
 #: The frames of the animation: size in pixels, colours, and how long each is shown, milliseconds.
 SIZE, COLORS, STEP = (480, 400), 64, 90
@@ -108,3 +109,33 @@ def test_escape_takes_a_part_back(tree):
     page.mouse.up()
     assert page.evaluate("window.__studio.view.picked") == picked
     assert page.evaluate("window.__studio.shown.what") == "result"
+
+
+def test_a_change_of_the_file_is_offered_and_written_when_accepted(open_page, served, pile):
+    text = pile.read_text()
+    page = open_page(served)
+    choose(page, str(pile), 1)
+    with studio.connect(served.url, served.key) as script:
+        script.ask("ask", ask={"target": {"source": "box", "scale": [2.0, 3.0, 2.0]}})
+    grow(page)
+    at_rest(page)
+    page.keyboard.press("t")
+    address = page.evaluate("window.__studio.shown.parts.find(one => one.includes('i[3]'))")
+    x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
+    box = page.locator("main.stage").bounding_box()
+    click_part(page, address)
+    until(page, "window.__studio.selection.part")
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x, box["y"] + y - 30, steps=4)
+    until(page, "window.__studio.shown.what == 'moving'")
+    page.mouse.up()
+    offer = page.locator(".offer").first
+    offer.locator("summary").click()
+    assert "height: float = 3.0" in offer.inner_text()
+    assert pile.read_text() == text
+    picture(page, "offer")
+    offer.get_by_role("button", name="Write it").click()
+    page.wait_for_timeout(1500)
+    assert "height: float = 3." in pile.read_text() and pile.read_text() != text
+    pile.write_text(text)
