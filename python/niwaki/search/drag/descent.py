@@ -40,8 +40,8 @@ def descend(
     free = {choice.address for choice in start.trace.choices if choice.path in names}
     state = replace(start, values=dict(start.values), error=inf)
     origin = start.values
-    here = held.place(replace(state, values={**origin, **(warm or {})}), free)
     first = held.place(state, free)
+    here = held.place(replace(state, values={**origin, **warm}), free) if warm else first
     if here is None or first is None:
         return state
     zero, spread = first.ranges[:, 0], np.maximum(first.ranges[:, 3], 1e-12)
