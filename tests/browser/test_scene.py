@@ -36,9 +36,10 @@ def test_objects_stand_in_the_scene_are_moved_by_handles_and_kept_away_from(open
     floor = page.evaluate("window.__studio.view.ask.floor")
     add(page, "Ball")
     until(page, "window.__studio.things.includes('obstacle 0')")
+    first = page.evaluate("window.__studio.view.ask.obstacles[0].move")
     before = camera(page)
     dragged(page, *handle(page), 90, -60)
-    until(page, "window.__studio.view.ask.obstacles[0].move?.some(one => one != 0)")
+    until(page, f"window.__studio.view.ask.obstacles[0].move.some((one, k) => one != {first}[k])")
     moved = page.evaluate("window.__studio.view.ask.obstacles[0].move")
     picture(page, "objects")
     grow(page)
@@ -143,3 +144,61 @@ def test_the_difference_to_a_drawn_silhouette_lies_over_the_view(open_page, serv
     key = page.evaluate("window.__studio.view.picked")
     assert (counts["covered"], counts["missing"], counts["outside"]) == engine_fit(served, key)
     picture(page, "difference-drawn")
+
+
+def test_starred_results_stand_side_by_side_seen_by_one_camera(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 3)
+    page.get_by_role("slider", name="how different").fill("1")
+    until(page, "window.__studio.view.settings.strength == 1")
+    grow(page)
+    at_rest(page)
+    for number in range(3):
+        page.locator(".card .star").nth(number).click()
+        until(page, f"window.__studio.view.stars.length == {number + 1}")
+    before = camera(page)
+    with timed("compare"):
+        page.keyboard.press("c")
+        until(page, "window.__studio.compared.filter(one => one > 0).length == 3")
+    page.wait_for_timeout(500)
+    picture(page, "compare")
+    assert page.locator(".side-name").count() == 3
+    assert (camera(page) == before).all()
+    page.locator(".side-name").nth(1).click()
+    until(page, "window.__studio.view.picked.number == 1 && !window.__studio.compared.length")
+    for _ in range(3):
+        page.locator(".card .star[aria-pressed=true]").first.click()
+        page.wait_for_timeout(100)
+
+
+def test_growth_is_scrubbed_and_played_in_the_order_of_the_run(open_page, served):
+    page = open_page(served)
+    choose(page, "building", 1, seed=2)
+    grow(page)
+    at_rest(page)
+    parts = page.evaluate("window.__studio.described.parts.map(one => one.address)")
+    assert len(parts) > 3 and page.evaluate("window.__studio.drawn.length") == len(parts)
+    slider = page.get_by_role("slider", name="parts that are shown")
+    slider.fill("2")
+    until(page, "window.__studio.drawn.length == 2")
+    assert set(page.evaluate("window.__studio.drawn")) == set(parts[:2])
+    page.get_by_label("order of growth").select_option("depth")
+    slider.fill("3")
+    depths = [one.count("/") for one in page.evaluate("window.__studio.drawn")]
+    assert sorted(depths) == sorted(one.count("/") for one in parts)[:3]
+    page.locator("main.stage canvas").first.focus()
+    page.keyboard.press("Space")
+    until(page, "window.__studio.drawn.length > 3")
+    until(page, f"window.__studio.drawn.length == {len(parts)}")
+
+
+def test_growth_goes_part_by_part_where_motion_is_not_wanted(open_page, served):
+    page = open_page(served, reduced_motion="reduce")
+    choose(page, "building", 1, seed=2)
+    grow(page)
+    at_rest(page)
+    button = page.get_by_role("button", name="One part more")
+    for count in (1, 2):
+        button.click()
+        page.wait_for_timeout(200)
+        assert page.evaluate("window.__studio.drawn.length") == count

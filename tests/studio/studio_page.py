@@ -21,6 +21,7 @@ LIMITS = {
     "first shape": 0.3,
     "gallery": 3.0,
     "part": 0.1,
+    "part, large": 0.5,
     "pin": 0.1,
     "re-roll": 0.5,
     "undo": 0.1,
@@ -30,6 +31,7 @@ LIMITS = {
     "error": 0.5,
     "mended": 0.5,
     "difference": 0.1,
+    "compare": 0.1,
     "export": 2.0,
 }
 times: dict[str, float] = {}

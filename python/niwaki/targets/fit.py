@@ -137,21 +137,23 @@ def _filled(
     sketch: _engine.Sketch, low: NDArray[np.float64], high: NDArray[np.float64], dims: tuple[int, int, int]
 ) -> NDArray[np.bool_]:
     """The cells that are filled: blocks that are neither full nor empty are halved."""
-    size = (high - low) / np.array(dims)
+    corner: list[float] = low.tolist()
+    size: list[float] = ((high - low) / np.array(dims)).tolist()
     made = np.zeros(dims, dtype=np.bool_)
+    filled = sketch.measures()["filled"]
     waiting: list[tuple[tuple[int, ...], tuple[int, ...]]] = [((0, 0, 0), dims)]
     while waiting:
         first, last = waiting.pop()
-        start, end = np.array(first), np.array(last)
-        block = Shape.box((low + 0.5 * (start + end) * size).tolist(), ((end - start - 0.5) * size).tolist())
-        before = sketch.measures()["filled"]
+        sides = [b - a for a, b in zip(first, last, strict=True)]
+        center = [c + 0.5 * (a + b) * s for c, a, b, s in zip(corner, first, last, size, strict=True)]
+        block = Shape.box(center, [(n - 0.5) * s for n, s in zip(sides, size, strict=True)])
         sketch.add([block])
-        count, empty = int(np.prod(end - start)), round(sketch.measures()["filled"] - before)
+        count, empty = prod(sides), round(sketch.measures()["filled"] - filled)
         sketch.remove([block])
         if empty == 0:
             made[first[0] : last[0], first[1] : last[1], first[2] : last[2]] = True
         elif empty < count:
-            axis = int(np.argmax(end - start))
+            axis = sides.index(max(sides))
             middle = (first[axis] + last[axis]) // 2
             waiting.append((first, (*last[:axis], middle, *last[axis + 1 :])))
             waiting.append(((*first[:axis], middle, *first[axis + 1 :]), last))

@@ -75,6 +75,12 @@ def data(folder: str = "out") -> dict[str, Any]:
     return dict(json.loads(Path(folder, "run.json").read_text()))
 
 
+@pytest.mark.parametrize("output", ["sheet.txt", "sheet", "no/such/folder/sheet.png", "."])
+def test_show_looks_at_the_name_of_its_picture_before_it_runs(place: Path, output: str) -> None:
+    done = run("show", "garden.py:tower", "-n", "4", "--seed", "1", "-o", output)
+    assert done.exit_code != 0 and "#1" not in done.stdout
+
+
 def test_show_draws_runs_without_a_target(place: Path) -> None:
     done = run("show", "garden.py:tower", "width=2", "-n", "4", "--seed", "1")
     assert done.exit_code == 0, (done.output, done.exception)

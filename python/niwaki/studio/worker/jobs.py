@@ -9,13 +9,14 @@ from math import isfinite
 from typing import Any
 
 import niwaki as nw
-from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.search import Search
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
-from niwaki.studio.worker import asks, models, runs, shapes
+from niwaki.studio.refused import Refused
+from niwaki.studio.worker import asks, models, runs, shapes, variety
+from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
 #: Rounds of `improve` at effort 1: its own usual number.
 ROUNDS = 15
@@ -36,10 +37,10 @@ def ghost(job: Ghost, send: Any) -> Answer:
 
 
 def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
-    target, foot = asks.placed(ask)
-    many = len(target.faces) > shapes.GHOST_TRIANGLES
-    note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
-    described, payload = shapes.ghost(target, foot, note, **header)
+    ghost, foot = asks.shown(ask)
+    many = ghost.triangles > GHOST_TRIANGLES
+    note = f"shown with fewer than its {ghost.triangles:,} triangles" if many else ""
+    described, payload = shapes.ghost(ghost.vertices, ghost.faces, ghost.bounds, foot, note=note, **header)
     described.id = job
     send(described, payload)
 
@@ -63,11 +64,12 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         found.model,
         **asked,
         rounds=max(1, round(ROUNDS * settings.effort)),
-        diverse=settings.count if settings.count > 1 else None,
+        diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
         seed=job.seed,
         lock=runs.given(job.question.lock) or None,
         progress=progress,
     )
+    result.samples = variety.spread(_ended(result), settings.count, settings.strength)
     return _answered(result, found, job.run, job.file, "run", send, job.id)
 
 
@@ -79,12 +81,14 @@ def regrow(job: Regrow, send: Any) -> Answer:
     with translated(search.model.name, choices=choices):
         whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
     found: list[Sample] = []
-    for number in range(job.count):
+    for number in range(job.count if job.strength is None else 2 * job.count):
         one = whole.regrow(job.part, REGROWN, seed=(job.seed + number) % 2**53).best
         if one.choices not in [choices, *(other.choices for other in found)]:
             found.append(one)
     if not found:
-        raise InputError("no-runs", detail=f"`{job.part}` has no other form here")
+        raise Refused("no-other-form", f"`{job.part}` has no other form here")
+    if job.strength is not None:
+        found = variety.ordered(whole, found, job.count, job.strength)
     result = Result(search, found, job.seed)
     return _answered(result, models.reference(job.question.model), job.run, job.file, "regrow", send, job.id)
 
@@ -105,6 +109,10 @@ def change(job: Change, send: Any) -> Answer:
     return _answered(result, found, job.run, job.file, job.origin, send, job.id)
 
 
+def _ended(result: Result) -> list[Sample]:
+    return [one for one in result.samples if one.has_ended] or list(result.samples)
+
+
 def searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
     """The search of a result with the present model and arguments, and the result's choices."""
     model, args = models.reference(question.model).model, asks.arguments(question)
@@ -121,8 +129,7 @@ def _answered(
     result: Result, found: ModelReference, run: int, file: str, origin: str, send: Any, job: int
 ) -> Answer:
     """Store the results that ended, the best first, and show them."""
-    ended = [one for one in result.samples if one.has_ended] or list(result.samples)
-    result.samples = sorted(ended, key=lambda one: -one.log_score)
+    result.samples = sorted(_ended(result), key=lambda one: -one.log_score)
     outcomes = runs.store(result, found, run, file, origin)
     for one, outcome in zip(result.samples, outcomes, strict=True):
         send(*shape(one, "result", job, outcome.key))

@@ -32,16 +32,18 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
 import { cubes, KINDS, sheet } from "./cells";
+import { arrowMeshes } from "./arrows";
 import { frame } from "./framing";
+import { type Order, sorted } from "./growth";
 import { subset, unpacked } from "./meshes";
 import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
-  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16 },
-  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45 },
+  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
+  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
 };
 
 export class Stage {
@@ -56,7 +58,10 @@ export class Stage {
   private readonly shape = new Group();
   private readonly marks = new Group();
   private readonly line = new Group();
+  readonly arrows = new Group();
   private differences = new Group();
+  private ends: { order: Order; at: Uint32Array } | null = null;
+  private sides: Group[] = [];
   private ghostBox = new Box3();
   private ask: Ask = {};
   private look = COLORS.light;
@@ -90,6 +95,7 @@ export class Stage {
       this.shape,
       this.marks,
       this.line,
+      this.arrows,
       this.differences,
     );
     this.camera.position.set(14, 9, 18);
@@ -103,6 +109,21 @@ export class Stage {
     this.things = new Things(this.camera, canvas, onPlaced, dragging, () => this.draw());
     this.scene.add(this.things.group, this.things.handles.getHelper());
     this.paint("light");
+    this.warm();
+  }
+
+  /** Compile what shapes are drawn with before the first one comes. */
+  private warm(): void {
+    const colors = new Float32Array(9);
+    for (const flatShading of [true, false]) {
+      const geometry = new BufferGeometry();
+      for (const name of ["position", "normal", "color"]) geometry.setAttribute(name, new BufferAttribute(colors, 3));
+      const mesh = new Mesh(geometry, solid(flatShading));
+      mesh.castShadow = mesh.receiveShadow = true;
+      this.shape.add(mesh);
+    }
+    this.renderer.render(this.scene, this.camera);
+    clear(this.shape);
   }
 
   /** Draw with the next frame. */
@@ -112,15 +133,58 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isAsked = false;
       this.frames++;
+      if (this.sides.length === 0) this.renderer.render(this.scene, this.camera);
+      else this.drawSides();
+    });
+  }
+
+  /** Several shapes side by side, seen by the same camera; none of them shows the one shape again. */
+  setSides(shapes: [Shape, ArrayBuffer][]): void {
+    for (const one of this.sides) clear(one);
+    this.scene.remove(...this.sides);
+    this.sides = shapes.map(([header, payload]) => {
+      const group = new Group();
+      if (header.triangles > 0) group.add(this.meshOf(unpacked(header, payload)));
+      return group;
+    });
+    if (this.sides.length > 0) this.scene.add(...this.sides);
+    this.shape.visible = this.marks.visible = this.sides.length === 0;
+    this.aspect();
+    this.draw();
+  }
+
+  /** Triangles of what stands side by side. */
+  get compared(): number[] {
+    return this.sides.map((one) => ((one.children[0] as Mesh)?.geometry.index?.count ?? 0) / 3);
+  }
+
+  private drawSides(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const wide = clientWidth / this.sides.length;
+    this.renderer.setScissorTest(true);
+    this.sides.forEach((_, k) => {
+      this.sides.forEach((one, other) => (one.visible = other === k));
+      this.renderer.setViewport(k * wide, 0, wide, clientHeight);
+      this.renderer.setScissor(k * wide, 0, wide, clientHeight);
       this.renderer.render(this.scene, this.camera);
     });
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, clientWidth, clientHeight);
+  }
+
+  /** The camera's view is as wide as one of those that stand side by side. */
+  private aspect(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.camera.aspect = clientWidth / Math.max(this.sides.length, 1) / Math.max(clientHeight, 1);
+    // What was seen across the whole width is seen across the narrower one.
+    this.camera.zoom = 1 / Math.max(this.sides.length, 1);
+    this.camera.updateProjectionMatrix();
   }
 
   resize(width: number, height: number): void {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.aspect();
     this.draw();
   }
 
@@ -139,17 +203,33 @@ export class Stage {
   show(header: Shape | null, payload: ArrayBuffer): void {
     clear(this.shape);
     this.piece = null;
+    this.ends = null;
     if (header !== null && header.triangles > 0) {
       this.piece = unpacked(header, payload);
-      const isFine = header.detail === "fine";
-      const material = header.is_flat
-        ? new MeshBasicMaterial({ vertexColors: true })
-        : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: !isFine });
-      const mesh = new Mesh(this.piece.geometry, material);
-      mesh.castShadow = mesh.receiveShadow = !header.is_flat;
-      this.shape.add(mesh);
+      this.shape.add(this.meshOf(this.piece));
     }
     this.settle();
+    this.draw();
+  }
+
+  private meshOf({ header, geometry }: Piece): Mesh {
+    const material = header.is_flat
+      ? new MeshBasicMaterial({ vertexColors: true })
+      : solid(header.detail !== "fine");
+    const mesh = new Mesh(geometry, material);
+    mesh.castShadow = mesh.receiveShadow = !header.is_flat;
+    return mesh;
+  }
+
+  /** Show the first parts of the shape in an order; all of them where there is no count. */
+  setGrowth(count: number | null, order: Order, emitted: string[]): void {
+    if (this.piece === null) return;
+    if (count === null) this.piece.geometry.setDrawRange(0, Infinity);
+    else {
+      if (this.ends === null || this.ends.order !== order) this.ends = { order, at: sorted(this.piece, order, emitted) };
+      this.piece.geometry.setDrawRange(0, 3 * this.ends.at[Math.min(count, this.ends.at.length - 1)]);
+    }
+    this.marks.visible = this.shape.visible && count === null;
     this.draw();
   }
 
@@ -191,12 +271,25 @@ export class Stage {
   }
 
   /** Mark parts: those that are selected or under the pointer, and those that are pinned. */
-  mark(isSelected: (address: string) => boolean, isPinned: (address: string) => boolean): void {
+  mark(
+    isSelected: (address: string) => boolean,
+    isPinned: (address: string) => boolean,
+    isFalling: (address: string) => boolean,
+  ): void {
     clear(this.marks);
     if (this.piece !== null && !this.piece.header.is_flat) {
+      this.tint(isFalling, this.look.falling, 0.5);
       this.tint(isPinned, this.look.pinned, 0.28);
       this.tint(isSelected, this.look.selected, 0.35);
     }
+    this.draw();
+  }
+
+  /** Show forces, as long as a fifth of the scene where they are largest. */
+  setArrows(forces: Arrow[]): void {
+    clear(this.arrows);
+    const size = this.bounds().getSize(new Vector3()).length();
+    for (const one of arrowMeshes(forces, 0.2 * size, this.look.force)) this.arrows.add(one);
     this.draw();
   }
 
@@ -393,6 +486,7 @@ export class Stage {
   }
 }
 
+const solid = (flatShading: boolean) => new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading });
 const round = (value: number): number => Math.round(value * 1e3) / 1e3;
 
 /** A geometry with the vertices of its own triangles only, for edges. */

@@ -103,6 +103,10 @@ export class Things {
     return [...this.objects.keys()];
   }
 
+  triangles(name: string): number {
+    return ((this.objects.get(name)?.children[0] as Mesh | undefined)?.geometry.index?.count ?? 0) / 3;
+  }
+
   /** Where the selected object stands. */
   get at(): Vector3 | null {
     return (this.selected !== null && this.objects.get(this.selected)?.position) || null;

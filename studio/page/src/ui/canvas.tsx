@@ -8,15 +8,17 @@ import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
 import * as store from "../store";
 import { shapeOf } from "./gallery";
+import { Sides, sideShapes } from "./compare";
 import { Legend } from "./difference";
-import { Icon } from "./icons";
 import { Offers } from "./offers";
+import { Growth } from "./growth";
+import { Notices, Problem } from "./notices";
 import { Pen } from "./pen";
 
 export let stage: Stage;
 export let drag: Drag;
 /** What is on the stage: of tests and of the page itself. */
-export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
+export const shown = { key: null as Key | null, what: "", detail: "", bests: 0 };
 
 export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -47,7 +49,7 @@ export function Canvas() {
         }}
         onPointerMove={(event) => {
           if (drag.move(...at(event))) return;
-          if (event.buttons === 0 && store.tool.value === "look") store.hovered.value = stage.partAt(...at(event));
+          if (event.buttons === 0 && store.tool.value === "look" && store.compared.value.length === 0) store.hovered.value = stage.partAt(...at(event));
         }}
         onPointerLeave={() => (store.hovered.value = null)}
         onPointerUp={(event) => {
@@ -59,6 +61,8 @@ export function Canvas() {
       />
       <Pen />
       <Legend />
+      <Sides />
+      <Growth />
       <Problem />
       <Notices />
       <Offers />
@@ -72,38 +76,12 @@ export function Canvas() {
 }
 
 function clicked(x: number, y: number): void {
+  if (store.compared.value.length > 0) return;
   const part = stage.partAt(x, y);
   const name = part === null ? stage.thingAt(x, y) : null;
   store.select(part);
   if (name !== null) store.thing.value = { name, mode: "translate" };
   else if (part === null) store.thing.value = null;
-}
-
-function Problem() {
-  const problem = store.view.value?.problem;
-  if (problem == null) return null;
-  return (
-    <div class="problem" role="alert">
-      <h3>{problem.place === null ? problem.code : `${problem.place.path.replace(/^.*\//, "")}:${problem.place.line}`}</h3>
-      <pre>{problem.text}</pre>
-      <p>The last good shape stays. Save the file again to go on.</p>
-    </div>
-  );
-}
-
-function Notices() {
-  return (
-    <div class="notices" aria-live="polite">
-      {store.notices.value.map((one) => (
-        <div key={one.id} class={one.isError ? "notice error" : "notice"}>
-          <pre>{one.text}</pre>
-          <button class="icon-button tiny" title="Dismiss" onClick={() => store.dismiss(one.id)}>
-            <Icon name="close" />
-          </button>
-        </div>
-      ))}
-    </div>
-  );
 }
 
 /** Keep the stage up to date with what the studio tells. */
@@ -127,6 +105,7 @@ function follow(): void {
     stage.show(shape, payload);
     shown.key = shape?.key ?? null;
     shown.what = shape?.what ?? "";
+    shown.bests = shown.what !== "best" ? 0 : shown.bests + 1;
     shown.detail = shape?.detail ?? "";
     remark();
   };
@@ -134,9 +113,11 @@ function follow(): void {
     const level = store.level.value;
     const over = store.hovered.value;
     const pins = [...store.pinned.value];
+    const falls = new Set([...(store.judged.value?.loose ?? []), ...(store.judged.value?.fallen ?? [])]);
     stage.mark(
       (address) => (level !== null && level !== "" && isBelow(address, level)) || (over !== null && isBelow(address, over)) || address === store.part.value,
       (address) => pins.some((pin) => isBelow(address, pin)),
+      (address) => falls.has(address),
     );
   };
   // What is picked is shown: at once as it is in the gallery, then finely, with its choices.
@@ -148,13 +129,15 @@ function follow(): void {
     last = name;
     if (key === null) {
       put(null, new ArrayBuffer(0));
-      store.described.value = null;
+      store.described.value = store.judged.value = store.palette.value = null;
       return;
     }
     const light = shapeOf(name);
     if (light !== undefined) put(light[0], light[1]);
     void store.tell({ kind: "show", key, detail: "fine" });
     void store.tell({ kind: "describe", key });
+    store.judged.value = store.palette.value = null;
+    if (store.kind.value === "structure") void store.tell({ kind: "judge", key });
   });
   effect(() => {
     // A search that has ended without a result leaves the picked one.
@@ -174,8 +157,26 @@ function follow(): void {
     remark();
   });
   effect(() => {
+    void store.showForces.value;
+    stage.setArrows(store.showForces.value ? (store.judged.value?.arrows ?? []) : []);
+    remark();
+  });
+  let rules = "";
+  effect(() => {
+    // The rules of a drawing have changed: how well the picked result keeps them has, too.
+    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.pins.map((one) => one.part)]);
+    const key = store.picked.peek();
+    if (now !== rules && rules !== "" && key !== null && store.kind.peek() === "coloring") void store.tell({ kind: "describe", key });
+    rules = now;
+  });
+  effect(() => {
     if (store.view.value !== null) stage.setAsk(store.view.value.ask);
   });
+  effect(() => {
+    const { count, order } = store.growth.value;
+    stage.setGrowth(count, order, (store.described.value?.parts ?? []).map((one) => one.address));
+  });
+  effect(() => stage.setSides(sideShapes.value));
   // The difference of the picked result, asked for when it is looked at.
   let asked = "";
   effect(() => {

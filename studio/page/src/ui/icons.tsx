@@ -24,7 +24,7 @@ const PATHS: Record<string, string> = {
   pause: "M5.500 3v10 M10.500 3v10",
   difference: "M6 3.500a4.500 4.500 0 1 0 0 9 4.500 4.500 0 0 0 0-9z M10 3.500a4.500 4.500 0 1 1 0 9",
   save: "M8 2v8 M5 7.500 8 10.500 11 7.500 M3 13.500h10",
-  compare: "M8 2v12 M2.500 4H6v8H2.500z M10 4h3.500v8H10z",
+  compare: "M2.500 3.500h4.500v9H2.500z M9 3.500h4.500v9H9z",
 };
 
 export function Icon({ name, filled = false }: { name: string; filled?: boolean }) {

@@ -3,6 +3,7 @@
 import { isBelow } from "../stage/meshes";
 import type { ChoiceInfo, Place } from "../messages";
 import * as store from "../store";
+import { Balance } from "./balance";
 import { Icon } from "./icons";
 
 const SHOWN = 150;
@@ -53,7 +54,23 @@ export function Inspector() {
             </button>
           </div>
         )}
+        {here !== "" && (
+          <label class="row" title="How different the variants are from this part">
+            <span>variants</span>
+            <input
+              type="range"
+              min={0}
+              max={1}
+              step={0.25}
+              value={store.strength.value}
+              aria-label="how different variants are"
+              onInput={(event) => (store.strength.value = Number(event.currentTarget.value))}
+            />
+            <output>{["alike", "near", "some", "far", "unlike"][Math.round(4 * store.strength.value)]}</output>
+          </label>
+        )}
       </section>
+      {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
           <div key={call} role="group" aria-label={call || "its own choices"}>
