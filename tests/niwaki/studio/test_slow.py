@@ -18,7 +18,8 @@ def test_a_body_that_comes_slowly_is_refused(tmp_path, monkeypatch):
     said: list[dict] = []
 
     async def asked() -> None:
-        guard = server.application(Session(tmp_path, []), 1234)
+        session = Session(tmp_path, [])
+        guard = server.application(session, 1234)
         headers = {"host": "127.0.0.1:1234", "authorization": f"Bearer {guard.key}"}
         scope = {
             "type": "http",
@@ -40,6 +41,7 @@ def test_a_body_that_comes_slowly_is_refused(tmp_path, monkeypatch):
 
         async with asyncio.timeout(5):
             await guard(scope, receive, send)
+        await session.end()
 
     asyncio.run(asked())
     assert said[0]["status"] == 408
