@@ -61,8 +61,10 @@ def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     module, digest = run_file(place.resolve())
     space = vars(module)
     models = {key: value for key, value in space.items() if isinstance(value, Model)}
-    if not name and len(models) == 1:
-        name = next(iter(models))
+    # A model that the file imports from elsewhere is not the one that is meant.
+    own = [key for key, value in models.items() if value.function.__module__ == module.__name__]
+    if not name and len(own) == 1:
+        name = own[0]
     found = space.get(name)
     if isinstance(found, FunctionType):
         found = Model(found)

@@ -3,12 +3,16 @@
 import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import "./style.css";
+import { easel, placeOf } from "./pictures";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
 import { Canvas, shown, stage } from "./ui/canvas";
+import { Easel, frame } from "./ui/easel";
 import { Gallery } from "./ui/gallery";
 import { play } from "./ui/growth";
 import { Inspector } from "./ui/inspector";
+import { Palette } from "./ui/palette";
+import { ruling } from "./ui/rules";
 import { Setup } from "./ui/setup";
 
 function App() {
@@ -17,9 +21,10 @@ function App() {
     addEventListener("keydown", pressed);
     return () => removeEventListener("keydown", pressed);
   }, []);
+  const isColoring = store.kind.value === "coloring";
   return (
     <div
-      class={isDropping ? "app dropping" : "app"}
+      class={`app${isDropping ? " dropping" : ""}${isColoring ? " coloring" : ""}`}
       onDragOver={(event) => {
         event.preventDefault();
         setDropping(true);
@@ -35,8 +40,9 @@ function App() {
       <Bar onFit={() => stage.fit()} />
       <Setup />
       <Canvas />
+      {isColoring && <Easel />}
       <Gallery />
-      <Inspector />
+      {isColoring ? <Palette /> : <Inspector />}
     </div>
   );
 }
@@ -53,6 +59,7 @@ function pressed(event: KeyboardEvent): void {
   }
   if (event.key === "Escape") {
     if (store.isSearching.value) store.stop();
+    else if (ruling.value !== null) ruling.value = null;
     else if (store.compared.value.length > 0) store.compared.value = [];
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
@@ -68,7 +75,7 @@ function pressed(event: KeyboardEvent): void {
   else if (event.key === " " && target.tagName !== "BUTTON") play();
   else if (event.key === "c") store.compare();
   else if (event.key === "x") store.showDifference.value = !store.showDifference.value;
-  else if (event.key === "d") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
+  else if (event.key === "d" && store.kind.value === "scene") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
   else if (event.key === "r" && level) store.reroll(level, 1);
   else if (event.key === "p" && level) store.pinOrFree(level);
   else if (event.key === "s" && store.picked.value) {
@@ -133,6 +140,23 @@ Object.assign(window, {
     get bounds() {
       const { low, high } = stage.piece?.header ?? {};
       return { low, high };
+    },
+    get palette() {
+      return store.palette.value;
+    },
+    get judged() {
+      return store.judged.value;
+    },
+    get arrows() {
+      return stage.arrows.children.length;
+    },
+    get easel() {
+      return easel.value === null ? null : { name: easel.value.name, detail: easel.value.detail };
+    },
+    /** Where a region is seen, in CSS pixels of the middle. */
+    regionPoint: (name: string) => {
+      const found = placeOf(name);
+      return found === null ? null : [frame.at[0] + found[0] * frame.at[2], frame.at[1] + found[1] * frame.at[3]];
     },
     pointOf: (address: string) => stage.pointOf(address),
   },

@@ -46,6 +46,20 @@ export interface Sketch {
   kind?: "shadow" | "silhouette";
 }
 
+/** A rule about regions of a drawing: those of `niwaki.color.Rules`. */
+export interface RuleAsk {
+  kind: "lighter" | "lightness" | "muted" | "same-chroma" | "same-hue";
+  regions: string[];
+  most?: number;
+}
+
+/** Rules of a drawing. */
+export interface RulesAsk {
+  rules?: RuleAsk[];
+  background?: string | null;
+  weight?: number;
+}
+
 /** Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target. */
 export interface AskChange {
   target?: TargetAsk | null;
@@ -53,6 +67,7 @@ export interface AskChange {
   floor?: number | null;
   obstacles?: TargetAsk[];
   light?: [number, number, number];
+  rules?: RulesAsk | null;
 }
 
 /** Say what the scene should be like; what is left out stays. */
@@ -94,6 +109,7 @@ export interface Stop {
 export interface PinParts {
   kind: "pin";
   parts: string[];
+  color?: string | null;
   id?: number;
 }
 
@@ -117,7 +133,7 @@ export interface Reroll {
 export interface Choose {
   kind: "choose";
   address: string;
-  value: number | boolean;
+  value: number | boolean | string;
   phase?: "end" | "move";
   id?: number;
 }
@@ -165,6 +181,14 @@ export interface Star {
   id?: number;
 }
 
+/** Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls. */
+export interface Judge {
+  kind: "judge";
+  key: Key;
+  simulate?: boolean;
+  id?: number;
+}
+
 /** Take the last step back. */
 export interface Undo {
   kind: "undo";
@@ -181,8 +205,10 @@ export interface Redo {
 export interface Export {
   kind: "export";
   key: Key;
-  format: "3mf" | "glb" | "json" | "obj" | "ply" | "png" | "stl" | "svg";
+  format: "3mf" | "assembly" | "dxf" | "glb" | "json" | "obj" | "ply" | "png" | "stl" | "svg" | "toml";
   scale?: number | null;
+  board?: [number, number];
+  kerf?: number;
   id?: number;
 }
 
@@ -193,7 +219,14 @@ export interface Parameter {
   is_required: boolean;
 }
 
-/** A model that can be chosen. */
+/** A region of a drawing: its share of the picture, and the colour that it has there. */
+export interface RegionInfo {
+  name: string;
+  share: number;
+  color: string;
+}
+
+/** What can be chosen: a model, or a drawing to colour. */
 export interface ModelInfo {
   reference: string;
   title: string;
@@ -201,6 +234,9 @@ export interface ModelInfo {
   target: string | null;
   draws: string | null;
   is_file: boolean;
+  kind: "coloring" | "scene" | "structure";
+  regions: RegionInfo[];
+  rules: RulesAsk | null;
 }
 
 /** What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked. */
@@ -210,6 +246,7 @@ export interface Ask {
   floor?: number | null;
   obstacles?: TargetAsk[];
   light?: [number, number, number];
+  rules?: RulesAsk | null;
 }
 
 /** How to search. */
@@ -231,6 +268,7 @@ export interface Outcome {
   model: string;
   covered: number | null;
   outside: number | null;
+  note: string;
 }
 
 /** A held part: its pattern, and the values of the choices that hold it. */
@@ -280,6 +318,7 @@ export interface View {
   interrupted: boolean;
   undo: number;
   redo: number;
+  note: string;
 }
 
 /** The whole state; `rev` counts the patches. */
@@ -376,6 +415,65 @@ export interface Failed {
   problem: Problem | null;
 }
 
+/** How well a colouring keeps a rule, in words and in units. */
+export interface KeptRule {
+  kind: string;
+  first: string;
+  second: string;
+  text: string;
+  holds: boolean;
+  residual: number;
+}
+
+/** The colours of a result by region, and its rules. */
+export interface Palette {
+  kind: "palette";
+  id: number;
+  key: Key | null;
+  colors: Record<string, string>;
+  kept: KeptRule[];
+}
+
+/** The header of a frame with a PNG: a drawing in the colours of a result. */
+export interface Picture {
+  kind: "picture";
+  id: number;
+  what: "moving" | "result";
+  key: Key | null;
+  detail: "fine" | "light";
+}
+
+/** The header of a frame with the number of each pixel's region in the model's list, (height, width) uint16. */
+export interface Regions {
+  kind: "regions";
+  id: number;
+  what: "ghost";
+  width: number;
+  height: number;
+}
+
+/** A force in the scene: where it acts, and its size and direction in mean weights of a block. */
+export interface Arrow {
+  at: [number, number, number];
+  force: [number, number, number];
+}
+
+/** Whether a structure stands. */
+export interface Judged {
+  kind: "judged";
+  id: number;
+  key: Key | null;
+  holds: boolean;
+  tilt: number;
+  loose: string[];
+  arrows: Arrow[];
+  stands: boolean | null;
+  moved: number | null;
+  fallen: string[];
+  board: number | null;
+  text: string;
+}
+
 export type Command =
   | Hello
   | ChooseModel
@@ -392,6 +490,7 @@ export type Command =
   | ShowDifference
   | Pick
   | Star
+  | Judge
   | Undo
   | Redo
   | Export;
@@ -404,4 +503,8 @@ export type Event =
   | Difference
   | Done
   | File
-  | Failed;
+  | Failed
+  | Palette
+  | Picture
+  | Regions
+  | Judged;

@@ -2,13 +2,21 @@
 
 import { computed, signal } from "@preact/signals";
 import { connect, Refused } from "./link";
-import type { AskChange, Described, Difference, Event, Eye, Key, Outcome, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { Frame } from "./link";
+import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
 import type { Order } from "./stage/growth";
 import type { Mode } from "./stage/things";
 
 export const view = signal<View | null>(null);
 export const isOpen = signal(false);
 export const described = signal<Described | null>(null);
+/** Of the picked result: the colours of a drawing with its rules, and whether a structure stands. */
+export const palette = signal<Palette | null>(null);
+export const judged = signal<Judged | null>(null);
+/** Whether the forces that hold a structure are shown. */
+export const showForces = signal(true);
+/** The board that pieces are cut of: width, height, and what the saw takes, millimetres. */
+export const board = signal<[number, number, number]>([600, 400, 0.2]);
 /** The call or iteration that is selected; "" for the whole model, null for nothing. */
 export const level = signal<string | null>(null);
 /** The primitive that was clicked. */
@@ -49,6 +57,8 @@ export const theme = signal<"light" | "dark">(
   matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
 );
 
+/** Whether the model makes scenes or structures, or a drawing is coloured. */
+export const kind = computed(() => view.value?.model?.kind ?? "scene");
 export const isSearching = computed(() => view.value?.searching != null);
 export const picked = computed(() => view.value?.picked ?? null);
 export const pinned = computed(() => new Set((view.value?.pins ?? []).map((one) => one.part)));
@@ -60,9 +70,16 @@ export const isStarred = (key: Key): boolean => (view.value?.stars ?? []).some((
 
 // ---- shapes: who wants to know
 
-type Listener = (shape: Shape, payload: ArrayBuffer) => void;
-const listeners: Listener[] = [];
-export const onShape = (listener: Listener): void => void listeners.push(listener);
+type Listener<F> = (header: F, payload: ArrayBuffer) => void;
+const listeners: Listener<Shape>[] = [];
+export const onShape = (listener: Listener<Shape>): void => void listeners.push(listener);
+const drawers: Listener<Picture | Regions>[] = [];
+export const onPicture = (listener: Listener<Picture | Regions>): void => void drawers.push(listener);
+function framed(header: Frame, payload: ArrayBuffer): void {
+  if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
+  else if (header.kind === "shape") listeners.forEach((one) => one(header, payload));
+  else drawers.forEach((one) => one(header, payload));
+}
 
 // ---- notices
 
@@ -86,19 +103,16 @@ function heard(event: Event): void {
     view.value = { ...view.value, ...event.changes };
   } else if (event.kind === "described") {
     described.value = event;
+  } else if (event.kind === "palette") {
+    palette.value = event;
+  } else if (event.kind === "judged") {
+    judged.value = event;
   } else if (event.kind === "error" && event.id === 0 && event.problem) {
     note(event.problem.text, true);
   }
 }
 
-const link = connect(
-  heard,
-  (header, payload) => {
-    if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
-    else listeners.forEach((one) => one(header, payload));
-  },
-  (open) => (isOpen.value = open),
-);
+const link = connect(heard, framed, (open) => (isOpen.value = open));
 
 /** Sends a command, and shows why it was refused. */
 export async function tell(command: Parameters<typeof link.send>[0]): Promise<Event | undefined> {
@@ -150,9 +164,10 @@ export function pinOrFree(name: string): void {
 export function reroll(name: string, count: number): void {
   void tell({ kind: "reroll", part: name, count, strength: count > 1 ? strength.value : null });
 }
-export async function exported(format: "glb" | "stl" | "obj" | "svg" | "png" | "json" | "3mf"): Promise<void> {
+export async function exported(format: Export["format"]): Promise<void> {
   if (picked.value === null) return;
-  const found = await tell({ kind: "export", key: picked.value, format });
+  const [width, height, kerf] = board.value;
+  const found = await tell({ kind: "export", key: picked.value, format, board: [width, height], kerf });
   if (found?.kind !== "file") return;
   const anchor = document.createElement("a");
   anchor.href = `/file/${found.hash}`;
@@ -162,10 +177,10 @@ export async function exported(format: "glb" | "stl" | "obj" | "svg" | "png" | "
 }
 /** Bytes of a mesh, as the studio takes them. */
 const UPLOAD = 64 * 2 ** 20;
-/** Sends a mesh, to grow into it or to keep away from it. */
+/** Sends a mesh, to grow into it or to keep away from it; or a drawing, to colour it. */
 export async function uploaded(file: File, isObstacle = false): Promise<void> {
   if (file.size > UPLOAD) {
-    note(`${file.name} has ${Math.round(file.size / 2 ** 20)} MB; a mesh that is sent has at most ${UPLOAD / 2 ** 20} MB.`, true);
+    note(`${file.name} has ${Math.round(file.size / 2 ** 20)} MB; a file that is sent has at most ${UPLOAD / 2 ** 20} MB.`, true);
     return;
   }
   note(`Reading ${file.name}`);
@@ -176,6 +191,7 @@ export async function uploaded(file: File, isObstacle = false): Promise<void> {
     return;
   }
   for (const one of found.notes as string[]) note(`${file.name}: ${one}`);
-  if (isObstacle) avoid({ source: found.source });
+  if (found.reference) void tell({ kind: "model", reference: found.reference });
+  else if (isObstacle) avoid({ source: found.source });
   else ask({ target: { source: found.source } });
 }

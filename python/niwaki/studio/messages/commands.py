@@ -9,18 +9,22 @@ from msgspec import UNSET, Meta, Struct, UnsetType, field
 from niwaki.studio.messages.document import (
     Address,
     Addresses,
+    Color,
     Count,
     Effort,
     Key,
     Length,
     Light,
     Obstacles,
+    RulesAsk,
     Seed,
     Sketch,
     Strength,
     TargetAsk,
     Text,
 )
+
+Side = Annotated[float, Meta(gt=0.0, le=1e5)]
 
 
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
@@ -49,6 +53,7 @@ class AskChange(Struct, frozen=True, forbid_unknown_fields=True):
     floor: Length | None | UnsetType = UNSET
     obstacles: Obstacles | UnsetType = UNSET
     light: Light | UnsetType = UNSET
+    rules: RulesAsk | None | UnsetType = UNSET
 
 
 class SetAsk(Command, tag="ask"):
@@ -85,6 +90,8 @@ class PinParts(Command, tag="pin"):
     """Hold parts of the picked result in what follows."""
 
     parts: Addresses
+    #: Of a drawing's regions: the colour that they shall have; None for the picked result's.
+    color: Color | None = None
 
 
 class FreeParts(Command, tag="free"):
@@ -111,7 +118,8 @@ class Choose(Command, tag="choose"):
     """Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result."""
 
     address: Address
-    value: float | int | bool
+    #: A colour where the address is a drawing's region.
+    value: float | int | bool | Color
     phase: Literal["move", "end"] = "end"
 
 
@@ -147,6 +155,13 @@ class Star(Command, tag="star"):
     on: bool = True
 
 
+class Judge(Command, tag="judge"):
+    """Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls."""
+
+    key: Key
+    simulate: bool = False
+
+
 class Undo(Command, tag="undo"):
     """Take the last step back."""
 
@@ -156,11 +171,18 @@ class Redo(Command, tag="redo"):
 
 
 class Export(Command, tag="export"):
-    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats."""
+    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats.
+
+    Of a structure `dxf` and `svg` are the boards of which its pieces are cut, and `assembly` is how they are put
+    together; of a drawing `toml` is its rules.
+    """
 
     key: Key
-    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json"]
+    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json", "dxf", "assembly", "toml"]
     scale: Annotated[float, Meta(gt=0.0, le=1e9)] | None = None
+    #: Width and height of a board, and what the saw takes, millimetres.
+    board: tuple[Side, Side] = (600.0, 400.0)
+    kerf: Annotated[float, Meta(ge=0.0, le=100.0)] = 0.2
 
 
 AnyCommand = (
@@ -179,6 +201,7 @@ AnyCommand = (
     | ShowDifference
     | Pick
     | Star
+    | Judge
     | Undo
     | Redo
     | Export

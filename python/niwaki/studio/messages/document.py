@@ -12,6 +12,7 @@ Share = Annotated[float, Meta(ge=-10.0, le=10.0)]
 Length = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Point = tuple[Length, Length, Length]
 Addresses = Annotated[list[Address], Meta(max_length=10_000)]
+Color = Annotated[str, Meta(pattern="^#[0-9a-fA-F]{6}$")]
 Count = Annotated[int, Meta(ge=1, le=48)]
 Seed = Annotated[int, Meta(ge=0, lt=2**53)]
 Strength = Annotated[float, Meta(ge=0.0, le=1.0)]
@@ -86,6 +87,38 @@ class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
     kind: Literal["silhouette", "shadow"] = "silhouette"
 
 
+class RuleAsk(Struct, frozen=True, forbid_unknown_fields=True):
+    """A rule about regions of a drawing: those of `niwaki.color.Rules`.
+
+    Attributes
+    ----------
+    regions
+        A chain, the lightest first; of "muted" those that it is about (`all`: each without a number of its own).
+    most
+        Of "muted": the largest distance from grey, CIELAB units.
+    """
+
+    kind: Literal["lightness", "lighter", "same-chroma", "same-hue", "muted"]
+    regions: Annotated[list[Text], Meta(min_length=1, max_length=256)]
+    most: Annotated[float, Meta(ge=0.0, le=200.0)] = 30.0
+
+
+class RulesAsk(Struct, frozen=True, forbid_unknown_fields=True):
+    """Rules of a drawing.
+
+    Attributes
+    ----------
+    background
+        The region that the others lie on; None for the one at the picture's edge.
+    weight
+        How strict they are.
+    """
+
+    rules: Annotated[list[RuleAsk], Meta(max_length=1_000)] = []
+    background: Text | None = None
+    weight: Annotated[float, Meta(gt=0.0, le=1e6)] = 100.0
+
+
 class Ask(Struct, frozen=True, forbid_unknown_fields=True):
     """What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked.
 
@@ -97,6 +130,8 @@ class Ask(Struct, frozen=True, forbid_unknown_fields=True):
         Solids that nothing comes near.
     light
         The direction in which the light travels that casts a shadow.
+    rules
+        Of a drawing to colour; None for those that come with it.
     """
 
     target: TargetAsk | None = None
@@ -104,6 +139,7 @@ class Ask(Struct, frozen=True, forbid_unknown_fields=True):
     floor: Length | None = None
     obstacles: Obstacles = []
     light: Light = (-0.55, -1.0, -0.5)
+    rules: RulesAsk | None = None
 
 
 class Settings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -149,6 +185,8 @@ class Outcome(Struct, frozen=True):
     #: Of what is wanted, the share that it fills; of it, the share that is elsewhere.
     covered: float | None = None
     outside: float | None = None
+    #: What is said of it in the gallery, where that is not how much it covers.
+    note: str = ""
 
 
 class Pin(Struct, frozen=True):

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Key, Outcome, Pin, Point, Settings
+from niwaki.studio.messages.document import Ask, Key, Outcome, Pin, Point, RulesAsk, Settings
 
 
 class Place(Struct):
@@ -35,8 +35,24 @@ class Parameter(Struct):
     is_required: bool = False
 
 
+class RegionInfo(Struct):
+    """A region of a drawing: its share of the picture, and the colour that it has there."""
+
+    name: str
+    share: float
+    color: str
+
+
 class ModelInfo(Struct):
-    """A model that can be chosen."""
+    """What can be chosen: a model, or a drawing to colour.
+
+    Attributes
+    ----------
+    kind
+        A "structure" is a model of blocks that stand; a "coloring" is a drawing.
+    regions, rules
+        Of a drawing; the rules that come with it.
+    """
 
     reference: str
     title: str = ""
@@ -46,6 +62,9 @@ class ModelInfo(Struct):
     #: The style of its drawings; None for models in space.
     draws: str | None = None
     is_file: bool = False
+    kind: Literal["scene", "structure", "coloring"] = "scene"
+    regions: list[RegionInfo] = []
+    rules: RulesAsk | None = None
 
 
 class ChoiceInfo(Struct):
@@ -95,6 +114,8 @@ class View(Struct):
     interrupted: bool
     undo: int
     redo: int
+    #: Of a drawing: which rules cannot all hold, and by how much; empty where they can.
+    note: str = ""
 
 
 class Event(Struct, tag_field="kind"):

@@ -8,6 +8,7 @@ from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
 from niwaki.studio.messages.events import Described, Difference, ModelInfo, Problem, Shape
+from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
 class Question(Struct):
@@ -18,6 +19,8 @@ class Question(Struct):
     ask: Ask
     settings: Settings
     lock: Choices = {}
+    #: Of a drawing that was sent: where it is.
+    file: str = ""
 
 
 class Job(Struct, kw_only=True, tag_field="kind"):
@@ -36,10 +39,11 @@ class Load(Job, tag="load"):
     """Read a model, perhaps again."""
 
     reference: str
+    file: str = ""
 
 
 class Ghost(Job, tag="ghost"):
-    """The mesh of a target."""
+    """The mesh of a target; the regions of a drawing."""
 
     question: Question
 
@@ -113,6 +117,15 @@ class FindDifference(Job, tag="difference"):
     key: Key
 
 
+class JudgeRun(Job, tag="judge"):
+    """Whether a structure stands."""
+
+    source: str
+    number: int
+    key: Key
+    simulate: bool = False
+
+
 class WriteFile(Job, tag="write"):
     """Write a result as a file into a folder."""
 
@@ -121,6 +134,8 @@ class WriteFile(Job, tag="write"):
     format: str
     folder: str
     scale: float | None = None
+    board: tuple[float, float] = (600.0, 400.0)
+    kerf: float = 0.2
 
 
 AnyJob = (
@@ -134,6 +149,7 @@ AnyJob = (
     | DescribeRun
     | ShowRun
     | FindDifference
+    | JudgeRun
     | WriteFile
 )
 
@@ -149,6 +165,8 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     pins: list[Pin] = []
     path: str = ""
     interrupted: bool = False
+    #: What windows see as `View.note`.
+    note: str = ""
 
 
 class Progressed(Struct, tag_field="kind", tag="progressed"):
@@ -160,4 +178,4 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described | Difference
+AnyReport = Answer | Progressed | Shape | Described | Difference | Palette | Judged | Picture | Regions

@@ -39,6 +39,7 @@ COMMANDS: dict[type[m.Command], Work] = {
     m.Choose: reshaping.choose,
     m.Describe: showing.describe,
     m.Show: showing.show,
+    m.Judge: showing.judge,
     m.ShowDifference: showing.show_difference,
     m.Pick: marking.pick,
     m.Star: marking.star,

@@ -30,12 +30,14 @@ async def begin(session: Session) -> None:
     await load(session, keep=session.problem)
     session.ready.set()
     if session.document.model is not None:
-        await session.searcher.do(m.Load(reference=session.document.model))
+        reference = session.document.model
+        await session.searcher.do(m.Load(reference=reference, file=session.drawing_file(reference)))
 
 
 def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
     """Take another model; starred results stay."""
-    if command.reference not in {one.reference for one in session.models}:
+    is_listed = command.reference in {one.reference for one in session.models}
+    if not is_listed and not session.drawing_file(command.reference):
         text = f"`{command.reference}` is no model of the gallery, and was not named at the start"
         raise Refused("unknown-model", text)
     fresh = {"model": command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
@@ -48,13 +50,14 @@ async def load(session: Session, keep: m.Problem | None = None) -> None:
     reference = session.document.model
     if reference is None:
         return
-    answer = await session.desk.do(m.Load(reference=reference))
+    answer = await session.desk.do(m.Load(reference=reference, file=session.drawing_file(reference)))
     session.problem = answer.problem or keep
     if answer.models:
         session.model = answer.models[0]
         session.models = [session.model if one.reference == reference else one for one in session.models]
     elif session.model is None or session.model.reference != reference:
-        session.model = next((one for one in session.models if one.reference == reference), None)
+        listed = (one for one in session.models if one.reference == reference)
+        session.model = next(listed, None) or m.ModelInfo(reference, is_file=True)
     session.tell_all()
     if answer.problem is None:
         await load_ghost(session, None)
@@ -68,6 +71,8 @@ async def load_ghost(session: Session, window: Window | None) -> None:
 
     found: list[tuple[str, bytes]] = []
     answer = await session.desk.do(m.Ghost(question=session.question()), report)
+    session.note = answer.note
+    session.tell_all()
     if answer.problem is not None and window is not None:
         window.tell(m.Failed(0, answer.problem))
     if "ghost" not in dict(found):

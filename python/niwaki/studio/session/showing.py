@@ -1,4 +1,4 @@
-"""Choices and shapes of a result, and how it differs from what is wanted, for the window that asks."""
+"""Choices and shapes of a result, how it differs from what is wanted, whether it stands: for the window that asks."""
 
 from __future__ import annotations
 
@@ -19,6 +19,16 @@ async def describe(session: Session, window: Window, command: m.Describe) -> m.A
         window.tell(msgspec.structs.replace(found, id=command.id))
 
     job = m.DescribeRun(**session.source(command.key), question=session.question(), key=command.key)
+    return await session.desk.do(job, report)
+
+
+async def judge(session: Session, window: Window, command: m.Judge) -> m.Answer:
+    """Whether a structure stands."""
+
+    def report(found: Any, payload: bytes) -> None:
+        window.tell(msgspec.structs.replace(found, id=command.id))
+
+    job = m.JudgeRun(**session.source(command.key), key=command.key, simulate=command.simulate)
     return await session.desk.do(job, report)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections import OrderedDict
 from collections.abc import Coroutine
 from pathlib import Path
@@ -14,18 +15,13 @@ from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.journal import Journal
 from niwaki.studio.process import Worker
+from niwaki.studio.refused import Refused as Refused
 from niwaki.studio.window import Window, newest
 
+#: The name of a drawing that was sent.
+DRAWING = re.compile(r"[0-9a-f]{64}\.(svg|png|webp|bmp|gif|tif|tiff|jpg|jpeg)")
 #: Bytes of shapes that are kept ready.
 SHAPES = 256 << 20
-
-
-class Refused(Exception):  # noqa: N818 - it is what happens to a command
-    """A command cannot be carried out; the window that asked is told why."""
-
-    def __init__(self, code: str, text: str) -> None:
-        super().__init__(text)
-        self.problem = m.Problem(code, text)
 
 
 class Session:
@@ -37,6 +33,8 @@ class Session:
         Where it is stored; a session that is there goes on.
     files
         References of models that may be chosen beside those of the gallery; each of a file that was named at the start.
+    trust
+        Whether files that stored runs name may be run for their host functions, where they have not changed.
 
     Attributes
     ----------
@@ -48,8 +46,8 @@ class Session:
         What can be chosen.
     model
         The present one, as it was last read.
-    problem
-        The error of its file.
+    problem, note
+        The error of its file; what is said of what is asked.
     searching
         How far the search is that runs.
     search
@@ -60,17 +58,19 @@ class Session:
         The newest value of a choice, by the phase of its slider.
     """
 
-    def __init__(self, folder: Path, files: list[str]) -> None:
+    def __init__(self, folder: Path, files: list[str], trust: bool = False) -> None:
         self.journal = Journal(folder)
         self.document = self.journal.document()
         self.windows: set[Window] = set()
         self.files = files
-        self.searcher, self.desk = Worker(), Worker()
+        words = [*(["--trust"] if trust else []), *files]
+        self.searcher, self.desk = Worker(*words), Worker(*words)
         self.ready = asyncio.Event()
         self.models: list[m.ModelInfo] = []
         self.targets: list[str] = []
         self.model: m.ModelInfo | None = None
         self.problem: m.Problem | None = None
+        self.note = ""
         self.searching: m.Searching | None = None
         self.search: asyncio.Task[m.Answer] | None = None
         self.is_interrupted = self.journal.running is not None
@@ -116,6 +116,7 @@ class Session:
             interrupted=self.is_interrupted,
             undo=self.journal.undoable,
             redo=self.journal.redoable,
+            note=self.note,
         )
 
     def welcome(self, window: Window, command: int) -> None:
@@ -143,7 +144,7 @@ class Session:
             event = m.Patch(rev=self._rev, changes={"searching": msgspec.to_builtins(self.searching)})
             for window in self.windows:
                 window.put(msgspec.json.encode(event).decode(), "searching")
-        elif isinstance(report, m.Shape):
+        elif isinstance(report, m.Shape | m.Picture):
             report.id = 0
             data = frame(msgspec.json.encode(report), payload)
             if report.what == "result" and report.key is not None:
@@ -215,7 +216,15 @@ class Session:
         lock: dict[str, Any] = {}
         for pin in document.pins:
             lock |= pin.choices
-        return m.Question(document.model or "", document.arguments, ask, document.settings, lock)
+        file = self.drawing_file(document.model)
+        return m.Question(document.model or "", document.arguments, ask, document.settings, lock, file)
+
+    def drawing_file(self, reference: str | None) -> str:
+        """Where a drawing is that was sent, by its reference; empty for anything else."""
+        name = (reference or "").removeprefix("drawing:upload:")
+        place = self.journal.folder / "uploads" / name
+        is_sent = reference != name and DRAWING.fullmatch(name) is not None and place.is_file()
+        return str(place.resolve()) if is_sent else ""
 
     def _read(self, solid: m.TargetAsk) -> m.TargetAsk:
         """A solid with the file that a worker reads."""

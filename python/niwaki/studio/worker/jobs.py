@@ -9,12 +9,12 @@ from math import isfinite
 from typing import Any
 
 import niwaki as nw
-from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.search import Search
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
+from niwaki.studio.refused import Refused
 from niwaki.studio.worker import asks, models, runs, shapes, variety
 from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
@@ -86,7 +86,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
         if one.choices not in [choices, *(other.choices for other in found)]:
             found.append(one)
     if not found:
-        raise InputError("no-runs", detail=f"`{job.part}` has no other form here")
+        raise Refused("no-other-form", f"`{job.part}` has no other form here")
     if job.strength is not None:
         found = variety.ordered(whole, found, job.count, job.strength)
     result = Result(search, found, job.seed)

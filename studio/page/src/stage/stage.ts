@@ -30,8 +30,9 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import type { Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
 import { cubes, KINDS, sheet } from "./cells";
+import { arrowMeshes } from "./arrows";
 import { frame } from "./framing";
 import { type Order, sorted } from "./growth";
 import { subset, unpacked } from "./meshes";
@@ -39,8 +40,8 @@ import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
-  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16 },
-  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45 },
+  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
+  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
 };
 
 export class Stage {
@@ -54,6 +55,7 @@ export class Stage {
   private readonly ground: Mesh;
   private readonly shape = new Group();
   private readonly marks = new Group();
+  readonly arrows = new Group();
   private differences = new Group();
   private ends: { order: Order; at: Uint32Array } | null = null;
   private sides: Group[] = [];
@@ -89,6 +91,7 @@ export class Stage {
       this.ground,
       this.shape,
       this.marks,
+      this.arrows,
       this.differences,
     );
     this.camera.position.set(14, 9, 18);
@@ -264,12 +267,25 @@ export class Stage {
   }
 
   /** Mark parts: those that are selected or under the pointer, and those that are pinned. */
-  mark(isSelected: (address: string) => boolean, isPinned: (address: string) => boolean): void {
+  mark(
+    isSelected: (address: string) => boolean,
+    isPinned: (address: string) => boolean,
+    isFalling: (address: string) => boolean,
+  ): void {
     clear(this.marks);
     if (this.piece !== null && !this.piece.header.is_flat) {
+      this.tint(isFalling, this.look.falling, 0.5);
       this.tint(isPinned, this.look.pinned, 0.28);
       this.tint(isSelected, this.look.selected, 0.35);
     }
+    this.draw();
+  }
+
+  /** Show forces, as long as a fifth of the scene where they are largest. */
+  setArrows(forces: Arrow[]): void {
+    clear(this.arrows);
+    const size = this.bounds().getSize(new Vector3()).length();
+    for (const one of arrowMeshes(forces, 0.2 * size, this.look.force)) this.arrows.add(one);
     this.draw();
   }
 

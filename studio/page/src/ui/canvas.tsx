@@ -10,7 +10,7 @@ import { shapeOf } from "./gallery";
 import { Sides, sideShapes } from "./compare";
 import { Legend } from "./difference";
 import { Growth } from "./growth";
-import { Icon } from "./icons";
+import { Notices, Problem } from "./notices";
 import { Pen } from "./pen";
 
 export let stage: Stage;
@@ -69,33 +69,6 @@ function clicked(x: number, y: number): void {
   else if (part === null) store.thing.value = null;
 }
 
-function Problem() {
-  const problem = store.view.value?.problem;
-  if (problem == null) return null;
-  return (
-    <div class="problem" role="alert">
-      <h3>{problem.place === null ? problem.code : `${problem.place.path.replace(/^.*\//, "")}:${problem.place.line}`}</h3>
-      <pre>{problem.text}</pre>
-      <p>The last good shape stays. Save the file again to go on.</p>
-    </div>
-  );
-}
-
-function Notices() {
-  return (
-    <div class="notices" aria-live="polite">
-      {store.notices.value.map((one) => (
-        <div key={one.id} class={one.isError ? "notice error" : "notice"}>
-          <pre>{one.text}</pre>
-          <button class="icon-button tiny" title="Dismiss" onClick={() => store.dismiss(one.id)}>
-            <Icon name="close" />
-          </button>
-        </div>
-      ))}
-    </div>
-  );
-}
-
 /** Keep the stage up to date with what the studio tells. */
 function follow(): void {
   store.onShape((shape, payload) => {
@@ -124,9 +97,11 @@ function follow(): void {
     const level = store.level.value;
     const over = store.hovered.value;
     const pins = [...store.pinned.value];
+    const falls = new Set([...(store.judged.value?.loose ?? []), ...(store.judged.value?.fallen ?? [])]);
     stage.mark(
       (address) => (level !== null && level !== "" && isBelow(address, level)) || (over !== null && isBelow(address, over)) || address === store.part.value,
       (address) => pins.some((pin) => isBelow(address, pin)),
+      (address) => falls.has(address),
     );
   };
   // What is picked is shown: at once as it is in the gallery, then finely, with its choices.
@@ -138,13 +113,15 @@ function follow(): void {
     last = name;
     if (key === null) {
       put(null, new ArrayBuffer(0));
-      store.described.value = null;
+      store.described.value = store.judged.value = store.palette.value = null;
       return;
     }
     const light = shapeOf(name);
     if (light !== undefined) put(light[0], light[1]);
     void store.tell({ kind: "show", key, detail: "fine" });
     void store.tell({ kind: "describe", key });
+    store.judged.value = store.palette.value = null;
+    if (store.kind.value === "structure") void store.tell({ kind: "judge", key });
   });
   effect(() => {
     // A search that has ended without a result leaves the picked one.
@@ -162,6 +139,19 @@ function follow(): void {
   effect(() => {
     void [store.level.value, store.hovered.value, store.pinned.value, store.part.value];
     remark();
+  });
+  effect(() => {
+    void store.showForces.value;
+    stage.setArrows(store.showForces.value ? (store.judged.value?.arrows ?? []) : []);
+    remark();
+  });
+  let rules = "";
+  effect(() => {
+    // The rules of a drawing have changed: how well the picked result keeps them has, too.
+    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.pins.map((one) => one.part)]);
+    const key = store.picked.peek();
+    if (now !== rules && rules !== "" && key !== null && store.kind.peek() === "coloring") void store.tell({ kind: "describe", key });
+    rules = now;
   });
   effect(() => {
     if (store.view.value !== null) stage.setAsk(store.view.value.ask);

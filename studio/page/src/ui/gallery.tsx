@@ -3,6 +3,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { HEIGHT, later, thumbnail, WIDTH } from "../stage/thumbs";
 import type { Outcome, Shape } from "../messages";
+import { onPictureOf, pictureOf } from "../pictures";
 import * as store from "../store";
 import { Icon } from "./icons";
 
@@ -58,17 +59,29 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
   const theme = store.theme.value;
   useEffect(() => {
     const draw = () => {
+      if (canvas.current === null) return;
+      const picture = pictureOf(name);
+      if (picture !== undefined) {
+        fitted(canvas.current, picture);
+        canvas.current.dataset.drawn = "yes";
+        return;
+      }
       const found = shapes.get(name);
-      if (found === undefined || canvas.current === null) return;
+      if (found === undefined) return;
       thumbnail(canvas.current, found[0], found[1], theme, found[0].low, found[0].high);
       canvas.current.dataset.drawn = "yes";
     };
-    waiting.set(name, () => later(draw));
-    if (shapes.has(name)) later(draw);
+    const wait = () => later(draw);
+    waiting.set(name, wait);
+    onPictureOf(name, wait);
+    if (shapes.has(name) || pictureOf(name) !== undefined) wait();
     else void store.tell({ kind: "show", key: outcome.key, detail: "light" });
-    return () => void waiting.delete(name);
+    return () => {
+      waiting.delete(name);
+      onPictureOf(name, null);
+    };
   }, [name, theme]);
-  const share = fits(outcome);
+  const share = outcome.note || fits(outcome);
   const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
   return (
     <div
@@ -100,4 +113,14 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       </div>
     </div>
   );
+}
+
+/** Draws a picture whole, in the middle. */
+function fitted(canvas: HTMLCanvasElement, picture: ImageBitmap): void {
+  const pen = canvas.getContext("2d")!;
+  const scale = Math.min(WIDTH / picture.width, HEIGHT / picture.height);
+  const [wide, high] = [picture.width * scale, picture.height * scale];
+  pen.clearRect(0, 0, WIDTH, HEIGHT);
+  pen.imageSmoothingQuality = "high";
+  pen.drawImage(picture, (WIDTH - wide) / 2, (HEIGHT - high) / 2, wide, high);
 }

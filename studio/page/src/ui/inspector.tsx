@@ -4,6 +4,7 @@ import { useState } from "preact/hooks";
 import { isBelow } from "../stage/meshes";
 import type { ChoiceInfo, Place } from "../messages";
 import * as store from "../store";
+import { Balance } from "./balance";
 import { Field } from "./fields";
 import { Icon } from "./icons";
 
@@ -71,6 +72,7 @@ export function Inspector() {
           </label>
         )}
       </section>
+      {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
           <div key={call} role="group" aria-label={call || "its own choices"}>

@@ -8,8 +8,8 @@ import { Field } from "./fields";
 import { Icon } from "./icons";
 
 export const title = (name: string): string => {
-  const bare = name.replace(/^.*\//, "").replace("gallery:", "").replace(/_/g, " ");
-  return bare.startsWith("upload:") ? "your mesh" : bare;
+  const bare = name.replace(/^.*\//, "").replace(/^(gallery|stack|drawing):/, "").replace(/_/g, " ");
+  return bare.startsWith("upload:") ? (name.startsWith("drawing:") ? "your drawing" : "your mesh") : bare;
 };
 
 const NAMES: Record<Mode, [string, string]> = {

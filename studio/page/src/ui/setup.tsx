@@ -1,29 +1,47 @@
 // The left side: the model and its arguments, what to grow into, how to search.
 
-import { useRef } from "preact/hooks";
-import type { Parameter, Settings } from "../messages";
+import type { ModelInfo, Parameter, Settings } from "../messages";
 import * as store from "../store";
+import { Drop } from "./drop";
 import { Field } from "./fields";
 import { Icon } from "./icons";
 import { Handles, Objects, title } from "./objects";
 
+const GROUPS: [string, (one: ModelInfo) => boolean][] = [
+  ["Yours", (one) => one.is_file],
+  ["Scenes", (one) => !one.is_file && one.kind === "scene"],
+  ["Structures that stand", (one) => !one.is_file && one.kind === "structure"],
+  ["Drawings to colour", (one) => one.kind === "coloring"],
+];
+
 export function Setup() {
   const view = store.view.value;
   if (view === null) return <aside class="side" aria-label="Model and target" />;
+  const { model } = view;
+  // A drawing that was sent is not listed.
+  const isListed = model === null || view.models.some((one) => one.reference === model.reference);
+  const known = isListed ? view.models : [...view.models, model];
   return (
     <aside class="side" aria-label="Model and target">
       <section>
-        <h2>Model</h2>
+        <h2>{store.kind.value === "coloring" ? "Drawing" : "Model"}</h2>
         <select
           aria-label="Model"
           value={view.model?.reference ?? ""}
           onChange={(event) => void store.tell({ kind: "model", reference: event.currentTarget.value })}
         >
-          {view.models.map((one) => (
-            <option key={one.reference} value={one.reference}>
-              {title(one.reference)}
-            </option>
-          ))}
+          {GROUPS.map(([name, isIn]) => {
+            const members = known.filter(isIn);
+            return members.length === 0 ? null : (
+              <optgroup key={name} label={name}>
+                {members.map((one) => (
+                  <option key={one.reference} value={one.reference}>
+                    {title(one.reference)}
+                  </option>
+                ))}
+              </optgroup>
+            );
+          })}
         </select>
         <p class="quiet">{view.model?.title}</p>
         {(view.model?.parameters ?? [])
@@ -31,9 +49,10 @@ export function Setup() {
           .map((one) => (
             <Argument key={one.name} parameter={one} />
           ))}
+        {store.kind.value === "coloring" && <Drop what="drawing" />}
       </section>
-      <Target />
-      <Objects />
+      {store.kind.value === "scene" && <Target />}
+      {store.kind.value === "scene" && <Objects />}
       <Search settings={view.settings} />
     </aside>
   );
@@ -69,7 +88,6 @@ function Argument({ parameter }: { parameter: Parameter }) {
 
 function Target() {
   const view = store.view.value!;
-  const input = useRef<HTMLInputElement>(null);
   const target = store.target.value;
   const place = (source: string) => store.ask({ target: { source } });
   const isSketched = view.ask.sketch != null;
@@ -120,21 +138,7 @@ function Target() {
           )}
         </div>
       )}
-      <button class="drop" onClick={() => input.current?.click()}>
-        Drop a mesh here <span>OBJ, STL, PLY, GLB</span>
-      </button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        accept=".obj,.stl,.ply,.glb,.gltf"
-        aria-label="A mesh to grow into"
-        onChange={(event) => {
-          const file = event.currentTarget.files?.[0];
-          if (file) void store.uploaded(file);
-          event.currentTarget.value = "";
-        }}
-      />
+      <Drop what="mesh" />
     </section>
   );
 }
@@ -145,7 +149,9 @@ function Search({ settings }: { settings: Settings }) {
   const view = store.view.value!;
   const { set } = store;
   const running = view.searching;
-  const cannot = view.model === null || (view.model.draws === null && store.target.value === null && !view.ask.sketch);
+  const isScene = store.kind.value === "scene";
+  const cannot = view.model === null || (isScene && view.model.draws === null && store.target.value === null && !view.ask.sketch);
+  const verb = store.kind.value === "coloring" ? "Colour" : "Grow";
   return (
     <section>
       <h2>Search</h2>
@@ -199,8 +205,8 @@ function Search({ settings }: { settings: Settings }) {
         />
       </label>
       {running === null ? (
-        <button class="primary" disabled={cannot} onClick={store.run} title="Grow (Enter)">
-          {view.pins.length > 0 ? "Grow the rest" : "Grow"}
+        <button class="primary" disabled={cannot} onClick={store.run} title={`${verb} (Enter)`}>
+          {view.pins.length > 0 ? `${verb} the rest` : verb}
         </button>
       ) : (
         <button class="primary stop" onClick={store.stop} title="Stop and keep what is there (Esc)">
