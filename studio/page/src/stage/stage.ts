@@ -204,8 +204,7 @@ export class Stage {
       this.piece = unpacked(header, payload);
       this.shape.add(this.meshOf(this.piece));
     }
-    this.settle();
-    this.draw();
+    this.come();
   }
 
   private meshOf({ header, geometry }: Piece): Mesh {
@@ -236,8 +235,7 @@ export class Stage {
       this.ghostBox.makeEmpty();
       if (header.triangles > 0) this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
-    this.settle();
-    this.draw();
+    this.come();
   }
 
   /** What is asked, apart from solids: floor, light and camera. */
@@ -310,7 +308,7 @@ export class Stage {
     return box;
   }
 
-  /** Put light and ground around what is there; look at it if nothing was looked at before. */
+  /** Put light and ground around what is there. */
   private settle(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
@@ -330,7 +328,13 @@ export class Stage {
     this.sun.shadow.camera.near = radius;
     this.sun.shadow.camera.far = 8 * radius;
     this.sun.shadow.camera.updateProjectionMatrix();
+  }
+
+  /** Look at what has come, where nothing of this model was looked at before. */
+  private come(): void {
+    this.settle();
     if (!this.isFramed) this.fit();
+    this.draw();
   }
 
   /** Look at everything, along the direction of our pictures. */
