@@ -156,12 +156,12 @@ export class Stage {
 
   private drawSides(): void {
     const { clientWidth, clientHeight } = this.canvas;
-    const wide = clientWidth / this.sides.length;
+    const edge = (k: number) => Math.round((k * clientWidth) / this.sides.length);
     this.renderer.setScissorTest(true);
     this.sides.forEach((_, k) => {
       this.sides.forEach((one, other) => (one.visible = other === k));
-      this.renderer.setViewport(k * wide, 0, wide, clientHeight);
-      this.renderer.setScissor(k * wide, 0, wide, clientHeight);
+      this.renderer.setViewport(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
+      this.renderer.setScissor(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
       this.renderer.render(this.scene, this.camera);
     });
     this.renderer.setScissorTest(false);
