@@ -12,6 +12,7 @@
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
+#   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
@@ -52,7 +53,7 @@ PARTS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -133,6 +134,9 @@ bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
 
 bench-wait: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/wait.py
+
+bench-drag: $(STAMPS)/engine
+	$(PY) benches/drag.py
 
 bench-searches: $(STAMPS)/engine
 	$(PY) benches/board.py

@@ -37,6 +37,8 @@ LIMITS = {
     "pin": 0.1,
     "re-roll": 0.5,
     "undo": 0.1,
+    "drag": 0.2,
+    "refit": 2.0,
     "stroke": 0.1,
     "error": 0.5,
     "mended": 0.5,

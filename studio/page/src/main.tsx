@@ -6,7 +6,7 @@ import "./style.css";
 import { easel, placeOf } from "./pictures";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
-import { Canvas, shown, stage } from "./ui/canvas";
+import { Canvas, drag, shown, stage } from "./ui/canvas";
 import { Easel, frame } from "./ui/easel";
 import { Gallery } from "./ui/gallery";
 import { play } from "./ui/growth";
@@ -58,7 +58,8 @@ function pressed(event: KeyboardEvent): void {
     return;
   }
   if (event.key === "Escape") {
-    if (store.isSearching.value) store.stop();
+    if (drag.isMoving) drag.cancel();
+    else if (store.isSearching.value) store.stop();
     else if (ruling.value !== null) ruling.value = null;
     else if (store.compared.value.length > 0) store.compared.value = [];
     else if (store.tool.value === "draw") store.tool.value = "look";
@@ -107,6 +108,9 @@ Object.assign(window, {
     },
     get frames() {
       return stage.frames;
+    },
+    get drag() {
+      return { left: drag.left, reason: store.quiet.value };
     },
     get things() {
       return stage.things.names;

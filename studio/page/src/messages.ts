@@ -138,6 +138,25 @@ export interface Choose {
   id?: number;
 }
 
+/** Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result. */
+export interface Drag {
+  kind: "drag";
+  part: string;
+  to: [number, number, number];
+  grab?: [number, number, number] | null;
+  along?: [number, number, number] | null;
+  phase?: "cancel" | "end" | "move";
+  follow?: boolean;
+  id?: number;
+}
+
+/** Write a change of the model's file that the last drag has offered; the difference is the one that was shown. */
+export interface Rewrite {
+  kind: "rewrite";
+  difference: string;
+  id?: number;
+}
+
 /** One result: the number of its run, and its place there. */
 export interface Key {
   run: number;
@@ -380,6 +399,33 @@ export interface Shape {
   pivot: [number, number, number];
   is_flat: boolean;
   note: string;
+  held: [number, number, number] | null;
+  left: number;
+}
+
+/** A choice before and after a drag; None where the run has no such choice. */
+export interface Shifted {
+  address: string;
+  before: any;
+  after: any;
+}
+
+/** A change of the model's file that explains a drag. */
+export interface Offer {
+  says: string;
+  difference: string;
+  is_instead: boolean;
+}
+
+/** The end of a drag: what has changed in the first answer; or why the part is not there. */
+export interface Dragged {
+  kind: "dragged";
+  id: number;
+  part: string;
+  share: number;
+  reason: string;
+  changes: Shifted[];
+  offers: Offer[];
 }
 
 /** The header of a frame with a byte for each cell of a target, or each pixel of a picture. */
@@ -485,6 +531,8 @@ export type Command =
   | FreeParts
   | Reroll
   | Choose
+  | Drag
+  | Rewrite
   | Describe
   | Show
   | ShowDifference
@@ -500,6 +548,7 @@ export type Event =
   | Patch
   | Described
   | Shape
+  | Dragged
   | Difference
   | Done
   | File

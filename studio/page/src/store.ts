@@ -3,7 +3,7 @@
 import { computed, signal } from "@preact/signals";
 import { connect, Refused } from "./link";
 import type { Frame } from "./link";
-import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
+import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Offer, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
 import type { Order } from "./stage/growth";
 import type { Mode } from "./stage/things";
 
@@ -23,6 +23,12 @@ export const level = signal<string | null>(null);
 export const part = signal<string | null>(null);
 export const hovered = signal<string | null>(null);
 export const notices = signal<{ id: number; text: string; isError: boolean }[]>([]);
+/** A line of text at the foot of the scene: why a part that is dragged is not at the pointer. */
+export const quiet = signal("");
+/** Changes of the model's file that the last drag has offered. */
+export const offers = signal<Offer[]>([]);
+/** Whether the last drag has changed choices. */
+export const hasDragged = signal(false);
 export const tool = signal<"look" | "place" | "draw">("look");
 export const showGhost = signal(true);
 /** The object of the scene that has handles, and what they do. */

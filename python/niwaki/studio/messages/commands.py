@@ -16,6 +16,7 @@ from niwaki.studio.messages.document import (
     Length,
     Light,
     Obstacles,
+    Point,
     RulesAsk,
     Seed,
     Sketch,
@@ -123,6 +124,35 @@ class Choose(Command, tag="choose"):
     phase: Literal["move", "end"] = "end"
 
 
+class Drag(Command, tag="drag"):
+    """Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result.
+
+    Attributes
+    ----------
+    grab
+        The point of the part that is held; its middle, where left out.
+    along
+        The direction in which a camera looks: distances along it do not count.
+    phase
+        A command that moves is left out where a newer one waits; "cancel" ends the drag with the result as it was.
+    follow
+        Whether the rest is grown again at the end, around the part.
+    """
+
+    part: Address
+    to: Point
+    grab: Point | None = None
+    along: Point | None = None
+    phase: Literal["move", "end", "cancel"] = "end"
+    follow: bool = False
+
+
+class Rewrite(Command, tag="rewrite"):
+    """Write a change of the model's file that the last drag has offered; the difference is the one that was shown."""
+
+    difference: Annotated[str, Meta(max_length=200_000)]
+
+
 class Describe(Command, tag="describe"):
     """Ask for the choices of a result, with places in the source."""
 
@@ -196,6 +226,8 @@ AnyCommand = (
     | FreeParts
     | Reroll
     | Choose
+    | Drag
+    | Rewrite
     | Describe
     | Show
     | ShowDifference

@@ -153,7 +153,8 @@ class Shape(Event, tag="shape"):
     Attributes
     ----------
     what
-        "best" of a running search, a "result", a choice that is "moving", the "ghost" of the target, or an "obstacle".
+        "best" of a running search, a "result", a choice or a part that is "moving", the "ghost" of the target, or an
+        "obstacle".
     number
         Of the obstacle.
     parts
@@ -173,6 +174,50 @@ class Shape(Event, tag="shape"):
     pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False
     note: str = ""
+    #: Of a part that is dragged: where its held point is; the note says why it is not at the pointer.
+    held: Point | None = None
+    #: What is left from there to the pointer, as a share of the scene's size.
+    left: float = 0.0
+
+
+class Shifted(Struct):
+    """A choice before and after a drag; None where the run has no such choice."""
+
+    address: str
+    before: Any
+    after: Any
+
+
+class Offer(Struct):
+    """A change of the model's file that explains a drag.
+
+    Attributes
+    ----------
+    difference
+        The change as a unified difference.
+    is_instead
+        Whether it takes the place of the changed choices; else they change with it.
+    """
+
+    says: str
+    difference: str
+    is_instead: bool = True
+
+
+class Dragged(Event, tag="dragged"):
+    """The end of a drag: what has changed in the first answer; or why the part is not there.
+
+    Attributes
+    ----------
+    share
+        What is left to the pointer, as a share of the scene's size.
+    """
+
+    part: str = ""
+    share: float = 0.0
+    reason: str = ""
+    changes: list[Shifted] = []
+    offers: list[Offer] = []
 
 
 class Difference(Event, tag="difference"):

@@ -6,8 +6,8 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
-from niwaki.studio.messages.events import Described, Difference, ModelInfo, Problem, Shape
+from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
+from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Problem, Shape
 from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
@@ -83,6 +83,26 @@ class Change(Job, tag="change"):
     origin: str = "choose"
 
 
+class DragPart(Job, tag="drag"):
+    """Drag a part of one result: its shape while it moves; answers, written to `file`, where it is named."""
+
+    question: Question
+    source: str
+    number: int
+    part: str
+    to: Point
+    grab: Point | None
+    along: Point | None
+    run: int = 0
+    file: str = ""
+
+
+class RewriteFile(Job, tag="rewrite"):
+    """Write a change that the last drag has offered."""
+
+    difference: str
+
+
 class Hold(Job, tag="hold"):
     """The choices that hold these parts of a result."""
 
@@ -145,6 +165,8 @@ AnyJob = (
     | Grow
     | Regrow
     | Change
+    | DragPart
+    | RewriteFile
     | Hold
     | DescribeRun
     | ShowRun
@@ -178,4 +200,6 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described | Difference | Palette | Judged | Picture | Regions
+AnyReport = (
+    Answer | Progressed | Shape | Described | Difference | Dragged | Palette | Judged | Picture | Regions
+)

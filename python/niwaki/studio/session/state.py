@@ -56,6 +56,8 @@ class Session:
         Frames of the target and of obstacles, by kind.
     wanted
         The newest value of a choice, by the phase of its slider.
+    dragged, dragging
+        The newest point of a part that is dragged; held while one of them is gone to.
     """
 
     def __init__(self, folder: Path, files: list[str], trust: bool = False) -> None:
@@ -75,6 +77,8 @@ class Session:
         self.search: asyncio.Task[m.Answer] | None = None
         self.is_interrupted = self.journal.running is not None
         self.wanted: dict[str, m.Choose] = {}
+        self.dragged: m.Drag | None = None
+        self.dragging = asyncio.Lock()
         self.ghosts: dict[str, bytes] = {}
         self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
         self._told: dict[str, Any] = {}

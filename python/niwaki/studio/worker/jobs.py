@@ -55,7 +55,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         sample = now.sample
         if sample is not None and sample.log_score > shown[0]:
             shown[0] = sample.log_score
-            send(*_shape(sample, "best", job.id, Key(job.run)))
+            send(*shape(sample, "best", job.id, Key(job.run)))
         best = shown[0] if isfinite(shown[0]) else None
         send(Progressed(job.id, now.done, best, time.perf_counter() - begun))
         check()
@@ -75,7 +75,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
 
 def regrow(job: Regrow, send: Any) -> Answer:
     """Grow a part of a result again, in place, by seeds that follow one another; equal outcomes are given once."""
-    search, choices = _searched(
+    search, choices = searched(
         job.question, runs.sample(job.source, job.number), runs.given(job.question.lock)
     )
     with translated(search.model.name, choices=choices):
@@ -96,13 +96,13 @@ def regrow(job: Regrow, send: Any) -> Answer:
 def change(job: Change, send: Any) -> Answer:
     """Run with the choices of a result, some of them changed; choices that it newly makes are drawn from the seed."""
     one = runs.sample(job.source, job.number)
-    search, choices = _searched(job.question, one, None)
+    search, choices = searched(job.question, one, None)
     choices |= runs.given(job.changes)
     with translated(search.model.name, choices=choices):
         trace = search.task.replay(choices, search.seed)
     sample = Sample.of_trace(trace, search, one.seed)
     if not job.file:
-        send(*_shape(sample, "moving", job.id, Key(job.run)))
+        send(*shape(sample, "moving", job.id, Key(job.run)))
         return Answer()
     result = Result(search, [sample], search.seed)
     found = models.reference(job.question.model)
@@ -113,14 +113,15 @@ def _ended(result: Result) -> list[Sample]:
     return [one for one in result.samples if one.has_ended] or list(result.samples)
 
 
-def _searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
+def searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
     """The search of a result with the present model and arguments, and the result's choices."""
     model, args = models.reference(question.model).model, asks.arguments(question)
     search = replace(one.search, model=model, args=args, choices=None, lock=lock or None, polish=None)
     return search, dict(one.choices)
 
 
-def _shape(sample: Sample, what: str, job: int, key: Key) -> Any:
+def shape(sample: Sample, what: str, job: int, key: Key) -> Any:
+    """The header and the payload of a result's scene."""
     return shapes.shape(sample.scene, "light", what=what, id=job, key=key, is_flat=runs.is_flat(sample))
 
 
@@ -131,5 +132,5 @@ def _answered(
     result.samples = sorted(_ended(result), key=lambda one: -one.log_score)
     outcomes = runs.store(result, found, run, file, origin)
     for one, outcome in zip(result.samples, outcomes, strict=True):
-        send(*_shape(one, "result", job, outcome.key))
+        send(*shape(one, "result", job, outcome.key))
     return Answer(outcomes=outcomes, interrupted=result.interrupted)

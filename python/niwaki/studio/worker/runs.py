@@ -109,7 +109,7 @@ def describe(job: DescribeRun, send: Any) -> Answer:
         low, high, whole = reach or (None, None, False)
         infos.append(
             ChoiceInfo(
-                address, families[address], _shown(value), low, high, whole, _place(seen.places.get(address))
+                address, families[address], shown(value), low, high, whole, _place(seen.places.get(address))
             )
         )
     parts = [PartInfo(part.address, _place(seen.places.get(part.address))) for part in one.parts]
@@ -117,7 +117,7 @@ def describe(job: DescribeRun, send: Any) -> Answer:
     return Answer()
 
 
-def _shown(value: Any) -> Any:
+def shown(value: Any) -> Any:
     """A value as a page shows it."""
     return value if isinstance(value, bool | int | float) else str(value)
 

@@ -14,6 +14,7 @@ import {
   Group,
   HemisphereLight,
   LineBasicMaterial,
+  LineDashedMaterial,
   LineSegments,
   Material,
   Mesh,
@@ -21,6 +22,7 @@ import {
   MeshStandardMaterial,
   PCFShadowMap,
   PerspectiveCamera,
+  Plane,
   PlaneGeometry,
   Raycaster,
   Scene,
@@ -55,6 +57,7 @@ export class Stage {
   private readonly ground: Mesh;
   private readonly shape = new Group();
   private readonly marks = new Group();
+  private readonly line = new Group();
   readonly arrows = new Group();
   private differences = new Group();
   private ends: { order: Order; at: Uint32Array } | null = null;
@@ -91,6 +94,7 @@ export class Stage {
       this.ground,
       this.shape,
       this.marks,
+      this.line,
       this.arrows,
       this.differences,
     );
@@ -420,11 +424,44 @@ export class Stage {
 
   /** The address of the part under a point of the canvas, in CSS pixels. */
   partAt(x: number, y: number): string | null {
+    return this.hitAt(x, y)?.address ?? null;
+  }
+
+  /** The part under a point of the canvas, and the point of the part that is seen there. */
+  hitAt(x: number, y: number): { address: string; point: Vector3 } | null {
     const mesh = this.shape.children[0];
     if (this.piece === null || mesh === undefined) return null;
     const hit = this.ray(x, y).intersectObject(mesh, false)[0];
     if (hit?.faceIndex == null) return null;
-    return this.piece.header.parts[this.piece.owners[hit.faceIndex]] ?? null;
+    const address = this.piece.header.parts[this.piece.owners[hit.faceIndex]];
+    return address === undefined ? null : { address, point: hit.point };
+  }
+
+  /** The direction in which the camera looks at a point. */
+  sight(point: Vector3): Vector3 {
+    return point.clone().sub(this.camera.position).normalize();
+  }
+
+  /** The point of the canvas in the plane through `point` that faces the camera. */
+  across(x: number, y: number, point: Vector3): Vector3 {
+    const facing = this.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(facing, point);
+    return this.ray(x, y).ray.intersectPlane(plane, new Vector3()) ?? point.clone();
+  }
+
+  /** A line from where a dragged part is to where it should be; none without points. */
+  tether(from: Vector3 | null, to: Vector3 | null): void {
+    clear(this.line);
+    if (from !== null && to !== null) {
+      const geometry = new BufferGeometry().setFromPoints([from, to]);
+      const look = { color: this.look.selected, dashSize: 0.03, gapSize: 0.02, depthTest: false, transparent: true };
+      const scale = 1 / Math.max(from.distanceTo(to), 1e-9);
+      const line = new LineSegments(geometry, new LineDashedMaterial({ ...look, scale }));
+      line.computeLineDistances();
+      line.renderOrder = 2;
+      this.line.add(line);
+    }
+    this.draw();
   }
 
   /** The obstacle, light or camera under a point of the canvas. */

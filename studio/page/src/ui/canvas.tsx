@@ -2,6 +2,7 @@
 
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { Drag } from "../stage/drag";
 import { isBelow } from "../stage/meshes";
 import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
@@ -9,11 +10,13 @@ import * as store from "../store";
 import { shapeOf } from "./gallery";
 import { Sides, sideShapes } from "./compare";
 import { Legend } from "./difference";
+import { Offers } from "./offers";
 import { Growth } from "./growth";
 import { Notices, Problem } from "./notices";
 import { Pen } from "./pen";
 
 export let stage: Stage;
+export let drag: Drag;
 /** What is on the stage: of tests and of the page itself. */
 export const shown = { key: null as Key | null, what: "", detail: "", bests: 0 };
 
@@ -26,6 +29,7 @@ export function Canvas() {
       store.ask,
       () => (store.eye.value = stage.eye()),
     );
+    drag = new Drag(stage);
     const watch = new ResizeObserver(([entry]) => stage.resize(entry.contentRect.width, entry.contentRect.height));
     watch.observe(holder.current!);
     follow();
@@ -38,15 +42,20 @@ export function Canvas() {
       <canvas
         ref={canvas}
         tabIndex={0}
-        aria-label="The scene. Drag to look around, click a part to select it."
-        onPointerDown={(event) => (down.current = at(event))}
+        aria-label="The scene. Drag to look around, click a part to select it, drag the selected part to move it."
+        onPointerDown={(event) => {
+          down.current = at(event);
+          if (event.button === 0 && drag.press(...at(event))) event.currentTarget.setPointerCapture(event.pointerId);
+        }}
         onPointerMove={(event) => {
+          if (drag.move(...at(event))) return;
           if (event.buttons === 0 && store.tool.value === "look" && store.compared.value.length === 0) store.hovered.value = stage.partAt(...at(event));
         }}
         onPointerLeave={() => (store.hovered.value = null)}
         onPointerUp={(event) => {
           const from = down.current;
           const to = at(event);
+          if (drag.release(event.shiftKey)) return;
           if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) clicked(...to);
         }}
       />
@@ -56,6 +65,12 @@ export function Canvas() {
       <Growth />
       <Problem />
       <Notices />
+      <Offers />
+      {store.quiet.value !== "" && (
+        <p class="reason" role="status">
+          {store.quiet.value}
+        </p>
+      )}
     </main>
   );
 }
@@ -79,6 +94,7 @@ function follow(): void {
       stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);
     } else if (shape.what === "best" || shape.what === "moving") {
       put(shape, payload);
+      drag.shown(shape);
     } else if (store.sameKey(shape.key, store.picked.value) && !store.isSearching.value) {
       if (shape.detail === "fine" || !(shown.detail === "fine" && store.sameKey(shown.key, shape.key))) {
         put(shape, payload);
