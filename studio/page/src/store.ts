@@ -186,7 +186,7 @@ const UPLOAD = 64 * 2 ** 20;
 /** Sends a mesh, to grow into it or to keep away from it; or a drawing, to colour it. */
 export async function uploaded(file: File, isObstacle = false): Promise<void> {
   if (file.size > UPLOAD) {
-    note(`${file.name} has ${Math.round(file.size / 2 ** 20)} MB; a mesh that is sent has at most ${UPLOAD / 2 ** 20} MB.`, true);
+    note(`${file.name} has ${Math.round(file.size / 2 ** 20)} MB; a file that is sent has at most ${UPLOAD / 2 ** 20} MB.`, true);
     return;
   }
   note(`Reading ${file.name}`);

@@ -86,7 +86,7 @@ def test_a_result_without_a_scene_is_a_warning() -> None:
 def test_cells_are_those_that_the_score_counts() -> None:
     shapes = [
         box((0.3, 1, 0), (2, 2, 2)),
-        cylinder((0, 2, 0), (0.4, 4.2, 0.1), 0.8, 0.8),
+        cylinder((0.1, 2, 0), 0.8, 4.4, "y", 0.5),
         box((9, 9, 9), (1, 1, 1)),
     ]
     scene = Scene([(f"{k}", [shape]) for k, shape in enumerate(shapes)])

@@ -160,12 +160,12 @@ export class Stage {
 
   private drawSides(): void {
     const { clientWidth, clientHeight } = this.canvas;
-    const wide = clientWidth / this.sides.length;
+    const edge = (k: number) => Math.round((k * clientWidth) / this.sides.length);
     this.renderer.setScissorTest(true);
     this.sides.forEach((_, k) => {
       this.sides.forEach((one, other) => (one.visible = other === k));
-      this.renderer.setViewport(k * wide, 0, wide, clientHeight);
-      this.renderer.setScissor(k * wide, 0, wide, clientHeight);
+      this.renderer.setViewport(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
+      this.renderer.setScissor(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
       this.renderer.render(this.scene, this.camera);
     });
     this.renderer.setScissorTest(false);
@@ -208,8 +208,7 @@ export class Stage {
       this.piece = unpacked(header, payload);
       this.shape.add(this.meshOf(this.piece));
     }
-    this.settle();
-    this.draw();
+    this.come();
   }
 
   private meshOf({ header, geometry }: Piece): Mesh {
@@ -240,8 +239,7 @@ export class Stage {
       this.ghostBox.makeEmpty();
       if (header.triangles > 0) this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
-    this.settle();
-    this.draw();
+    this.come();
   }
 
   /** What is asked, apart from solids: floor, light and camera. */
@@ -314,7 +312,7 @@ export class Stage {
     return box;
   }
 
-  /** Put light and ground around what is there; look at it if nothing was looked at before. */
+  /** Put light and ground around what is there. */
   private settle(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
@@ -334,7 +332,13 @@ export class Stage {
     this.sun.shadow.camera.near = radius;
     this.sun.shadow.camera.far = 8 * radius;
     this.sun.shadow.camera.updateProjectionMatrix();
+  }
+
+  /** Look at what has come, where nothing of this model was looked at before. */
+  private come(): void {
+    this.settle();
     if (!this.isFramed) this.fit();
+    this.draw();
   }
 
   /** Look at everything, along the direction of our pictures. */
