@@ -97,6 +97,9 @@ def change(job: Change, send: Any) -> Answer:
     """Run with the choices of a result, some of them changed; choices that it newly makes are drawn from the seed."""
     one = runs.sample(job.source, job.number)
     search, choices = searched(job.question, one, None)
+    for address in job.changes:
+        if address not in choices:
+            raise Refused("no-choice", f"the result has no choice `{address}`")
     choices |= runs.given(job.changes)
     with translated(search.model.name, choices=choices):
         trace = search.task.replay(choices, search.seed)
