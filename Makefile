@@ -12,10 +12,12 @@
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
+#   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
 #   make bench-batch  a thousand searches, killed ten times: their bytes, and the CPU beyond the searches (2 minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
+#   make studio-pictures  the same, and its screenshots and times go into docs/pictures
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
 #   make cluster  batches on Ray and on Dask, on this machine alone (installs both)
 #   make fuzz     the fuzzers, each for MINUTES (10) by JOBS processes (1; ONLY="core_text sources": those); needs cargo-fuzz
@@ -53,7 +55,7 @@ PARTS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio lint bench bench-c3 bench-hmc bench-wait bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -91,6 +93,9 @@ test-studio: $(STAMPS)/engine $(STAMPS)/test
 	@if command -v chromium >/dev/null; then \
 	  $(MAKE) --no-print-directory $(STAMPS)/browser && NIWAKI_BROWSER=$$(command -v chromium) $(PY) -m pytest tests/browser; \
 	else echo "no chromium found: the studio's page is not tested in a browser (apt-get install chromium)"; fi
+
+studio-pictures:
+	NIWAKI_PICTURES=docs/pictures $(MAKE) --no-print-directory test-studio
 
 lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --all --check
@@ -131,6 +136,9 @@ bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
 
 bench-wait: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/wait.py
+
+bench-drag: $(STAMPS)/engine
+	$(PY) benches/drag.py
 
 bench-searches: $(STAMPS)/engine
 	$(PY) benches/board.py

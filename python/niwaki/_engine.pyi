@@ -19,6 +19,8 @@ __all__ = [
     "Lessons",
     "Opaque",
     "Picture",
+    "Placer",
+    "Positions",
     "Program",
     "Run",
     "SHAPES",
@@ -308,6 +310,7 @@ class Task:
     def infer(self, constant: object, seed: int) -> Any: ...
     def density(self, run: Run) -> Density: ...
     def trace(self, run: Run) -> Trace: ...
+    def placer(self, run: Run) -> Placer: ...
     def regrow(
         self,
         run: Run,
@@ -420,6 +423,29 @@ class Density:
     def values(self, x: NDArray[np.float64]) -> dict[str, Any]: ...
     def compile(self) -> bool: ...
     def jax(self) -> str: ...
+
+@final
+class Placer:
+    def positions(
+        self,
+        values: Mapping[int, float],
+        free: set[int],
+        arguments: Mapping[int, float] = ...,
+        constants: Mapping[int, float] = ...,
+    ) -> Positions: ...
+
+@final
+class Positions:
+    @property
+    def movables(self) -> list[tuple[int, str, bool]]: ...
+    def ranges(self) -> NDArray[np.float64]: ...
+    def followed(self, x: Sequence[float]) -> dict[int, float]: ...
+    @property
+    def parts(self) -> list[tuple[str, int]]: ...
+    def frame(self, part: int, shape: int) -> NDArray[np.float64] | None: ...
+    def slopes(
+        self, part: int, shape: int, shares: tuple[float, float, float]
+    ) -> NDArray[np.float64] | None: ...
 
 @final
 class Run:

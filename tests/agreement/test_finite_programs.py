@@ -49,8 +49,8 @@ from niwaki.methods.chains import STRATEGIES
 from test_chains import disagreement
 from test_engine import compared, differs, facts, load
 
-#: Programs of `make test`: about a minute.
-PROGRAMS = 120
+#: Programs of `make test`: less than a minute.
+PROGRAMS = 80
 #: States of a chain.
 STATES = 150
 #: As many values of a method's samples are run again in plain Python.

@@ -6,9 +6,11 @@ import os
 import shutil
 from collections.abc import Iterator
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from studio_fixtures import pile, served
+from studio_page import LIMITS, OUT, as_table, times
 from studio_process import Served
 
 __all__ = ["browser", "open_page", "pile", "served"]
@@ -30,6 +32,20 @@ def browser() -> Iterator[object]:
         found.close()
 
 
+@pytest.fixture(autouse=True, scope="session")
+def table():
+    """Write the times of the journeys."""
+    yield
+    OUT.mkdir(parents=True, exist_ok=True)
+    lines = [f"{name:12} {seconds:6.2f} s   limit {LIMITS[name]:4.1f} s" for name, seconds in times.items()]
+    (OUT / "times.txt").write_text("\n".join(lines) + "\n")
+    kept = os.environ.get("NIWAKI_PICTURES")
+    (Path(kept or OUT) / "studio-times.txt").write_text(as_table())
+    print("\n" + "\n".join(lines))
+    if os.environ.get("NIWAKI_TIMES"):
+        assert not [name for name, seconds in times.items() if seconds > 2 * LIMITS[name]]
+
+
 @pytest.fixture
 def open_page(browser, request):
     """A function that opens a window of a studio; no script of the page may have failed at the end."""
@@ -37,7 +53,8 @@ def open_page(browser, request):
 
     def opened(served: Served, token: str | None = None, **settings):
         # Playwright's own waiting needs eval; the header is tested by itself.
-        context = browser.new_context(bypass_csp=True, viewport={"width": 1440, "height": 900}, **settings)
+        shown = {"viewport": {"width": 1440, "height": 900}, **settings}
+        context = browser.new_context(bypass_csp=True, **shown)
         contexts.append(context)
         page = context.new_page()
         page.errors = []

@@ -1,112 +1,16 @@
 """The five journeys of a designer in a browser: what is seen, and after how long.
 
-Numbers are asserted, never pixels; pictures go to `out/studio`, to be looked at. Times are of a software renderer, and
-are printed; where `NIWAKI_TIMES` is set (two quiet cores) none may be more than twice its limit.
+Numbers are asserted, never pixels; pictures go to `out/studio`, to be looked at.
 """
 
 from __future__ import annotations
 
 import json
-import os
-import time
 from pathlib import Path
 
-import numpy as np
-import pytest
 from niwaki import studio
+from studio_page import at_rest, camera, choose, click_part, grow, picture, timed, until, visible
 from studio_process import serving
-
-#: Where pictures and times go.
-OUT = Path("out/studio")
-
-#: Seconds, from facts that were measured on people: 0.1 feels direct, 1 keeps the thought.
-LIMITS = {
-    "model": 0.3,
-    "first shape": 0.3,
-    "gallery": 3.0,
-    "part": 0.1,
-    "pin": 0.1,
-    "re-roll": 0.5,
-    "undo": 0.1,
-    "stroke": 0.1,
-    "error": 0.5,
-    "mended": 0.5,
-    "export": 2.0,
-}
-times: dict[str, float] = {}
-
-
-@pytest.fixture(autouse=True, scope="module")
-def table():
-    yield
-    OUT.mkdir(parents=True, exist_ok=True)
-    lines = [f"{name:12} {seconds:6.2f} s   limit {LIMITS[name]:4.1f} s" for name, seconds in times.items()]
-    (OUT / "times.txt").write_text("\n".join(lines) + "\n")
-    print("\n" + "\n".join(lines))
-    if os.environ.get("NIWAKI_TIMES"):
-        assert not [name for name, seconds in times.items() if seconds > 2 * LIMITS[name]]
-
-
-class timed:
-    """The time of a step of a journey."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-
-    def __enter__(self):
-        self.begun = time.perf_counter()
-
-    def __exit__(self, kind, *_):
-        if kind is None:
-            times[self.name] = time.perf_counter() - self.begun
-
-
-def until(page, expression):
-    page.wait_for_function(expression, polling=10)
-
-
-def picture(page, name):
-    OUT.mkdir(parents=True, exist_ok=True)
-    page.wait_for_timeout(500)
-    page.screenshot(path=OUT / f"{name}.png")
-
-
-def choose(page, reference, count=3, seed=1):
-    page.select_option("select[aria-label=Model]", reference)
-    until(page, f"window.__studio.view.model.reference == {json.dumps(reference)}")
-    slider = page.get_by_role("slider", name="results")
-    slider.fill(str(count))
-    page.locator("input[placeholder='another each time']").fill(str(seed))
-    page.locator("input[placeholder='another each time']").blur()
-    until(
-        page,
-        f"window.__studio.view.settings.count == {count} && window.__studio.view.settings.seed == {seed}",
-    )
-
-
-def grow(page):
-    runs = page.evaluate("window.__studio.view.picked?.run ?? -1")
-    page.locator("button.primary").click()
-    until(page, f"!window.__studio.view.searching && (window.__studio.view.picked?.run ?? -1) != {runs}")
-
-
-def at_rest(page):
-    until(page, "window.__studio.shown.detail == 'fine' && window.__studio.described")
-
-
-def click_part(page, address):
-    box = page.locator("main.stage").bounding_box()
-    x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
-    page.mouse.click(box["x"] + x, box["y"] + y)
-
-
-def visible(page, word):
-    found = "window.__studio.shown.parts.find(one => one.includes(%s) && window.__studio.pointOf(one))"
-    return page.evaluate(found % json.dumps(word))
-
-
-def camera(page):
-    return np.array(page.evaluate("window.__studio.camera"))
 
 
 def test_fill(open_page, served):

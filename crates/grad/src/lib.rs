@@ -6,6 +6,7 @@
 //! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
 //! * [`scalar`]: the number that records its operations; [`mod@record`]: a run of a program, recorded;
+//! * [`positions`]: where the shapes of a run are, by its choices;
 //! * [`coordinates`]: from bounded values to coordinates without bounds and back;
 //! * [`compiled`]: the tape first, then machine code; [`live`]: records again where a guard fails;
 //! * [`jax`]: the same density as Python text.
@@ -21,6 +22,7 @@ pub mod kernels;
 pub mod live;
 pub mod native;
 pub mod operation;
+pub mod positions;
 pub mod record;
 pub mod reverse;
 pub mod scalar;
@@ -34,6 +36,7 @@ pub use graph::{Graph, Id};
 pub use live::{Live, Model, Refused};
 pub use native::{Native, Rolling};
 pub use operation::Op;
+pub use positions::{Movable, Placed, Positions, positions};
 pub use record::{Recorded, Run, Scope, record};
 pub use scalar::Var;
 pub use tape::{Lanes, Tape};

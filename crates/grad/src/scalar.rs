@@ -11,7 +11,7 @@ use crate::operation::Op;
 use niwaki_math::Scalar;
 use std::cell::RefCell;
 use std::cmp::Ordering;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::hash::BuildHasherDefault;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -24,6 +24,8 @@ pub struct Sheet {
     pub guards: Vec<Guard>,
     /// Whether a comparison met a NaN: the run branches on it, and no guard can express that.
     pub met_nan: bool,
+    /// Numbers by the address of what they are of ([`Scalar::note`]), where they are wanted.
+    notes: Option<HashMap<usize, Vec<Var>>>,
     seen: HashSet<Guard, BuildHasherDefault<Mix>>,
 }
 
@@ -33,6 +35,15 @@ thread_local! {
 
 /// Records what `f` computes. A nested recording has its own sheet.
 pub fn with_sheet<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
+    on_sheet(Sheet::default(), f)
+}
+
+/// The same, with the numbers that are noted: see [`Var::noted`].
+pub fn with_notes<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
+    on_sheet(Sheet { notes: Some(HashMap::new()), ..Sheet::default() }, f)
+}
+
+fn on_sheet<R>(sheet: Sheet, f: impl FnOnce() -> R) -> (R, Sheet) {
     /// Puts the outer sheet back, also when `f` panics.
     struct Outer(Option<Sheet>);
     impl Drop for Outer {
@@ -41,7 +52,7 @@ pub fn with_sheet<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
             SHEET.with_borrow_mut(|sheet| *sheet = outer);
         }
     }
-    let outer = Outer(SHEET.replace(Some(Sheet::default())));
+    let outer = Outer(SHEET.replace(Some(sheet)));
     let result = f();
     let sheet = SHEET.take().unwrap_or_default();
     drop(outer);
@@ -149,6 +160,14 @@ impl Var {
         Var::written(value, |sheet| {
             let (a, b) = (self.id(&mut sheet.graph), other.id(&mut sheet.graph));
             sheet.graph.binary(op, a, b)
+        })
+    }
+
+    /// What was noted last under an address; empty where nothing was that varies.
+    pub fn noted(address: usize) -> Vec<Var> {
+        SHEET.with_borrow(|sheet| {
+            let notes = sheet.as_ref().and_then(|sheet| sheet.notes.as_ref());
+            notes.and_then(|notes| notes.get(&address)).cloned().unwrap_or_default()
         })
     }
 
@@ -310,5 +329,16 @@ impl Scalar for Var {
     }
     fn varies(self) -> bool {
         self.node != FIXED
+    }
+    fn note(address: usize, numbers: impl FnOnce() -> Vec<Var>) {
+        let is_wanted = SHEET.with_borrow(|sheet| sheet.as_ref().is_some_and(|sheet| sheet.notes.is_some()));
+        if is_wanted {
+            let numbers = numbers();
+            SHEET.with_borrow_mut(|sheet| {
+                if let Some(notes) = sheet.as_mut().and_then(|sheet| sheet.notes.as_mut()) {
+                    notes.insert(address, numbers);
+                }
+            });
+        }
     }
 }

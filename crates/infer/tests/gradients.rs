@@ -3,13 +3,14 @@
 
 use niwaki_grad::{Live, Native, Recorded, Refused};
 use niwaki_infer::forward::forward;
+use niwaki_infer::gradient::positions::{Lifted, Placer};
 use niwaki_infer::gradient::{live, record};
 use niwaki_infer::replay::{Missing, Source, by_address, replay};
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::Value;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 fn task(body: &str) -> Task {
@@ -278,4 +279,79 @@ fn a_density_goes_on_the_same_when_its_machine_code_is_ready() {
     assert!(live.compiled().is_native());
     let after = live.value_and_gradient(&point, &mut g).expect("inside");
     assert!((before - after).abs() < 1e-13 && slope.iter().zip(&g).all(|(a, b)| (a - b).abs() < 1e-13));
+}
+
+/// Where a point of each shape is, by one choice of the program: the derivative by the recorded graph is that of
+/// central differences of the recorded place, and the place is that of the shape.
+#[test]
+fn derivatives_of_positions_are_central_differences() {
+    let task = task(
+        r#"(set $a (sample (dist uniform -1.0 1.0)))
+           (set $r (sample (dist gaussian 2.0 0.5)))
+           (set $turn (rotation (tuple 0 0 1) $a))
+           (set $side (mul $turn (vec $r 0.0 1.0)))
+           (do (emit (box $side (tuple 1.0 $r 2.0) $turn none none none none)))
+           (do (emit (cylinder $side 0.2 $r (vec $a 1.0 $r) none $turn none none)))
+           (do (emit (limb (tuple 0 0 0) $side 0.2 0.1 none none none)))
+           (do (emit (ellipse (tuple $a 0.0 0.0) $r 0.5 $a none)))
+           (do (emit (stroke (tuple 0 0 0) (tuple $a $r 0.0) 0.1 none none)))
+           (do (emit (disc (tuple $r $a 0.0) 0.5 none)))"#,
+    );
+    let (placer, known) = (Placer::new(&task).expect("a task"), choices(&task, 3));
+    let free: HashSet<u128> = known.keys().copied().collect();
+    let place = |known: &HashMap<u128, Value>, part: usize| {
+        let frame = placer.positions(known, &free, &Lifted::default()).expect("a run").frame(part, 0);
+        let frame = frame.expect("it moves");
+        [0, 1, 2].map(|k| frame[k] + 0.3 * frame[3 + k] - 0.2 * frame[6 + k] + 0.1 * frame[9 + k])
+    };
+    let positions = placer.positions(&known, &free, &Lifted::default()).expect("a run");
+    let count = positions.movables.len();
+    assert_eq!((positions.parts.len(), count), (6, 2));
+    for part in 0..positions.parts.len() {
+        let slopes = positions.slopes(part, 0, [0.3, -0.2, 0.1]).expect("it moves");
+        for (k, movable) in positions.movables.iter().enumerate() {
+            for axis in 0..3 {
+                let at = |by: f64| {
+                    let mut known = known.clone();
+                    known.insert(movable.address, Value::Real(movable.value + by));
+                    place(&known, part)[axis]
+                };
+                let found = slope(&at, 1e-4);
+                let given = slopes[axis * count + k];
+                assert!((found - given).abs() < 1e-9, "part {part}, axis {axis}: {given} and not {found}");
+            }
+        }
+    }
+    // The middle of a turned box is its centre, and its second direction the turned side of length r.
+    let (a, r) = (positions.movables[0].value, positions.movables[1].value);
+    let frame = positions.frame(0, 0).expect("it moves");
+    let exact = [r * a.cos(), r * a.sin(), 1.0, a.cos(), a.sin(), 0.0, -r * a.sin(), r * a.cos(), 0.0];
+    for (given, exact) in frame.iter().zip(exact) {
+        assert!((given - exact).abs() < 1e-12, "{given} and not {exact}");
+    }
+}
+
+/// A number of the program that may move takes a choice with it that is drawn around it.
+#[test]
+fn a_choice_keeps_its_place_in_a_distribution_that_moves() {
+    let text = r#"(module (fn "m" (params $mean)
+        (set $x (sample (dist gaussian $mean 0.5)))
+        (set $y (sample (dist uniform 0.0 $x)))
+        (do (emit (box (tuple $x $y 0.0) (tuple 1.0 1.0 1.0) none none none none none)))) (entry "m"))"#;
+    let program = compile(&parse(text).expect("core form"), vec![]).expect("a program");
+    let task = Task { args: vec![Value::Real(3.0)], ..Task::new(Arc::new(program)) };
+    let known = choices(&task, 1);
+    let lifted = Lifted { arguments: vec![(0, 3.0)], ..Lifted::default() };
+    let placer = Placer::new(&task).expect("a task");
+    let positions = placer.positions(&known, &HashSet::new(), &lifted).expect("a run");
+    let frame = positions.frame(0, 0).expect("it moves");
+    let slopes = positions.slopes(0, 0, [0.0; 3]).expect("it moves");
+    // x moves by as much as the mean, and y by its share of that.
+    assert!((slopes[0] - 1.0).abs() < 1e-12 && (slopes[1] - frame[1] / frame[0]).abs() < 1e-12);
+    let moved = positions.followed(&[3.5]);
+    let mut values: Vec<f64> = moved.values().copied().collect();
+    values.sort_by(f64::total_cmp);
+    let mut exact = [frame[0] + 0.5, frame[1] * (frame[0] + 0.5) / frame[0]];
+    exact.sort_by(f64::total_cmp);
+    assert!(values.iter().zip(exact).all(|(x, y)| (x - y).abs() < 1e-12), "{values:?}");
 }

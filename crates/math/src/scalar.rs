@@ -89,6 +89,10 @@ pub trait Scalar:
     fn varies(self) -> bool {
         false
     }
+    /// Keeps numbers under the address of something that is made of plain numbers and lives as long as the recording
+    /// wants it: a shape, and where it is. Only a recording that asks for them calls `numbers`.
+    #[inline(always)]
+    fn note(_address: usize, _numbers: impl FnOnce() -> Vec<Self>) {}
 }
 
 /// The last logarithm: consecutive observations with one deviation compute it once.

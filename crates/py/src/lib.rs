@@ -4,7 +4,8 @@
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
-//!   `runs`: finished runs; `gradients`: log densities with their gradients; `trajectories`: chains that follow them;
+//!   `runs`: finished runs; `gradients`: log densities with their gradients; `positions`: where shapes are, with theirs;
+//!   `trajectories`: chains that follow them;
 //!   `networks`: networks of guides, for a comparison with other software;
 //! * `threads`: the pools of threads; `shared`: values that several threads of Python use;
 //! * `checkpoints`: what a search needs to go on after it was killed;
@@ -22,6 +23,7 @@ mod guides;
 mod model;
 mod networks;
 mod pictures;
+mod positions;
 mod runs;
 mod search;
 mod shared;
@@ -45,6 +47,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     gradients::register(module)?;
     guides::register(module)?;
     pictures::register(module)?;
+    positions::register(module)?;
     views::register(module)?;
     values::register(module)?;
     faults::register(module)?;

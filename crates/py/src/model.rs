@@ -2,8 +2,10 @@
 
 use crate::faults;
 use crate::values::Classes;
+use niwaki_grad::Var;
 use niwaki_infer::nested::{Inferences, Inner};
 use niwaki_infer::task::Hosts;
+use niwaki_math::Scalar;
 use niwaki_vm::code::{Mode, Program, SiteKind, disassemble};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::core::{Module, Name};
@@ -73,6 +75,17 @@ impl PyProgram {
     pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
         let compiled = compile_keeping(&self.module, self.data.clone(), Kept::Names(names));
         compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
+    }
+
+    /// The program over recording numbers, with these constants in their places.
+    pub fn recorded(&self, constants: &[(usize, Var)]) -> Result<Program<Var>, Fault> {
+        let mut data: Vec<Value<Var>> = self.data.iter().map(|value| value.convert(&Var::from_f64)).collect();
+        for (place, x) in constants {
+            let slot = data.get_mut(*place);
+            *slot.ok_or_else(|| Fault::new("bad-setting", format!("there is no constant {place}")))? =
+                Value::Real(*x);
+        }
+        compile(&self.module, data).map_err(|error| Fault::new("machine-limit", error.to_string()))
     }
 
     /// The program compiled so that all variables can be read at choices, once.

@@ -10,6 +10,7 @@ use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::guides::PyGuide;
 use crate::model::PyProgram;
+use crate::positions::PyPlacer;
 use crate::runs::{PyRun, PyTrace};
 use crate::threads::Pool;
 use crate::values::Classes;
@@ -19,6 +20,7 @@ use niwaki_infer::chain::glob;
 use niwaki_infer::chain::regrow::{Afresh, afresh};
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
+use niwaki_infer::gradient::positions::Placer;
 use niwaki_infer::guide::bound::BoundGuide;
 use niwaki_infer::hold::hold;
 use niwaki_infer::improve::{Round, Seen};
@@ -276,6 +278,13 @@ impl PyTask {
     fn density(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyDensity> {
         let live = self.at_once(py, || live(&self.task, &run.by_address()))?;
         Ok(PyDensity::new(live, self.task.program.clone(), self.model.get().classes.clone()))
+    }
+
+    /// What places the shapes of runs with the choices of this one, some of them moved.
+    fn placer(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyPlacer> {
+        let placer =
+            Placer::new(&self.task).map_err(|failure| faults::raise(py, &failure, &self.task.program))?;
+        Ok(PyPlacer::new(placer, run.by_address(), self.model.clone_ref(py)))
     }
 
     /// Replays a run with its choices; a run that had not ended is replayed as far as its choices go. The scene is not scored

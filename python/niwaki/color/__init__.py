@@ -9,6 +9,7 @@ rules      rules about the regions; a small TOML file
 agree      whether rules can hold together, and which ones cannot
 model      the compatibility model
 search     colourings that differ
+kept       how well each rule is kept
 settle     a colouring moved uphill until its rules are kept
 lab        CIELAB as the model sees it
 files      SVG, PNG, a sheet, the residuals

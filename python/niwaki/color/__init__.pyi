@@ -1,8 +1,10 @@
 from . import agree as agree
 from . import files as files
 from .drawing import Drawing as Drawing
+from .kept import Kept as Kept
 from .model import coloring as coloring
 from .rules import Rules as Rules
 from .search import Coloring as Coloring
 from .search import color as color
+from .search import painted as painted
 from .search import rules_of as rules_of

@@ -16,6 +16,7 @@ ink = "#1a1a2e"                               # a colour that is not to change
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -135,6 +136,19 @@ class Rules:
             if name != "all":
                 yield Rule("muted", name, most=most)
 
+    def toml(self) -> str:
+        """The rules as a file, which `load` reads."""
+        lines = [] if self.background is None else [f"background = {_quoted(self.background)}"]
+        for key, name in CHAINS.items():
+            if chains := getattr(self, name):
+                rows = "".join(f"  {_quoted(list(chain))},\n" for chain in chains)
+                lines.append(f"{key} = [\n{rows}]")
+        for key in ("muted", "pinned"):
+            if table := getattr(self, key):
+                lines.append(f"\n[{key}]")
+                lines += [f"{_quoted(name)} = {_quoted(value)}" for name, value in table.items()]
+        return "\n".join([*lines, ""])
+
     def on(self, names: Sequence[str]) -> Iterator[Rule]:
         """The rules on a drawing of these regions: `all` becomes a rule for each region without its own."""
         yield from self
@@ -168,3 +182,8 @@ def _is_chains(value: Any) -> bool:
         isinstance(chain, list) and len(chain) >= 2 and all(isinstance(one, str) for one in chain)
         for chain in value
     )
+
+
+def _quoted(value: Any) -> str:
+    """A text, a number or a list of texts in TOML."""
+    return json.dumps(value, ensure_ascii=False)

@@ -7,8 +7,7 @@ possible in CIELAB from those already chosen (farthest-point choice, Gonzalez 19
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -19,13 +18,12 @@ from numpy.typing import NDArray
 
 from niwaki.color import lab
 from niwaki.color.drawing import OWN, Drawing
+from niwaki.color.kept import SCORED, Kept, kept
 from niwaki.color.model import coloring
-from niwaki.color.rule import Rule
 from niwaki.color.rules import Rules
 from niwaki.color.settle import settled
 from niwaki.errors import FileError, InputError
 from niwaki.errors.settings import bad, is_number
-from niwaki.lang.constraints import Constraint
 from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
 from niwaki.once import cached_property
@@ -34,36 +32,6 @@ from niwaki.search import run
 
 if TYPE_CHECKING:
     from PIL import Image
-
-# The functions of the model that score a rule, and what makes their residuals units of CIELAB.
-SCORED = {
-    "lightness_relation": ("lightness", 100.0),
-    "at_least_lighter": ("lighter", 100.0),
-    "one_chroma": ("same-chroma", 282.9),
-    "one_hue": ("same-hue", 57.3),
-    "near_grey": ("muted", 100.0),
-}
-
-
-@dataclass(frozen=True)
-class Kept:
-    """How well a colouring keeps one rule.
-
-    Attributes
-    ----------
-    rule : Rule
-        Which.
-    wanted, found : float
-        The difference in lightness, the distance in a and b, or the distance from grey, CIELAB units; for a hue the
-        angle between, degrees.
-    residual : float
-        How far it is from holding, in the same units; 0 where it holds.
-    """
-
-    rule: Rule
-    wanted: float
-    found: float
-    residual: float
 
 
 @dataclass(frozen=True)
@@ -105,19 +73,7 @@ class Coloring:
     @property
     def kept(self) -> list[Kept]:
         """How well each rule is kept, in the order of the rules."""
-        found: dict[tuple[str, int], Constraint] = {}
-        for one in self.residuals:
-            place = re.search(r"\[(\d+)\][^/]*/(\w+)/", one.address)
-            if place is not None and place[2] in SCORED:
-                found[place[2], int(place[1])] = one
-        rows, count = [], dict.fromkeys(SCORED, 0)
-        function_of = {kind: name for name, (kind, _) in SCORED.items()}
-        for rule in self.rules.on(self.drawing.names):
-            name = function_of[rule.kind]
-            one, units = found[name, count[name]], SCORED[name][1]
-            count[name] += 1
-            rows.append(Kept(rule, units * one.goal, units * one.value, units * one.residual))
-        return rows
+        return kept(self.rules.on(self.drawing.names), self.residuals)
 
 
 def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[Any, ...]:
@@ -148,6 +104,10 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
         pinned,
         weight,
     )
+
+
+#: Which argument of the model has the colours that do not change.
+PINNED = 8
 
 
 def default_method(count: int) -> Method:
@@ -242,6 +202,29 @@ def color(
         )
         for k in chosen
     ]
+
+
+def painted(drawing: Drawing, rules: Rules, colors: Mapping[str, str], weight: float = 100.0) -> Coloring:
+    """A colouring in colours that are given: nothing is searched for, and its rules are measured.
+
+    Parameters
+    ----------
+    drawing, rules, weight
+        As for `color`.
+    colors
+        `#rrggbb` of every region.
+
+    Examples
+    --------
+    >>> drawing = Drawing.load("bug")
+    >>> grey = painted(drawing, rules_of("bug"), dict.fromkeys(drawing.names, "#808080"))
+    >>> str(grey.kept[0])
+    '`background` is 0 units lighter than `leaf`: 15 too little'
+    """
+    given = list(arguments(drawing, rules, weight))
+    given[PINNED] = [lab.parts(colors[name]) for name in drawing.names]
+    sample = run(coloring, *given, choices={}).best
+    return Coloring(drawing, rules, dict(colors), sample, tuple(given))
 
 
 def farthest(

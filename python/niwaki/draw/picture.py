@@ -7,6 +7,7 @@ gives the same pixels on any number of threads. A scene of flat shapes is a draw
 from __future__ import annotations
 
 import io
+from errno import EISDIR, ENOENT
 from math import isfinite
 from os import PathLike
 from pathlib import Path
@@ -23,7 +24,7 @@ from niwaki.draw.limits import LARGEST, check_size
 from niwaki.draw.palette import paints
 from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
-from niwaki.errors.files import write_whole
+from niwaki.errors.files import unwritable, write_whole
 from niwaki.errors.settings import count, is_number
 
 Backdrop = Literal["studio", "white", "slate", "clear"]
@@ -178,6 +179,22 @@ def save(scene: Scene, path: str | PathLike[str], target: Volume | None = None, 
 
 def save_image(draw: Any, path: str | PathLike[str]) -> Path:
     """Write the image that `draw()` returns, completely or not at all; its name is checked before drawing."""
+    place = check_image(path)
+    image: Image.Image = draw()
+    out = io.BytesIO()
+    kind = Image.registered_extensions()[place.suffix.lower()]
+    image.convert("RGB" if kind == "JPEG" else "RGBA").save(out, kind)
+    return write_whole(place, out.getvalue())
+
+
+def check_image(path: str | PathLike[str]) -> Path:
+    """Refuse a place where no picture can be written: its suffix, or its folder.
+
+    Raises
+    ------
+    FileError
+        The suffix is that of no picture, or there is no such folder.
+    """
     place = Path(path)
     if place.suffix.lower() not in IMAGE_FORMATS:
         raise FileError(
@@ -187,11 +204,11 @@ def save_image(draw: Any, path: str | PathLike[str]) -> Path:
             done="drawn",
             formats=", ".join(IMAGE_FORMATS),
         )
-    image: Image.Image = draw()
-    out = io.BytesIO()
-    kind = Image.registered_extensions()[place.suffix.lower()]
-    image.convert("RGB" if kind == "JPEG" else "RGBA").save(out, kind)
-    return write_whole(place, out.getvalue())
+    if not place.parent.is_dir():
+        raise unwritable(place, FileNotFoundError(ENOENT, "there is no such folder"))
+    if place.is_dir():
+        raise unwritable(place, IsADirectoryError(EISDIR, "it is a folder"))
+    return place
 
 
 def preview(scene: Scene) -> bytes:

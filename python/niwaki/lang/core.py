@@ -48,7 +48,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -150,6 +150,8 @@ class Core:
         The entry's parameters, for the caller that passes arguments.
     required : int
         How many of them have no default.
+    lifted : mapping
+        The places in the source of constants that are numbers there, by their number in the table.
     """
 
     text: str
@@ -160,6 +162,7 @@ class Core:
     parameters: tuple[str, ...] = ()
     required: int = 0
     form: Form = field(default_factory=lambda: Form("module", []), repr=False)
+    lifted: Mapping[int, Span] = field(default_factory=dict, repr=False)
 
     def write(self, spans: bool = True, labels: bool = True) -> str:
         """The text again, with or without spans and the sites' labels."""

@@ -59,6 +59,8 @@ def constant(body: Body, node: ast.Constant) -> Expr:
         body.refuse("unknown-constant", node, name=body.span(node).text, found=_kind(value))
     if isinstance(value, int) and not -(2**63) <= value < 2**63:
         body.refuse("integer-too-large", node, found=str(value))
+    if isinstance(value, float):
+        return body.program.real(value, body.span(node))
     return literal(value)
 
 

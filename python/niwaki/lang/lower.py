@@ -23,15 +23,17 @@ from niwaki.lang.statements import statement
 
 
 @deep
-def lower(function: FunctionType) -> Core:
+def lower(function: FunctionType, lifts: bool = False) -> Core:
     """The core form of a model's function and of everything it can call.
 
     Parameters
     ----------
     function
         The Python function.
+    lifts
+        Whether each real number of the source is a constant of the table, with its place in `Core.lifted`.
     """
-    program = Program()
+    program = Program(lifts)
     entry = program.unit(function)
     forms = lower_waiting(program)
     form = Form("module", [*module_head(program), *forms, Form("entry", [literal(entry.name)])])
@@ -46,6 +48,7 @@ def lower(function: FunctionType) -> Core:
         tuple(parameters),
         len(parameters) - defaults,
         form,
+        program.lifted or {},
     )
 
 

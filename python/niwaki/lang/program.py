@@ -43,7 +43,9 @@ class Unit:
 class Program:
     """What is known of the program so far."""
 
-    def __init__(self) -> None:
+    def __init__(self, lifts: bool = False) -> None:
+        #: The places of real numbers that are constants of the table instead of literals, where they are wanted.
+        self.lifted: dict[int, Span] | None = {} if lifts else None
         self.units: dict[FunctionType, Unit] = {}
         self.waiting: list[Unit] = []
         self.constants: list[Any] = []
@@ -104,6 +106,14 @@ class Program:
             number += 1
         self.taken.add(unique)
         return unique
+
+    def real(self, value: float, place: Span) -> Expr:
+        """A real number of the source: a literal, or a constant of its own."""
+        if self.lifted is None:
+            return literal(value)
+        self.constants.append(value)
+        self.lifted[len(self.constants) - 1] = place
+        return Form("data", [str(len(self.constants) - 1)])
 
     def constant(self, value: Any, used_at: Span, name: str) -> Expr:
         """A Python object as an expression: a literal, data of the table, or built from both."""

@@ -36,9 +36,9 @@ def chosen(patterns: Sequence[str], choices: Iterable[str], scene: Iterable[str]
             near = _engine.nearest(pattern, [*choices, *sorted(calls)])
             nearest = ", ".join(f"`{one}`" for one in near) or "none: the run has no choice"
             raise InputError("no-address", pattern=pattern, name=name, nearest=nearest)
-        deciding = {call for part in parts for call in _deciding(part)}
+        above = {call for part in parts for call in deciding(part)}
         found |= own
-        found |= {address for address in choices if _above(address) in deciding}
+        found |= {address for address in choices if _above(address) in above}
         found |= {address for address in choices if any(_is_below(address, part) for part in parts)}
     return found
 
@@ -80,7 +80,7 @@ def _is_below(address: str, part: str) -> bool:
     return not part or address.startswith(part + "/")
 
 
-def _deciding(part: str) -> Iterator[str]:
+def deciding(part: str) -> Iterator[str]:
     """The calls and iterations whose own choices decide that a part exists."""
     for call in [part, *_calls(part)] if part else []:
         above, _, component = call.rpartition("/")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +19,7 @@ from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
     from niwaki import Result
-    from niwaki.search import Search
+    from niwaki.search import Drag, Search
 
 
 class Sample:
@@ -170,6 +171,52 @@ class Sample:
             The pattern matches no part, or several; every particle is impossible.
         """
         return self.search.regrown(self, part, particles, power=power, seed=seed, threads=threads)
+
+    def drag(
+        self,
+        part: str,
+        to: Sequence[float],
+        *,
+        grab: Sequence[float] | None = None,
+        along: Sequence[float] | None = None,
+        lock: Iterable[str] = (),
+        answers: int = 4,
+        structure: bool = True,
+    ) -> Drag:
+        """Drag a part of the scene to a point: the choices that its place depends on are moved by its derivatives.
+
+        Parameters
+        ----------
+        part
+            A pattern that matches the address of a primitive, or of a call or iteration that emits some.
+        to
+            Where it should be, scene units; two numbers for a drawing.
+        grab
+            The point that should be there, fixed to the shape of the part that it is nearest to; left out, the middle
+            of the part's shape that is nearest to `to`.
+        along
+            A direction in which distances do not count, such as the one in which a camera looks.
+        lock
+            Patterns of choices and parts that stay as they are, as for `held`; those that the search holds stay, too.
+        answers
+            How many at most: they differ in the choices that may change.
+        structure
+            Whether discrete choices that decide the part are tried where real choices do not take it there. What a
+            run chooses that the run before did not is drawn from the seed of the search.
+
+        Returns
+        -------
+        Drag
+            The answers, the least change first; or why there is none, with the nearest that was found.
+
+        Raises
+        ------
+        InputError
+            The pattern matches no part; a point is not a point.
+        """
+        return self.search.dragged(
+            self, part, to, grab=grab, along=along, lock=lock, answers=answers, structure=structure
+        )
 
     @property
     def families(self) -> dict[str, str]:

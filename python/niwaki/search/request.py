@@ -18,7 +18,7 @@ import base64
 import hashlib
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from os import PathLike
@@ -36,7 +36,7 @@ from niwaki.methods import Forward, Guide, Method, Mh
 from niwaki.once import cached_property
 from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
-from niwaki.search import searching
+from niwaki.search import drag, searching
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_lock, check_polish, check_seed, check_threads, fresh
 from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
@@ -197,6 +197,10 @@ class Search:
     ) -> Result:
         """Grow one part of a sample of this search again; see `Sample.regrow`."""
         return searching.regrown(self, sample, part, particles, power, seed, threads)
+
+    def dragged(self, sample: Sample, part: str, to: Sequence[float], **settings: Any) -> drag.Drag:
+        """Drag a part of a sample of this search; see `Sample.drag`."""
+        return drag.dragged(self, sample, part, to, **settings)
 
     def data(self, files: str = "named") -> dict[str, Any]:
         """The search as plain data.

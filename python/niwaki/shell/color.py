@@ -13,7 +13,7 @@ from niwaki import methods, search
 from niwaki.draw.limits import LARGEST
 from niwaki.errors.settings import count as whole
 from niwaki.shell import folders
-from niwaki.shell.app import Folder, app
+from niwaki.shell.app import Folder, app, counted
 from niwaki.shell.progress import coloring_line
 
 
@@ -77,7 +77,7 @@ def _before(drawing: coloring.Drawing, rules: coloring.Rules) -> None:
 
 def _summary(found: list[coloring.Coloring], seconds: float, seed: int) -> None:
     """A line for each colouring: its score and the rule that it keeps worst."""
-    print(f"{len(found)} colourings in {seconds:.1f} s, seed {seed}")
+    print(f"{counted(len(found), 'colouring')} in {seconds:.1f} s, seed {seed}")
     for k, one in enumerate(found):
         line = f"  {k + 1:02}  log score {one.log_score:9.2f}"
         if one.kept:

@@ -153,16 +153,25 @@ def grow(
     # Before the search: that a folder cannot be written to must not be the news at its end.
     wanted = Wanted(files, picture, quick, export, None if onto is None else onto.data())
     with folders.own_folder(output, force) if writes else nullcontext() as folder:
+        if folder is not None:
+            # Of a search that failed here.
+            (folder / pictures.IMPOSSIBLE).unlink(missing_ok=True)
         kept = None
         rerolls = onto is not None and bool(onto.reroll)
         if folder is not None and not rerolls:
             kept = resuming.begun(folder, "grow", found, **asdict(wanted))
-        with clock.part("search"):
-            if onto is not None and rerolls:
-                result = onto.rerolled(asked, given.get("particles"), threads)
-            else:
-                with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
-                    result = asked.run(threads=threads, progress=progress, checkpoint=kept)
+        try:
+            with clock.part("search"):
+                if onto is not None and rerolls:
+                    result = onto.rerolled(asked, given.get("particles"), threads)
+                else:
+                    with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
+                        result = asked.run(threads=threads, progress=progress, checkpoint=kept)
+        except InputError as error:
+            if error.code == "everything-impossible" and folder is not None and picture and style is None:
+                if said := pictures.impossible(asked, folder, quick):
+                    print(said, file=sys.stderr)
+            raise
         _end(result, found, folder, wanted, as_json, kept, clock)
 
 

@@ -10,6 +10,8 @@ import typer
 
 import niwaki as nw
 from niwaki import draw, targets
+from niwaki.search import collisions
+from niwaki.words.shapes import painted
 
 Quick = Annotated[
     bool,
@@ -20,6 +22,32 @@ Quick = Annotated[
 
 #: A draft: pixels of the best, of a cell of the sheet, and of a panel's height.
 DRAFT, CELL, PANEL = (320, 240), (240, 180), 180
+
+
+#: The picture of a run that breaks a constraint, and its colours: what breaks it, and the rest.
+IMPOSSIBLE = "impossible.png"
+RED, GREY = (0.80, 0.15, 0.12), (0.80, 0.79, 0.77)
+
+
+def impossible(search: nw.Search, folder: Path, quick: bool) -> str:
+    """Draw a run that breaks a constraint, with the parts that do in red; says what it shows, or nothing."""
+    found = collisions.example(search)
+    if found is None:
+        return ""
+    scene, broken = found
+    parts = [
+        (
+            one.address,
+            [painted(shape, RED if one.address in broken else GREY, over=True) for shape in one.shapes],
+        )
+        for one in scene.parts
+    ]
+    place = folder / IMPOSSIBLE
+    draft: dict[str, Any] = {"size": DRAFT, "samples": 1} if quick else {"samples": 4}
+    draw.picture.save_image(lambda: draw.picture.picture(draw.scene.Scene(parts), **draft), place)
+    shown = ", ".join(f"`{address}`" for address in broken[:3])
+    more = f" and {len(broken) - 3} more" if len(broken) > 3 else ""
+    return f"{place} shows such a run; in red what makes it impossible: {shown}{more}"
 
 
 @dataclass(frozen=True)

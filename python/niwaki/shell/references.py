@@ -61,8 +61,11 @@ def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     module, digest = run_file(place.resolve())
     space = vars(module)
     models = {key: value for key, value in space.items() if isinstance(value, Model)}
-    if not name and len(models) == 1:
-        name = next(iter(models))
+    # Beside a model of the file, one that it imports from elsewhere is not the one that is meant.
+    own = [key for key, value in models.items() if value.function.__module__ == module.__name__]
+    for keys in (own, list(models)):
+        if not name and len(keys) == 1:
+            name = keys[0]
     found = space.get(name)
     if isinstance(found, FunctionType):
         found = Model(found)

@@ -38,6 +38,7 @@ def show(
     """Draw runs of MODEL side by side, as they come, with no target: what the model makes."""
     clock = Clock()
     methods.at_least_one("--count", count)
+    draw.picture.check_image(output)
     with clock.part("compile"):
         found = shell.references.find(model)
         given = {**_begin(found), **arguments.read(found.model, values, preset)}

@@ -21,8 +21,17 @@ def studio(
         Path, typer.Option("--session", metavar="DIR", help="Where the session is stored, and goes on.")
     ] = Path("studio-session"),
     port: Annotated[int, typer.Option(help="Default: a free one.")] = 0,
+    trust: Annotated[
+        bool,
+        typer.Option(
+            "--trust",
+            help="Run files that the session's results name, where they have not changed, for their host functions.",
+        ),
+    ] = False,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
 ) -> None:
     """Turn the knobs of models in a page: search, hold what you like, grow the rest again."""
     # The studio stands above the shell; only this command starts it.
-    optional("niwaki.studio.serving", "the studio", "studio").serve(models or [], session, port, browser)
+    optional("niwaki.studio.serving", "the studio", "studio").serve(
+        models or [], session, port, browser, trust
+    )

@@ -3,11 +3,12 @@
 Models: `stack`, `lean`, `top_heavy`, `every_step`; `platforms`; `arch`, `symmetric_arch`, `tri_arch`,
 `symmetric_tri_arch`, `wheel`; of pieces to cut, `cut_stack`, `cut_lean`, `cut_top_heavy`, `cut_arch`, `tilt_stack`,
 `tilt_arch`. All their choices are continuous. `start` finds the start of a chain, `polished` makes the
-balance of a draw more exact. A sample becomes a `Structure`, which `balanced` and `simulated` judge and `cut_sheet`
-lays out on a board. Libraries of the extra `stacks` are imported when they are used.
+balance of a draw more exact. A sample becomes a `Structure`, which `balanced` and `simulated` judge,
+`carried` explains and `cut_sheet` lays out on a board. Libraries of the extra `stacks` are imported when they are used.
 """
 
 from niwaki.stacks.arches import arch, symmetric_arch, symmetric_tri_arch, tri_arch, wheel
+from niwaki.stacks.carrying import Carried, carried
 from niwaki.stacks.cut_pieces import cut_arch, cut_lean, cut_stack, cut_top_heavy, tilt_arch, tilt_stack
 from niwaki.stacks.cut_sheet import Assembly, Piece, Sheet, assembly, cut_sheet
 from niwaki.stacks.judges import Balance, Simulation, balanced, simulated
@@ -19,6 +20,7 @@ from niwaki.stacks.towers import every_step, lean, stack, top_heavy
 __all__ = [
     "Assembly",
     "Balance",
+    "Carried",
     "Piece",
     "Sheet",
     "Simulation",
@@ -27,6 +29,7 @@ __all__ = [
     "arch",
     "assembly",
     "balanced",
+    "carried",
     "cut_arch",
     "cut_lean",
     "cut_sheet",

@@ -22,6 +22,9 @@ BALANCE = 1e-6
 #: Sides of the polygon inside the friction cone: at most half a percent too strict.
 SIDES = 32
 
+#: A block that goes farther than this share of its size has fallen.
+GONE = 0.05
+
 #: Directions in which `Balance.margin` pushes.
 PUSHES = 8
 
@@ -70,7 +73,7 @@ def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Ba
     worst = Balance(0.0, np.inf)
     for count in structure.prefixes:
         part = structure.first(count)
-        rays, weights = _program(part, cone)
+        rays, weights = program(part, cone)
         for down in structure.downs:
             residual = _residual(rays, weights, down)
             holds = residual <= BALANCE
@@ -81,7 +84,7 @@ def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Ba
     return worst if margin else Balance(worst.residual, np.nan)
 
 
-def _program(part: Structure, cone: bool) -> tuple[Any, Floats]:
+def program(part: Structure, cone: bool) -> tuple[Any, Floats]:
     """The matrix from sizes of rays to forces and torques (6 blocks), scaled; and relative weights."""
     sparse = need("scipy.sparse")
     volumes, centres = part.solids()
@@ -105,7 +108,7 @@ def _program(part: Structure, cone: bool) -> tuple[Any, Floats]:
     return sparse.csc_array(np.concatenate(columns, axis=1)), weights
 
 
-def _loads(weights: Floats, direction: Floats) -> Floats:
+def loads_of(weights: Floats, direction: Floats) -> Floats:
     """Weights in a direction, without torques."""
     loads = np.zeros((len(weights), 6))
     loads[:, :3] = weights[:, None] * direction
@@ -118,10 +121,10 @@ def _residual(rays: Any, weights: Floats, down: Floats) -> float:
     rows, columns = rays.shape
     slack = sparse.csc_array(-np.ones((rows, 1)))
     above = sparse.vstack([sparse.hstack([rays, slack]), sparse.hstack([-rays, slack])]).tocsc()
-    loads = _loads(weights, down)
+    loads = loads_of(weights, down)
     cost = np.zeros(columns + 1)
     cost[-1] = 1.0
-    found = _solved(optimize.linprog(cost, A_ub=above, b_ub=np.concatenate([-loads, loads])))
+    found = solved(optimize.linprog(cost, A_ub=above, b_ub=np.concatenate([-loads, loads])))
     # The solver satisfies its constraints to 1e-7 only: compute the residual of its forces.
     return float(np.abs(rays @ np.maximum(found.x[:-1], 0.0) + loads).max())
 
@@ -133,14 +136,15 @@ def _margin(rays: Any, weights: Floats, down: Floats, direction: int) -> float:
     side /= np.linalg.norm(side)
     angle = 2.0 * np.pi * direction / PUSHES
     push = np.cos(angle) * side + np.sin(angle) * np.cross(down, side)
-    equal = sparse.hstack([rays, sparse.csc_array(_loads(weights, push)[:, None])]).tocsc()
+    equal = sparse.hstack([rays, sparse.csc_array(loads_of(weights, push)[:, None])]).tocsc()
     cost = np.zeros(equal.shape[1])
     cost[-1] = -1.0
-    found = optimize.linprog(cost, A_eq=equal, b_eq=-_loads(weights, down))
+    found = optimize.linprog(cost, A_eq=equal, b_eq=-loads_of(weights, down))
     return float(found.x[-1]) if found.status == 0 else 0.0
 
 
-def _solved(found: Any) -> Any:
+def solved(found: Any) -> Any:
+    """What the solver found; an error where it found nothing."""
     if found.status != 0:
         raise FileError("program-unsolved", reason=str(found.message))
     return found
@@ -156,15 +160,24 @@ class Simulation:
         The farthest that a block's centre of mass went, as a share of that block's size (the cube root of its volume).
     block : int
         Which one.
+    each : tuple of float
+        How far each block went, in the worst case; what came after the first block had gone its own size is not
+        simulated.
     """
 
     moved: float
     block: int
+    each: tuple[float, ...] = ()
+
+    @property
+    def fallen(self) -> tuple[int, ...]:
+        """The numbers of the blocks that went farther than 5 % of their size."""
+        return tuple(number for number, share in enumerate(self.each) if not share <= GONE)
 
     @property
     def stands(self) -> bool:
         """Whether no block went farther than 5 % of its size."""
-        return self.moved <= 0.05
+        return self.moved <= GONE
 
 
 def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0005) -> Simulation:
@@ -184,13 +197,9 @@ def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0
     FileError
         MuJoCo is missing (extra `stacks`).
     """
-    worst = Simulation(0.0, 0)
-    for count in structure.prefixes:
-        part = structure.first(count)
-        for down in structure.downs:
-            found = _run(part, down, seconds, time_step)
-            worst = max(worst, found, key=lambda one: one.moved)
-    return worst
+    parts = [structure.first(count) for count in structure.prefixes]
+    found = [_run(part, down, seconds, time_step) for part in parts for down in structure.downs]
+    return max(found, key=lambda one: one.moved)
 
 
 def _run(part: Structure, down: Floats, seconds: float, time_step: float) -> Simulation:
@@ -210,7 +219,7 @@ def _run(part: Structure, down: Floats, seconds: float, time_step: float) -> Sim
             if not np.isfinite(moved).all() or moved.max() > 1.0:
                 break
     moved = np.nan_to_num(moved, nan=np.inf)
-    return Simulation(float(moved.max()), int(moved.argmax()))
+    return Simulation(float(moved.max()), int(moved.argmax()), tuple(moved.tolist()))
 
 
 def _document(part: Structure, down: Floats, time_step: float) -> str:

@@ -3,6 +3,7 @@
 - `messages/`  the protocol: what can be asked and what is told, one struct each; `types` writes the page's types
 - `frames`     geometry on the wire
 - `document`, `journal`  what a session is about, and its steps on disk; undo moves a head
+- `refused`    what cannot be done, in words
 - `session/`   commands in, steps and shapes out; a function for each kind of command
 - `window`     what waits to be sent to one window
 - `process`, `worker/`   the processes that import models, search, and read what users send

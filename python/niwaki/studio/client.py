@@ -21,7 +21,10 @@ from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
 from niwaki.studio.frames import opened
-from niwaki.studio.messages import PROTOCOL, Command, Shape
+from niwaki.studio.messages import PROTOCOL, Command, Difference, Picture, Regions, Shape
+
+#: Events whose bytes come with them; they answer no command.
+FRAMES = ("shape", "picture", "regions")
 
 
 class StudioError(NiwakiError):
@@ -45,6 +48,10 @@ class Studio:
         What every window shows, up to date with the last message that was read.
     shapes : list of (Shape, bytes)
         The shapes that have come.
+    differences : list of (Difference, bytes)
+        The differences to what is wanted that have come.
+    pictures : list of (Picture or Regions, bytes)
+        The pictures of drawings that have come, and their regions.
     events : list of dict
         Every event that has come.
     """
@@ -59,6 +66,8 @@ class Studio:
         self.view: dict[str, Any] = {}
         self.session = ""
         self.shapes: list[tuple[Shape, bytes]] = []
+        self.differences: list[tuple[Difference, bytes]] = []
+        self.pictures: list[tuple[Picture | Regions, bytes]] = []
         self.events: list[dict[str, Any]] = []
         self.ask("hello", protocol=PROTOCOL)
 
@@ -90,7 +99,7 @@ class Studio:
         end = time.monotonic() + timeout
         while True:
             event = self.read(end - time.monotonic())
-            if event.get("id") != number or event["kind"] == "shape":
+            if event.get("id") != number or event["kind"] in FRAMES:
                 continue
             if event["kind"] == "error":
                 raise StudioError(event["problem"]["code"], event["problem"]["text"])
@@ -110,9 +119,14 @@ class Studio:
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
             header, payload = opened(data)
-            shape = msgspec.json.decode(header, type=Shape)
-            self.shapes.append((shape, bytes(payload)))
-            event: dict[str, Any] = {"kind": "shape", **msgspec.to_builtins(shape)}
+            told = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions)
+            if isinstance(told, Shape):
+                self.shapes.append((told, bytes(payload)))
+            elif isinstance(told, Difference):
+                self.differences.append((told, bytes(payload)))
+            else:
+                self.pictures.append((told, bytes(payload)))
+            event: dict[str, Any] = msgspec.to_builtins(told)
         else:
             event = json.loads(data)
         if event["kind"] == "state":

@@ -11,10 +11,10 @@ from itertools import count
 import msgspec
 
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
-from niwaki.studio.messages import Answer, AnyJob, AnyReport, Described, Problem, Progressed, Shape
+from niwaki.studio.messages import Answer, AnyJob, AnyReport, Problem
 
-#: What is reported before a job has ended, with the bytes of a mesh.
-Report = Callable[[Progressed | Shape | Described, bytes], None]
+#: What is reported before a job has ended, with the bytes of a mesh or of a picture.
+Report = Callable[[AnyReport, bytes], None]
 #: Seconds in which a job has to end after it was asked to; then its process is killed.
 GRACE = 2.0
 
@@ -22,9 +22,16 @@ _decode = msgspec.json.Decoder(AnyReport).decode
 
 
 class Worker:
-    """A process that does jobs, started when there is one, and again after it has ended."""
+    """A process that does jobs, started when there is one, and again after it has ended.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    words
+        Of its command line: see `niwaki.studio.worker.allowed`.
+    """
+
+    def __init__(self, *words: str) -> None:
+        self._words = words
         self._process: asyncio.subprocess.Process | None = None
         self._one = asyncio.Lock()
         self._ids = count(1)
@@ -55,7 +62,7 @@ class Worker:
     async def _done(self, job: AnyJob, report: Report | None) -> Answer:
         process = self._process
         if process is None or process.returncode is not None:
-            command = (sys.executable, "-m", "niwaki.studio.worker")
+            command = (sys.executable, "-m", "niwaki.studio.worker", *self._words)
             pipe = asyncio.subprocess.PIPE
             process = await asyncio.create_subprocess_exec(
                 *command, stdin=pipe, stdout=pipe, start_new_session=True

@@ -3,7 +3,7 @@
 GET  /            the page (and /app.js, /app.css)
 GET  /open        the link that the terminal shows (`niwaki.studio.security`)
 GET  /socket      a websocket: JSON both ways, geometry as frames
-POST /upload      a mesh; `?name=ship.obj` says its format
+POST /upload      a mesh or a drawing; `?name=ship.obj` says its format
 GET  /file/HASH   what was exported
 """
 
@@ -48,6 +48,7 @@ READING = 60.0
 WINDOWS = 32
 
 MESHES = (".obj", ".stl", ".ply", ".glb", ".gltf")
+DRAWINGS = (".svg", ".png", ".webp", ".bmp", ".gif", ".tif", ".tiff", ".jpg", ".jpeg")
 _decode = msgspec.json.Decoder(AnyCommand).decode
 
 
@@ -69,8 +70,9 @@ def application(session: Session, port: int) -> Guard:
 
     async def upload(request: Request) -> Response:
         suffix = Path(request.query_params.get("name", "")).suffix.lower()
-        if suffix not in MESHES:
-            return _refused(415, "file-format", f"a mesh is one of {', '.join(MESHES)}")
+        if suffix not in MESHES + DRAWINGS:
+            kinds = f"a mesh is one of {', '.join(MESHES)}, a drawing one of {', '.join(DRAWINGS)}"
+            return _refused(415, "file-format", kinds)
         declared = request.headers.get("content-length", "0")
         if not declared.isdecimal() or int(declared) > UPLOAD:
             return _too_large()
@@ -142,10 +144,11 @@ def _id_of(text: str) -> int:
 
 
 async def _read(body: bytes, suffix: str, folder: Path) -> Response:
-    """Read a mesh in a process of its own, and keep what it has read."""
+    """Read a mesh or a drawing in a process of its own, and keep what it has read."""
     name = hashlib.sha256(body).hexdigest()
     with tempfile.TemporaryDirectory(dir=folder) as place:
-        source, sink = Path(place) / f"mesh{suffix}", Path(place) / "mesh.stl"
+        kept = ".stl" if suffix in MESHES else suffix
+        source, sink = Path(place) / f"sent{suffix}", Path(place) / f"read{kept}"
         await asyncio.to_thread(source.write_bytes, body)
         command = (sys.executable, "-m", "niwaki.studio.worker.uploads", str(source), str(sink))
         pipe = asyncio.subprocess.PIPE
@@ -166,8 +169,12 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
         found = json.loads(said.splitlines()[-1])
         if "error" in found:
             return _refused(422, found.get("code", "file-unreadable"), found["error"])
-        sink.rename(folder / f"{name}.stl")
-    return JSONResponse({"source": f"upload:{name}", **found})
+        # What was asked for last: what is beside it is there when it is.
+        for one in sorted(Path(place).glob("read.*"), key=lambda one: one == sink):
+            one.rename(folder / one.name.replace("read.", f"{name}.", 1))
+    # A mesh is a target's source; a drawing is chosen as models are.
+    sent = {"source": f"upload:{name}"} if kept == ".stl" else {"reference": f"drawing:upload:{name}{kept}"}
+    return JSONResponse({**sent, **found})
 
 
 def _refused(status: int, code: str, text: str) -> Response:

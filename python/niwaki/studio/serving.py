@@ -17,6 +17,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from watchfiles import awatch
 
 from niwaki.errors import InputError
+from niwaki.errors.folders import held_folder
 from niwaki.studio.security import Guard
 from niwaki.studio.server import COMMAND, application
 from niwaki.studio.session import Session, begin, reload
@@ -71,7 +72,7 @@ def listening(port: int) -> socket.socket:
     return found
 
 
-def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True) -> None:
+def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, trust: bool = False) -> None:
     """Serve a session until Ctrl-C.
 
     Parameters
@@ -84,11 +85,18 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True) 
         0 for a free one.
     browser
         Whether to open the page.
+    trust
+        Whether files that stored runs name may be run for their host functions, where they have not changed.
+
+    Raises
+    ------
+    FileError
+        `folder-in-use`: another studio has this session.
     """
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, 4096)), hard))
-    with contextlib.suppress(KeyboardInterrupt):
-        asyncio.run(_serve([_whole(one) for one in models], folder, port, browser))
+    with contextlib.suppress(KeyboardInterrupt), held_folder(folder):
+        asyncio.run(_serve([_whole(one) for one in models], folder, port, browser, trust))
 
 
 def _whole(reference: str) -> str:
@@ -101,8 +109,8 @@ def _whole(reference: str) -> str:
     return f"{Path(place).resolve()}{colon}{name}"
 
 
-async def _serve(models: list[str], folder: Path, port: int, browser: bool) -> None:
-    session = Session(folder, models)
+async def _serve(models: list[str], folder: Path, port: int, browser: bool, trust: bool) -> None:
+    session = Session(folder, models, trust)
     door = listening(port)
     port = door.getsockname()[1]
     guard = application(session, port)

@@ -16,7 +16,8 @@ HEADER = "// Written from python/niwaki/studio/messages by `make studio-page`; c
 def typescript() -> str:
     """Every message as an interface, and the unions of commands and of events."""
     commands = get_args(messages.AnyCommand)
-    events = [one for one in vars(messages.events).values() if _is_event(one)]
+    told = vars(messages.events) | vars(messages.modes)
+    events = [one for one in told.values() if _is_event(one)]
     known: dict[str, look.StructType] = {}
     for kind in (*commands, *events, messages.View):
         _collect(look.type_info(kind), known)
@@ -68,7 +69,8 @@ def _type(kind: look.Type) -> str:
         case look.StructType():
             return kind.cls.__name__
         case look.UnionType():
-            return " | ".join(dict.fromkeys(_type(one) for one in kind.types))
+            given = [one for one in kind.types if not isinstance(one, look.CustomType)]
+            return " | ".join(dict.fromkeys(_type(one) for one in given))
         case look.ListType():
             inner = _type(kind.item_type)
             return f"({inner})[]" if "|" in inner else f"{inner}[]"

@@ -11,7 +11,7 @@ from collections.abc import AsyncIterator
 
 import msgspec
 
-from niwaki.studio.messages import Event, Shape
+from niwaki.studio.messages import Event, Picture, Regions, Shape
 
 #: A window that has so many messages waiting is closed.
 WAITING = 4_000
@@ -48,6 +48,8 @@ class Window:
                 yield self._waiting.pop(next(iter(self._waiting)))
 
 
-def newest(header: Shape) -> str:
+def newest(header: Shape | Picture | Regions) -> str:
     """The kind of a shape of which only the newest counts; empty for those that all count."""
+    if header.what == "obstacle":
+        return f"obstacle {header.number}"
     return header.what if header.what in ("best", "moving", "ghost") else ""

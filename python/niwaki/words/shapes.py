@@ -267,9 +267,9 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
     return _make("disc", center, radius, color)
 
 
-def painted(shape: Any, color: Color) -> Any:
-    """A shape in this colour, where it has none of its own; what is no shape is given back."""
-    if not isinstance(shape, _engine.Shape) or shape.color is not None:
+def painted(shape: Any, color: Color, over: bool = False) -> Any:
+    """A shape in this colour, where it has none of its own or `over` is given; what is no shape is given back."""
+    if not isinstance(shape, _engine.Shape) or (shape.color is not None and not over):
         return shape
     checked = _engine.Shape.disc((0.0, 0.0, 0.0), 1.0, tuple(color)).color
     return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), "color": checked}))

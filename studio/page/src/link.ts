@@ -1,10 +1,12 @@
 // The socket: commands out, events and frames in. The page has no other way to the studio, but for uploads and files.
 
-import type { Command, Event, Shape } from "./messages";
+import type { Command, Difference, Event, Picture, Regions, Shape } from "./messages";
 import { PROTOCOL } from "./messages";
 
 type Sent = Command extends infer C ? (C extends { id?: number } ? Omit<C, "id"> : never) : never;
 export type Answer = Event | undefined;
+/** The headers of frames: what comes with bytes. */
+export type Frame = Shape | Difference | Picture | Regions;
 
 export interface Link {
   /** Sends a command; the promise ends with its last answer, or fails with its problem. */
@@ -29,7 +31,7 @@ export class Refused extends Error {
 
 export function connect(
   onEvent: (event: Event) => void,
-  onShape: (shape: Shape, payload: ArrayBuffer) => void,
+  onFrame: (header: Frame, payload: ArrayBuffer) => void,
   onState: (isOpen: boolean) => void,
 ): Link {
   const waiting = new Map<number, Waiting>();
@@ -76,8 +78,8 @@ export function connect(
         answered(event);
       } else {
         const length = new DataView(data).getUint32(0, true);
-        const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Shape;
-        onShape(header, data.slice(4 + length));
+        const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Frame;
+        onFrame(header, data.slice(4 + length));
       }
     };
     socket.onclose = () => {

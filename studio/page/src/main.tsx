@@ -3,26 +3,28 @@
 import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import "./style.css";
+import { easel, placeOf, plan } from "./pictures";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
-import { Canvas, shown, stage } from "./ui/canvas";
+import { Canvas, drag, shown, stage } from "./ui/canvas";
+import { Easel, frame } from "./ui/easel";
 import { Gallery } from "./ui/gallery";
+import { play } from "./ui/growth";
 import { Inspector } from "./ui/inspector";
+import { Palette } from "./ui/palette";
+import { ruling } from "./ui/rules";
 import { Setup } from "./ui/setup";
 
-type Mode = "translate" | "scale" | "rotate" | null;
-
 function App() {
-  const [handles, setHandles] = useState<Mode>(null);
   const [isDropping, setDropping] = useState(false);
   useEffect(() => {
-    const key = (event: KeyboardEvent) => pressed(event, setHandles);
-    addEventListener("keydown", key);
-    return () => removeEventListener("keydown", key);
+    addEventListener("keydown", pressed);
+    return () => removeEventListener("keydown", pressed);
   }, []);
+  const isColoring = store.kind.value === "coloring";
   return (
     <div
-      class={isDropping ? "app dropping" : "app"}
+      class={`app${isDropping ? " dropping" : ""}${isColoring ? " coloring" : ""}`}
       onDragOver={(event) => {
         event.preventDefault();
         setDropping(true);
@@ -36,15 +38,16 @@ function App() {
       }}
     >
       <Bar onFit={() => stage.fit()} />
-      <Setup handles={handles} setHandles={setHandles} />
-      <Canvas handles={handles} />
-      <Inspector />
+      <Setup />
+      <Canvas />
+      {isColoring && <Easel />}
       <Gallery />
+      {isColoring ? <Palette /> : <Inspector />}
     </div>
   );
 }
 
-function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
+function pressed(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
   const isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range";
   const isCommand = event.ctrlKey || event.metaKey;
@@ -55,10 +58,13 @@ function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
     return;
   }
   if (event.key === "Escape") {
-    if (store.isSearching.value) store.stop();
+    if (drag.isMoving) drag.cancel();
+    else if (store.isSearching.value) store.stop();
+    else if (ruling.value !== null) ruling.value = null;
+    else if (store.compared.value.length > 0) store.compared.value = [];
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
-      setHandles(null);
+      store.thing.value = null;
       store.select(null);
     }
     return;
@@ -67,7 +73,10 @@ function pressed(event: KeyboardEvent, setHandles: (mode: Mode) => void): void {
   if (event.key === "Enter" && target.tagName !== "BUTTON") store.run();
   else if (event.key === "f") stage.fit();
   else if (event.key === "t") store.showGhost.value = !store.showGhost.value;
-  else if (event.key === "d") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
+  else if (event.key === " " && target.tagName !== "BUTTON") play();
+  else if (event.key === "c") store.compare();
+  else if (event.key === "x") store.showDifference.value = !store.showDifference.value;
+  else if (event.key === "d" && store.kind.value === "scene") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
   else if (event.key === "r" && level) store.reroll(level, 1);
   else if (event.key === "p" && level) store.pinOrFree(level);
   else if (event.key === "s" && store.picked.value) {
@@ -99,6 +108,60 @@ Object.assign(window, {
     },
     get frames() {
       return stage.frames;
+    },
+    get drag() {
+      return { left: drag.left, reason: store.quiet.value };
+    },
+    get things() {
+      return stage.things.names;
+    },
+    get counts() {
+      return store.difference.value === null ? null : store.counts.value;
+    },
+    get differs() {
+      return `${store.difference.value?.header.key?.number ?? ""}`;
+    },
+    get compared() {
+      return stage.compared;
+    },
+    get drawn() {
+      const { start, count } = stage.piece!.geometry.drawRange;
+      const owners = stage.piece!.owners.slice(start, Math.min(count, 3 * stage.piece!.owners.length) / 3);
+      return [...new Set(owners)].map((part) => stage.piece!.header.parts[part]);
+    },
+    get bests() {
+      return shown.bests;
+    },
+    get isGhostShown() {
+      if (store.kind.value === "coloring") return plan.value !== null;
+      return stage.things.source("target") === (store.target.value?.source ?? null);
+    },
+    get ghost() {
+      return stage.things.triangles("target");
+    },
+    get handle() {
+      return stage.handlePoint();
+    },
+    get bounds() {
+      const { low, high } = stage.piece?.header ?? {};
+      return { low, high };
+    },
+    get palette() {
+      return store.palette.value;
+    },
+    get judged() {
+      return store.judged.value;
+    },
+    get arrows() {
+      return stage.arrows.children.length;
+    },
+    get easel() {
+      return easel.value === null ? null : { name: easel.value.name, detail: easel.value.detail };
+    },
+    /** Where a region is seen, in CSS pixels of the middle. */
+    regionPoint: (name: string) => {
+      const found = placeOf(name);
+      return found === null ? null : [frame.at[0] + found[0] * frame.at[2], frame.at[1] + found[1] * frame.at[3]];
     },
     pointOf: (address: string) => stage.pointOf(address),
   },

@@ -16,7 +16,7 @@ export interface ChooseModel {
   id?: number;
 }
 
-/** A volume to fill: where it comes from, and how it is placed. */
+/** A solid in the scene, to fill or to avoid: where it comes from, and how it is placed. */
 export interface TargetAsk {
   source: string;
   move?: [number, number, number];
@@ -38,39 +38,58 @@ export interface Eye {
   fov: number;
 }
 
-/** A silhouette drawn by hand, over the view of a camera. */
+/** A silhouette or a shadow drawn by hand, over the view of a camera. */
 export interface Sketch {
   strokes: Stroke[];
   aspect: number;
   camera?: Eye | null;
+  kind?: "shadow" | "silhouette";
 }
 
-/** What a scene should be like; with nothing in it, what the model of the gallery is usually asked. */
-export interface Ask {
+/** A rule about regions of a drawing: those of `niwaki.color.Rules`. */
+export interface RuleAsk {
+  kind: "lighter" | "lightness" | "muted" | "same-chroma" | "same-hue";
+  regions: string[];
+  most?: number;
+}
+
+/** Rules of a drawing. */
+export interface RulesAsk {
+  rules?: RuleAsk[];
+  background?: string | null;
+  weight?: number;
+}
+
+/** Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target. */
+export interface AskChange {
   target?: TargetAsk | null;
   sketch?: Sketch | null;
   floor?: number | null;
+  obstacles?: TargetAsk[];
+  light?: [number, number, number];
+  rules?: RulesAsk | null;
 }
 
-/** Say what the scene should be like. */
+/** Say what the scene should be like; what is left out stays. */
 export interface SetAsk {
   kind: "ask";
-  ask: Ask;
+  ask: AskChange;
   id?: number;
 }
 
-/** How to search. */
-export interface Settings {
+/** Other values of some fields of `Settings`. */
+export interface SettingsChange {
   count?: number;
   seed?: number | null;
   effort?: number;
+  strength?: number;
 }
 
 /** Set arguments by name, or settings; what is left out stays. */
 export interface Set {
   kind: "set";
   arguments?: Record<string, any> | null;
-  settings?: Settings | null;
+  settings?: SettingsChange | null;
   id?: number;
 }
 
@@ -90,6 +109,7 @@ export interface Stop {
 export interface PinParts {
   kind: "pin";
   parts: string[];
+  color?: string | null;
   id?: number;
 }
 
@@ -105,6 +125,7 @@ export interface Reroll {
   kind: "reroll";
   part: string;
   count?: number;
+  strength?: number | null;
   id?: number;
 }
 
@@ -112,8 +133,27 @@ export interface Reroll {
 export interface Choose {
   kind: "choose";
   address: string;
-  value: number | boolean;
+  value: number | boolean | string;
   phase?: "end" | "move";
+  id?: number;
+}
+
+/** Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result. */
+export interface Drag {
+  kind: "drag";
+  part: string;
+  to: [number, number, number];
+  grab?: [number, number, number] | null;
+  along?: [number, number, number] | null;
+  phase?: "cancel" | "end" | "move";
+  follow?: boolean;
+  id?: number;
+}
+
+/** Write a change of the model's file that the last drag has offered; the difference is the one that was shown. */
+export interface Rewrite {
+  kind: "rewrite";
+  difference: string;
   id?: number;
 }
 
@@ -138,6 +178,13 @@ export interface Show {
   id?: number;
 }
 
+/** Ask where a result differs from what is wanted. */
+export interface ShowDifference {
+  kind: "difference";
+  key: Key;
+  id?: number;
+}
+
 /** Go on with this result. */
 export interface Pick {
   kind: "pick";
@@ -150,6 +197,14 @@ export interface Star {
   kind: "star";
   key: Key;
   on?: boolean;
+  id?: number;
+}
+
+/** Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls. */
+export interface Judge {
+  kind: "judge";
+  key: Key;
+  simulate?: boolean;
   id?: number;
 }
 
@@ -169,8 +224,10 @@ export interface Redo {
 export interface Export {
   kind: "export";
   key: Key;
-  format: "3mf" | "glb" | "json" | "obj" | "ply" | "png" | "stl" | "svg";
+  format: "3mf" | "assembly" | "dxf" | "glb" | "json" | "obj" | "ply" | "png" | "stl" | "svg" | "toml";
   scale?: number | null;
+  board?: [number, number];
+  kerf?: number;
   id?: number;
 }
 
@@ -181,7 +238,14 @@ export interface Parameter {
   is_required: boolean;
 }
 
-/** A model that can be chosen. */
+/** A region of a drawing: its share of the picture, and the colour that it has there. */
+export interface RegionInfo {
+  name: string;
+  share: number;
+  color: string;
+}
+
+/** What can be chosen: a model, or a drawing to colour. */
 export interface ModelInfo {
   reference: string;
   title: string;
@@ -189,6 +253,27 @@ export interface ModelInfo {
   target: string | null;
   draws: string | null;
   is_file: boolean;
+  kind: "coloring" | "scene" | "structure";
+  regions: RegionInfo[];
+  rules: RulesAsk | null;
+}
+
+/** What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked. */
+export interface Ask {
+  target?: TargetAsk | null;
+  sketch?: Sketch | null;
+  floor?: number | null;
+  obstacles?: TargetAsk[];
+  light?: [number, number, number];
+  rules?: RulesAsk | null;
+}
+
+/** How to search. */
+export interface Settings {
+  count?: number;
+  seed?: number | null;
+  effort?: number;
+  strength?: number;
 }
 
 /** The numbers of a result, as the gallery shows them; scores in nats. */
@@ -200,6 +285,9 @@ export interface Outcome {
   seed: number | null;
   origin: string;
   model: string;
+  covered: number | null;
+  outside: number | null;
+  note: string;
 }
 
 /** A held part: its pattern, and the values of the choices that hold it. */
@@ -249,6 +337,7 @@ export interface View {
   interrupted: boolean;
   undo: number;
   redo: number;
+  note: string;
 }
 
 /** The whole state; `rev` counts the patches. */
@@ -285,7 +374,7 @@ export interface PartInfo {
   place: Place | null;
 }
 
-/** The choices and parts of a result. */
+/** The choices and parts of a result, in the order in which its run makes them. */
 export interface Described {
   kind: "described";
   id: number;
@@ -298,7 +387,8 @@ export interface Described {
 export interface Shape {
   kind: "shape";
   id: number;
-  what: "best" | "ghost" | "moving" | "result";
+  what: "best" | "ghost" | "moving" | "obstacle" | "result";
+  number: number;
   key: Key | null;
   detail: "fine" | "light";
   vertices: number;
@@ -309,6 +399,44 @@ export interface Shape {
   pivot: [number, number, number];
   is_flat: boolean;
   note: string;
+  held: [number, number, number] | null;
+  left: number;
+}
+
+/** A choice before and after a drag; None where the run has no such choice. */
+export interface Shifted {
+  address: string;
+  before: any;
+  after: any;
+}
+
+/** A change of the model's file that explains a drag. */
+export interface Offer {
+  says: string;
+  difference: string;
+  is_instead: boolean;
+}
+
+/** The end of a drag: what has changed in the first answer; or why the part is not there. */
+export interface Dragged {
+  kind: "dragged";
+  id: number;
+  part: string;
+  share: number;
+  reason: string;
+  changes: Shifted[];
+  offers: Offer[];
+}
+
+/** The header of a frame with a byte for each cell of a target, or each pixel of a picture. */
+export interface Difference {
+  kind: "difference";
+  id: number;
+  key: Key | null;
+  size: [number, number, number];
+  low: [number, number, number];
+  high: [number, number, number];
+  is_picture: boolean;
 }
 
 /** A command has done its work. */
@@ -333,6 +461,65 @@ export interface Failed {
   problem: Problem | null;
 }
 
+/** How well a colouring keeps a rule, in words and in units. */
+export interface KeptRule {
+  kind: string;
+  first: string;
+  second: string;
+  text: string;
+  holds: boolean;
+  residual: number;
+}
+
+/** The colours of a result by region, and its rules. */
+export interface Palette {
+  kind: "palette";
+  id: number;
+  key: Key | null;
+  colors: Record<string, string>;
+  kept: KeptRule[];
+}
+
+/** The header of a frame with a PNG: a drawing in the colours of a result. */
+export interface Picture {
+  kind: "picture";
+  id: number;
+  what: "moving" | "result";
+  key: Key | null;
+  detail: "fine" | "light";
+}
+
+/** The header of a frame with the number of each pixel's region in the model's list, (height, width) uint16. */
+export interface Regions {
+  kind: "regions";
+  id: number;
+  what: "ghost";
+  width: number;
+  height: number;
+}
+
+/** A force in the scene: where it acts, and its size and direction in mean weights of a block. */
+export interface Arrow {
+  at: [number, number, number];
+  force: [number, number, number];
+}
+
+/** Whether a structure stands. */
+export interface Judged {
+  kind: "judged";
+  id: number;
+  key: Key | null;
+  holds: boolean;
+  tilt: number;
+  loose: string[];
+  arrows: Arrow[];
+  stands: boolean | null;
+  moved: number | null;
+  fallen: string[];
+  board: number | null;
+  text: string;
+}
+
 export type Command =
   | Hello
   | ChooseModel
@@ -344,10 +531,14 @@ export type Command =
   | FreeParts
   | Reroll
   | Choose
+  | Drag
+  | Rewrite
   | Describe
   | Show
+  | ShowDifference
   | Pick
   | Star
+  | Judge
   | Undo
   | Redo
   | Export;
@@ -357,6 +548,12 @@ export type Event =
   | Patch
   | Described
   | Shape
+  | Dragged
+  | Difference
   | Done
   | File
-  | Failed;
+  | Failed
+  | Palette
+  | Picture
+  | Regions
+  | Judged;

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tomllib
+
 import numpy as np
 import pytest
 from niwaki.color import Rules, lab
@@ -126,3 +128,12 @@ def test_the_least_slack_agrees_with_a_linear_program() -> None:
 def test_our_own_rules_can_all_hold() -> None:
     for place in OWN.glob("*.toml"):
         assert least_slack(Rules.load(place)) == (0.0, [])
+
+
+def test_rules_as_a_file_are_the_rules_again() -> None:
+    for place in OWN.glob("*.toml"):
+        rules = Rules.load(place)
+        assert Rules.of(tomllib.loads(rules.toml()), place) == rules
+    chains = [['a "b"', "grün", "\\\n"]]
+    odd = Rules.of({"lighter": chains, "muted": {"all": 7.5}, "pinned": {"a.b": "#00ff00"}})
+    assert Rules.of(tomllib.loads(odd.toml())) == odd

@@ -75,6 +75,12 @@ def data(folder: str = "out") -> dict[str, Any]:
     return dict(json.loads(Path(folder, "run.json").read_text()))
 
 
+@pytest.mark.parametrize("output", ["sheet.txt", "sheet", "no/such/folder/sheet.png", "."])
+def test_show_looks_at_the_name_of_its_picture_before_it_runs(place: Path, output: str) -> None:
+    done = run("show", "garden.py:tower", "-n", "4", "--seed", "1", "-o", output)
+    assert done.exit_code != 0 and "#1" not in done.stdout
+
+
 def test_show_draws_runs_without_a_target(place: Path) -> None:
     done = run("show", "garden.py:tower", "width=2", "-n", "4", "--seed", "1")
     assert done.exit_code == 0, (done.output, done.exception)
@@ -243,3 +249,17 @@ def test_messages(place: Path, golden: Any) -> None:
         text = str(failed.exception).replace(str(place.resolve()), "FOLDER").replace(str(place), "FOLDER")
         found.append(f"## {name}\n\n{text}\n")
     golden(GOLDEN / "first-hour.txt", "\n".join(found))
+
+
+def test_the_model_of_a_file_is_its_own_where_it_has_one(place: Path) -> None:
+    Path("both.py").write_text(
+        "from niwaki.gallery.spaceship import spaceship\n" + MODEL.split("@model\ndef never")[0]
+    )
+    assert find("both.py").model.name == "tower"
+    Path("one.py").write_text("from niwaki.gallery.spaceship import spaceship\n")
+    assert find("one.py").model.name == "spaceship"
+    Path("two.py").write_text(
+        "from niwaki.gallery import spaceship, building\n\nfly = spaceship.spaceship\nlive = building.building\n"
+    )
+    with pytest.raises(NiwakiError, match="defines fly, live"):
+        find("two.py")

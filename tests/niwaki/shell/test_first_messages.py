@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from niwaki import box
 from niwaki.draw.scene import Scene
@@ -13,6 +14,7 @@ from niwaki.errors import NiwakiError
 from niwaki.gallery import entries
 from niwaki.shell import progress
 from niwaki.shell.main import app
+from PIL import Image
 from typer.testing import CliRunner
 
 GOLDEN = Path(__file__).parents[2] / "golden"
@@ -148,3 +150,17 @@ def test_memory_is_bounded_from_the_shell(place: Path) -> None:
     words = ("grow", "greedy.py:m", "--target", "box.obj", "--no-picture", "--max-memory")
     assert getattr(run(*words, "2").exception, "code", None) == "memory-budget"
     assert run(*words, "0").exit_code == 2
+
+
+def test_a_search_that_fails_draws_what_collides_in_red(place: Path) -> None:
+    done = run("grow", "first.py:crowded", "--target", "box.obj", "--seed", "1", "--quick", "-o", "bad")
+    assert getattr(done.exception, "code", None) == "everything-impossible"
+    assert (
+        "bad/impossible.png shows such a run; in red what makes it impossible: `cable`, `road`" in done.stderr
+    )
+    with Image.open("bad/impossible.png") as picture:
+        red, green, blue = np.asarray(picture.convert("RGB"), dtype=int).reshape(-1, 3).T
+    assert ((red > 120) & (green < 90) & (blue < 90)).sum() > 500
+    # It is no result: the folder can be used again.
+    again = run("grow", "first.py:tower", "--target", "box.obj", "--seed", "1", "--quick", "-o", "bad")
+    assert again.exit_code == 0 and not Path("bad/impossible.png").exists()

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from niwaki.stacks import balanced, plain, simulated
+from niwaki.stacks import balanced, carried, plain, simulated
 from niwaki.stacks.structure import Structure
 
 pytest.importorskip("mujoco")
@@ -119,3 +119,28 @@ def test_every_step_of_a_construction_is_judged() -> None:
     steps = Structure(whole.corners, whole.touches, 0.5, whole.downs, (1, 2, 3))
     assert not balanced(steps).holds
     assert not simulated(steps).stands
+
+
+def test_each_contact_of_a_tower_carries_the_blocks_above_it() -> None:
+    found = carried(pile(cubes(4, shift=0.01)))
+    # The second body of each contact is the one below, or the ground.
+    assert found.forces == pytest.approx(np.array([[0, 0, -4], [0, 0, -3], [0, 0, -2], [0, 0, -1]]), abs=1e-9)
+    # The top block's weight acts below its middle.
+    assert found.points[3, :2] == pytest.approx([0.01, 0.0], abs=1e-9)
+    assert found.points[0, :2] == pytest.approx([0.0025, 0.0], abs=1e-9)
+    assert found.weights == pytest.approx(np.array([[0, 0, -1]] * 4))
+    assert found.loose == ()
+
+
+def test_on_a_slope_friction_carries_its_share() -> None:
+    down = np.array(tilted(0.3))
+    (force,) = carried(pile(cubes(1), 0.5, tuple(down))).forces
+    assert force == pytest.approx(down, abs=1e-9)
+
+
+def test_a_block_that_nothing_holds_is_named_and_the_others_are_not() -> None:
+    tower = pile(cubes(3, shift=0.03))
+    assert carried(tower).loose == (2,)
+    fallen = simulated(tower)
+    assert fallen.fallen == (2,) and not fallen.stands
+    assert simulated(pile(cubes(3))).fallen == ()

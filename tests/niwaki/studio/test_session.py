@@ -156,6 +156,8 @@ def test_a_slider_shows_the_newest_value_and_ends_in_a_result(connected):
     for value in (2.5, 3.0, 3.5):
         connected.send("choose", address="while[0]/length", value=value, phase="move")
     connected.ask("choose", address="while[0]/length", value=4.0)
+    with pytest.raises(studio.StudioError, match="no choice"):
+        connected.ask("choose", address="while[0]/lenght", value=4.0)
     key = connected.view["picked"]
     assert key != before and [one["origin"] for one in connected.view["results"]] == ["choose"]
     described = connected.ask("describe", key=key)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki import box
+from niwaki import box, cylinder
 from niwaki.draw.scene import Scene
 from niwaki.search import SearchWarning
-from niwaki.targets.fit import Fit, fit
+from niwaki.targets.fit import Fit, cells, fit
 
 TARGET = nw.Target.of_shapes(box((0, 2, 0), (2, 4, 2)))
 SCORE = nw.match_volume(TARGET, 0.1)
@@ -81,3 +81,35 @@ def test_another_unit_and_another_place_are_warnings(x: float, size: float, text
 def test_a_result_without_a_scene_is_a_warning() -> None:
     with pytest.warns(SearchWarning, match="the best result is an empty scene"):
         nw.grow(nothing, TARGET, particles=5, seed=1, voxel=0.5)
+
+
+def test_cells_are_those_that_the_score_counts() -> None:
+    shapes = [
+        box((0.3, 1, 0), (2, 2, 2)),
+        cylinder((0.1, 2, 0), 0.8, 4.4, "y", 0.5),
+        box((9, 9, 9), (1, 1, 1)),
+    ]
+    scene = Scene([(f"{k}", [shape]) for k, shape in enumerate(shapes)])
+    found = cells(SCORE, scene)
+    assert found is not None
+    inside = int((found.made & found.wanted).sum())
+    assert of(*shapes).covered == inside / int(found.wanted.sum())
+    sketch = nw._engine.Sketch(SCORE.specs)
+    for shape in shapes:
+        sketch.add([shape])
+    assert sketch.measures()["filled"] == found.made.sum()
+    assert sketch.similarity() == 1.0 - (found.made != found.wanted).sum() / found.made.size
+
+
+def test_the_cells_of_a_box_are_those_that_it_touches() -> None:
+    found = cells(SCORE, Scene([("0", [box((0.5, 1, 0), (0.46, 0.94, 0.46))])]))
+    assert found is not None
+    step = (found.high - found.low) / found.made.shape
+    edges = [
+        low + size * np.arange(n + 1) for low, size, n in zip(found.low, step, found.made.shape, strict=True)
+    ]
+    touched = [
+        (e[:-1] <= b) & (e[1:] >= a)
+        for e, a, b in zip(edges, (0.27, 0.53, -0.23), (0.73, 1.47, 0.23), strict=True)
+    ]
+    assert np.array_equal(found.made, np.einsum("x,y,z->xyz", *touched))

@@ -1,10 +1,12 @@
 //! Gradients of a task: its log density over the continuous choices of one run.
 //!
 //! * [`follow`]: that density as a target of chains, with the reasons for which it refuses a point;
+//! * [`positions`]: where its shapes are, with their derivatives;
 //! * [`explore`]: chains of a task, each from its own possible run.
 
 pub mod explore;
 pub mod follow;
+pub mod positions;
 
 use crate::Failure;
 use crate::task::Task;
@@ -20,17 +22,22 @@ use std::sync::Arc;
 /// # Errors
 /// A scene that sketches score: they count cells and pixels, which have no slope.
 pub fn model(task: &Task) -> Result<Model, Failure> {
-    if task.model.is_some() {
-        return Err(Fault::new("bad-kernel", "no gradient is followed within an `infer` of a model")
-            .with_help("use `mh()` without `hmc_step()` and `nuts_step()` there")
-            .into());
-    }
     if let Some(sketch) = task.sketches.first() {
         let name = sketch.name();
         return Err(Failure::Setting(
             Fault::new("sketch-without-slope", format!("the sketch `{name}` scores the scene by counting, which has no gradient"))
                 .with_help("use `mh()` or particles for it, or say in the model with `factor` what the shapes should be like"),
         ));
+    }
+    recordable(task)
+}
+
+/// The same, without regard to its sketches.
+fn recordable(task: &Task) -> Result<Model, Failure> {
+    if task.model.is_some() {
+        return Err(Fault::new("bad-kernel", "no gradient is followed within an `infer` of a model")
+            .with_help("use `mh()` without `hmc_step()` and `nuts_step()` there")
+            .into());
     }
     let hosts = task.hosts.clone();
     Ok(Model {

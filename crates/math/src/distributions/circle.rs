@@ -14,7 +14,7 @@ pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
         return S::from_f64(f64::NEG_INFINITY);
     }
     let sin = ((x - mean) * S::from_f64(0.5)).sin();
-    S::from_f64(-2.0) * concentration * sin * sin - concentration.ln_bessel_i0e() - S::from_f64(TAU.ln())
+    concentration * sin * sin * S::from_f64(-2.0) - concentration.ln_bessel_i0e() - S::from_f64(TAU.ln())
 }
 
 /// Best & Fisher 1979, section 2, in which the wrapped Cauchy proposal has `s = (1 + sqrt(1 + 4 k^2)) / (2 k)`.
@@ -27,7 +27,8 @@ pub(super) fn sample(mean: f64, concentration: f64, rng: &mut (impl RngCore + ?S
         return TAU * open_unit(rng) - PI;
     }
     let root = 1.0_f64.hypot(2.0 * k);
-    let above_one = (1.0 + 1.0 / (root + 2.0 * k)) / (2.0 * k);
+    // Halves, because `2 k` may be beyond all numbers.
+    let above_one = (0.5 + 0.5 / (root + 2.0 * k)) / k;
     let angle = loop {
         let half_sin = (0.5 * PI * open_unit(rng)).sin();
         let one_less_z = 2.0 * half_sin * half_sin;
@@ -52,7 +53,7 @@ fn wrap(angle: f64) -> f64 {
 mod tests {
     //! Densities integrate to one over the circle, and draws follow them, for any concentration.
     use super::super::testing::*;
-    use crate::{Draw, Family};
+    use crate::{Draw, Family, Stream};
     use std::f64::consts::PI;
 
     #[test]
@@ -62,6 +63,17 @@ mod tests {
         }
         let narrow = dist(Family::VonMises, &[0.5, 1e12]);
         continuous_agrees(&narrow, 0.5 - 1.2e-5, 0.5 + 1.2e-5);
+    }
+
+    #[test]
+    fn the_largest_concentration_draws_the_mean() {
+        let narrow = dist(Family::VonMises, &[0.5, f64::MAX]);
+        let mut draws = Stream::new(1, 0, 7, 0);
+        for _ in 0..100 {
+            let Draw::Real(x) = narrow.sample(&mut draws) else { panic!("an angle") };
+            assert_eq!(x, 0.5);
+            assert!(narrow.log_density(&Draw::Real(x)) > 0.0);
+        }
     }
 
     #[test]

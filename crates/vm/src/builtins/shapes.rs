@@ -1,6 +1,8 @@
 //! Shapes from values: the words of [`WORDS`]. Models and plain Python runs both use this file.
 //!
-//! A scene is made of plain numbers: a recording scalar gives only its value here.
+//! A scene is made of plain numbers: a recording scalar gives only its value here. Where the shape is it may note
+//! ([`Scalar::note`]): its middle, and three directions, of which some may be zero. A point that is fixed to the shape
+//! is the middle and a sum of these.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -79,17 +81,36 @@ impl<S: Scalar> Arguments<'_, S> {
     }
 
     fn rotation(&self, at: usize) -> Result<Option<Mat3>, Fault> {
+        let rows = self.rows(at)?;
+        Ok(rows.map(|rows| Mat3::from_rows(rows.map(|row| row.map(Scalar::value)))))
+    }
+
+    /// The rows of a rotation.
+    fn rows(&self, at: usize) -> Result<Option<[[S; 3]; 3]>, Fault> {
         let Some(arg) = self.given(at) else { return Ok(None) };
         if let Value::Rotation(r) = arg {
-            let r = r.map(Scalar::value);
-            return Ok(Some(Mat3::from_rows([[r[0], r[1], r[2]], [r[3], r[4], r[5]], [r[6], r[7], r[8]]])));
+            return Ok(Some([[r[0], r[1], r[2]], [r[3], r[4], r[5]], [r[6], r[7], r[8]]]));
         }
         let rows = matches!(arg, Value::Tuple(_) | Value::List(_)) && iter_len(arg)? == 3;
         if !rows {
             return Err(unfit(self.word, "a rotation such as `rotation(axis, angle)`", arg));
         }
-        let row = |at: usize| three(self.word, &iter_get(arg, at)).map(|row| row.map(Scalar::value));
-        Ok(Some(Mat3::from_rows([row(0)?, row(1)?, row(2)?])))
+        let row = |at: usize| three(self.word, &iter_get(arg, at));
+        Ok(Some([row(0)?, row(1)?, row(2)?]))
+    }
+
+    /// The same, with the rows of no turn where it is left out.
+    fn turn(&self, at: usize) -> Result<[[S; 3]; 3], Fault> {
+        let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        Ok(self.rows(at)?.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64))))
+    }
+
+    fn triple(&self, at: usize) -> Result<[S; 3], Fault> {
+        three(self.word, self.needed(at)?)
+    }
+
+    fn scalar(&self, at: usize) -> Result<S, Fault> {
+        real(self.word, self.needed(at)?)
     }
 
     fn look(&self, rotation: Option<usize>, bevel: Option<usize>, color: usize) -> Result<Look, Fault> {
@@ -105,8 +126,31 @@ fn point<S: Scalar>(word: &str, value: &Value<S>) -> Result<Vec3, Fault> {
     three(word, value).map(|[x, y, z]| vec3(x.value(), y.value(), z.value()))
 }
 
-fn shape<S: Scalar>(result: Result<Shape, GeomError>) -> Answer<S> {
-    result.map(Value::Shape).map_err(refused)
+/// The middle of a shape, and three directions.
+type At<S> = [[S; 3]; 4];
+
+/// A shape, and where it is.
+fn shape<S: Scalar>(
+    result: Result<Shape, GeomError>,
+    at: impl FnOnce() -> Result<At<S>, Fault>,
+) -> Answer<S> {
+    let shape = result.map_err(refused)?;
+    // The same arguments have given a shape.
+    S::note(shape.address(), || at().map_or_else(|_| Vec::new(), |at| at.concat()));
+    Ok(Value::Shape(shape))
+}
+
+/// Between two points, and from the one to the other.
+fn between<S: Scalar>(start: [S; 3], end: [S; 3]) -> At<S> {
+    let (half, zero) = (S::from_f64(0.5), [S::from_f64(0.0); 3]);
+    let along = [0, 1, 2].map(|k| end[k] - start[k]);
+    [[0, 1, 2].map(|k| start[k] + half * along[k]), zero, along, zero]
+}
+
+/// Turned, the directions of the coordinates times `size`.
+fn turned<S: Scalar>(center: [S; 3], rotation: [[S; 3]; 3], size: [S; 3]) -> At<S> {
+    let along = |j: usize| [0, 1, 2].map(|i| rotation[i][j] * size[j]);
+    [center, along(0), along(1), along(2)]
 }
 
 /// The faults of the geometry crate keep their messages.
@@ -132,7 +176,10 @@ pub fn cuboid<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (center, size) = (given.point(0)?, given.point(1)?);
     let taper = given.number_or(3, 1.0)?;
     let axis = given.given(4).map_or(Ok(2), |arg| letter("box", arg))?;
-    shape(Shape::tapered_box(center, size, taper, axis, &given.look(Some(2), Some(5), 6)?))
+    let look = given.look(Some(2), Some(5), 6)?;
+    shape(Shape::tapered_box(center, size, taper, axis, &look), || {
+        Ok(turned(given.triple(0)?, given.turn(2)?, given.triple(1)?))
+    })
 }
 
 /// The word `cylinder`.
@@ -145,7 +192,17 @@ pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     };
     let top = given.given(4).map(|arg| real("cylinder", arg).map(Scalar::value)).transpose()?;
     let look = given.look(Some(5), Some(6), 7)?;
-    shape(Shape::cylinder(given.point(0)?, given.number(1)?, given.number(2)?, axis, top, &look))
+    shape(Shape::cylinder(given.point(0)?, given.number(1)?, given.number(2)?, axis, top, &look), || {
+        let axis = match given.given(3) {
+            Some(direction) if !matches!(direction, Value::Str(_)) => three("cylinder", direction)?,
+            _ => axis.to_array().map(S::from_f64),
+        };
+        let norm = axis.iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt();
+        let (turn, length) = (given.turn(5)?, given.scalar(2)? / norm);
+        let along = turn.map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * length);
+        let zero = [S::from_f64(0.0); 3];
+        Ok([given.triple(0)?, zero, along, zero])
+    })
 }
 
 /// The word `limb`.
@@ -153,7 +210,10 @@ pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "limb", args };
     let radii = (given.number(2)?, given.number(3)?);
     let normals = (given.direction(4)?, given.direction(5)?);
-    shape(Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &given.look(None, None, 6)?))
+    let look = given.look(None, None, 6)?;
+    shape(Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &look), || {
+        Ok(between(given.triple(0)?, given.triple(1)?))
+    })
 }
 
 /// The word `segment`.
@@ -166,7 +226,10 @@ pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
         Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
     });
     let frames = [given.frame(0)?, given.frame(1)?, given.frame(2)?];
-    shape(Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?))
+    shape(Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?), || {
+        let center = |at: usize| three("segment", &given.several(at, 4, "a frame")?[0]);
+        Ok(between(center(0)?, center(2)?))
+    })
 }
 
 /// The word `stroke`.
@@ -174,21 +237,32 @@ pub fn stroke<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "stroke", args };
     let width = given.number(2)?;
     let widths = (width, given.number_or(3, width)?);
-    shape(Shape::stroke(given.point(0)?, given.point(1)?, widths, &given.look(None, None, 4)?))
+    shape(Shape::stroke(given.point(0)?, given.point(1)?, widths, &given.look(None, None, 4)?), || {
+        Ok(between(given.triple(0)?, given.triple(1)?))
+    })
 }
 
 /// The word `ellipse`.
 pub fn ellipse<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "ellipse", args };
     let (size, angle) = ((given.number(1)?, given.number(2)?), given.number_or(3, 0.0)?);
-    shape(Shape::ellipse(given.point(0)?, size, angle, &given.look(None, None, 4)?))
+    shape(Shape::ellipse(given.point(0)?, size, angle, &given.look(None, None, 4)?), || {
+        let angle = given.given(3).map_or(Ok(S::from_f64(0.0)), |arg| real("ellipse", arg))?;
+        let (c, s, zero) = (angle.cos(), angle.sin(), S::from_f64(0.0));
+        let rows = [[c, -s, zero], [s, c, zero], [zero; 3]];
+        Ok(turned(given.triple(0)?, rows, [given.scalar(1)?, given.scalar(2)?, zero]))
+    })
 }
 
 /// The word `disc`.
 pub fn disc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "disc", args };
     let width = 2.0 * given.number(1)?;
-    shape(Shape::ellipse(given.point(0)?, (width, width), 0.0, &given.look(None, None, 2)?))
+    shape(Shape::ellipse(given.point(0)?, (width, width), 0.0, &given.look(None, None, 2)?), || {
+        let (radius, zero) = (given.scalar(1)?, S::from_f64(0.0));
+        let rows = [[radius, zero, zero], [zero, radius, zero], [zero; 3]];
+        Ok(turned(given.triple(0)?, rows, [S::from_f64(1.0); 3]))
+    })
 }
 
 /// The word `mesh`.
@@ -201,7 +275,12 @@ pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 pub fn placed<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
     let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| point("mesh", arg))?;
-    shape(Shape::mesh(mesh, center, given.number_or(4, 1.0)?, &given.look(Some(3), None, 5)?))
+    shape(Shape::mesh(mesh, center, given.number_or(4, 1.0)?, &given.look(Some(3), None, 5)?), || {
+        let zero = [S::from_f64(0.0); 3];
+        let center = given.given(2).map_or(Ok(zero), |arg| three("mesh", arg))?;
+        let scale = given.given(4).map_or(Ok(S::from_f64(1.0)), |arg| real("mesh", arg))?;
+        Ok(turned(center, given.turn(3)?, [scale; 3]))
+    })
 }
 
 /// Meshes that a thread keeps, newest last.

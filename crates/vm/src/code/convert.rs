@@ -103,7 +103,11 @@ impl<S: Scalar> Value<S> {
                 Value::Vector(Arc::new(Vector::new(&parts)))
             }
             Value::Rotation(r) => Value::Rotation(Arc::new(r.map(number))),
-            Value::Shape(shape) => Value::Shape(shape.clone()),
+            Value::Shape(shape) => {
+                // Another shape may have had its address.
+                T::note(shape.address(), Vec::new);
+                Value::Shape(shape.clone())
+            }
             Value::Dist(dist) => Value::Dist(Arc::new(dist.convert(number))),
             Value::Function(f) => Value::Function(Arc::new(Closure {
                 function: f.function,

@@ -185,7 +185,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
         // The run has bounds of time and memory, the compiler has none.
         let is_long = |value: &Value<S>| matches!(value, Value::Range(range) if range.len > 1000);
-        if matches!(name, "method" | "format" | "fstr") || values.iter().any(is_long) {
+        // What varies with a recording is computed by its run.
+        if matches!(name, "method" | "format" | "fstr") || values.iter().any(|v| is_long(v) || v.varies()) {
             return None;
         }
         crate::builtins::builtin::<S>(builtin_id(name)?).call(&values).ok()

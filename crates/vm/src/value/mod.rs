@@ -272,6 +272,30 @@ impl<S: Scalar> Value<S> {
         }
     }
 
+    /// Whether a number in it varies with the coordinates of a recording; of a function, what it has captured counts.
+    pub fn varies(&self) -> bool {
+        let any = |mut items: &mut dyn Iterator<Item = &Value<S>>| Iterator::any(&mut items, Value::varies);
+        match self {
+            Value::Real(x) => x.varies(),
+            Value::Vector(v) => v.components().iter().any(|x| x.varies()),
+            Value::Rotation(r) => r.iter().any(|x| x.varies()),
+            Value::Tuple(items) | Value::Returned(items) => any(&mut items.items().iter()),
+            Value::List(list) => any(&mut list.iter()),
+            Value::Record(record) => any(&mut record.fields.iter()),
+            Value::Function(f) => any(&mut f.captures.iter()),
+            Value::Dict(dict) => any(&mut dict.values().iter()),
+            Value::Dist(dist) => {
+                let varies = std::cell::Cell::new(false);
+                dist.convert::<S>(&|x: S| {
+                    varies.set(varies.get() || x.varies());
+                    x
+                });
+                varies.get()
+            }
+            _ => false,
+        }
+    }
+
     /// True when the value holds other values: what the work lists of this module are for.
     #[inline]
     pub fn holds_values(&self) -> bool {

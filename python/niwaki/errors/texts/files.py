@@ -115,7 +115,7 @@ FILES = (
         "folder-in-use",
         "another run of Niwaki writes to this folder",
         why="a folder holds the results of one run: a `run.json`, and the files that belong to it",
-        help="name another folder with `-o`, or wait until the other run has ended",
+        help="name another folder with `-o`, of a studio with `--session`, or wait until the other run has ended",
         example="niwaki grow ship -o out & niwaki grow ship -o out",
         cure="niwaki grow ship -o one & niwaki grow ship -o two",
     ),

@@ -207,6 +207,22 @@ INPUTS = (
         cure="run_python(ship, choices={}, seed=1)",
     ),
     Message(
+        "nothing-offered",
+        "the last drag has not offered this difference",
+        why="only a change that was found for the text of the file can be written",
+        help="drag the part again, and accept what is offered then",
+        example="one.ask('rewrite', difference='...')",
+        cure="one.ask('rewrite', difference=dragged['offers'][0]['difference'])",
+    ),
+    Message(
+        "edited-meanwhile",
+        "`{path}` has changed since this difference was found, and was not written",
+        why="a change is written only into the text that it was found for",
+        help="drag the part again",
+        example="change.apply()   # after an edit of the file",
+        cure="dragging.source(to)[0].apply()",
+    ),
+    Message(
         "no-part",
         "`{pattern}` matches no part of `{name}`",
         why="a part is a call or an iteration of a loop with choices; a pattern without `/` is compared with the last part of "

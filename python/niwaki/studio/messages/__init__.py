@@ -9,6 +9,7 @@ the header of a frame (`niwaki.studio.frames`).
 - `document`  what is asked, how it is searched for, and what came of it
 - `commands`  what a client asks
 - `events`    what it is told
+- `modes`     what it is told of drawings that are coloured, and of structures that stand
 - `jobs`      what a worker is given, and its answer
 """
 
@@ -16,5 +17,6 @@ from niwaki.studio.messages.commands import *
 from niwaki.studio.messages.document import *
 from niwaki.studio.messages.events import *
 from niwaki.studio.messages.jobs import *
+from niwaki.studio.messages.modes import *
 
 PROTOCOL = 1

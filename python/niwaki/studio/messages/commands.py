@@ -4,9 +4,28 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from msgspec import Meta, Struct, field
+from msgspec import UNSET, Meta, Struct, UnsetType, field
 
-from niwaki.studio.messages.document import Address, Addresses, Ask, Count, Key, Settings, Text
+from niwaki.studio.messages.document import (
+    Address,
+    Addresses,
+    Color,
+    Count,
+    Effort,
+    Key,
+    Length,
+    Light,
+    Obstacles,
+    Point,
+    RulesAsk,
+    Seed,
+    Sketch,
+    Strength,
+    TargetAsk,
+    Text,
+)
+
+Side = Annotated[float, Meta(gt=0.0, le=1e5)]
 
 
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
@@ -27,17 +46,37 @@ class ChooseModel(Command, tag="model"):
     reference: Text
 
 
-class SetAsk(Command, tag="ask"):
-    """Say what the scene should be like."""
+class AskChange(Struct, frozen=True, forbid_unknown_fields=True):
+    """Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target."""
 
-    ask: Ask
+    target: TargetAsk | None | UnsetType = UNSET
+    sketch: Sketch | None | UnsetType = UNSET
+    floor: Length | None | UnsetType = UNSET
+    obstacles: Obstacles | UnsetType = UNSET
+    light: Light | UnsetType = UNSET
+    rules: RulesAsk | None | UnsetType = UNSET
+
+
+class SetAsk(Command, tag="ask"):
+    """Say what the scene should be like; what is left out stays."""
+
+    ask: AskChange
+
+
+class SettingsChange(Struct, frozen=True, forbid_unknown_fields=True):
+    """Other values of some fields of `Settings`."""
+
+    count: Count | UnsetType = UNSET
+    seed: Seed | None | UnsetType = UNSET
+    effort: Effort | UnsetType = UNSET
+    strength: Strength | UnsetType = UNSET
 
 
 class Set(Command, tag="set"):
     """Set arguments by name, or settings; what is left out stays."""
 
     arguments: Annotated[dict[str, Any], Meta(max_length=200)] | None = None
-    settings: Settings | None = None
+    settings: SettingsChange | None = None
 
 
 class Run(Command, tag="run"):
@@ -52,6 +91,8 @@ class PinParts(Command, tag="pin"):
     """Hold parts of the picked result in what follows."""
 
     parts: Addresses
+    #: Of a drawing's regions: the colour that they shall have; None for the picked result's.
+    color: Color | None = None
 
 
 class FreeParts(Command, tag="free"):
@@ -61,18 +102,55 @@ class FreeParts(Command, tag="free"):
 
 
 class Reroll(Command, tag="reroll"):
-    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another."""
+    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another.
+
+    Attributes
+    ----------
+    strength
+        Of twice as many those that look most like it (0) or least (1); as they come when left out.
+    """
 
     part: Address
     count: Count = 1
+    strength: Strength | None = None
 
 
 class Choose(Command, tag="choose"):
     """Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result."""
 
     address: Address
-    value: float | int | bool
+    #: A colour where the address is a drawing's region.
+    value: float | int | bool | Color
     phase: Literal["move", "end"] = "end"
+
+
+class Drag(Command, tag="drag"):
+    """Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result.
+
+    Attributes
+    ----------
+    grab
+        The point of the part that is held; its middle, where left out.
+    along
+        The direction in which a camera looks: distances along it do not count.
+    phase
+        A command that moves is left out where a newer one waits; "cancel" ends the drag with the result as it was.
+    follow
+        Whether the rest is grown again at the end, around the part.
+    """
+
+    part: Address
+    to: Point
+    grab: Point | None = None
+    along: Point | None = None
+    phase: Literal["move", "end", "cancel"] = "end"
+    follow: bool = False
+
+
+class Rewrite(Command, tag="rewrite"):
+    """Write a change of the model's file that the last drag has offered; the difference is the one that was shown."""
+
+    difference: Annotated[str, Meta(max_length=200_000)]
 
 
 class Describe(Command, tag="describe"):
@@ -88,6 +166,12 @@ class Show(Command, tag="show"):
     detail: Literal["light", "fine"] = "light"
 
 
+class ShowDifference(Command, tag="difference"):
+    """Ask where a result differs from what is wanted."""
+
+    key: Key
+
+
 class Pick(Command, tag="pick"):
     """Go on with this result."""
 
@@ -101,6 +185,13 @@ class Star(Command, tag="star"):
     on: bool = True
 
 
+class Judge(Command, tag="judge"):
+    """Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls."""
+
+    key: Key
+    simulate: bool = False
+
+
 class Undo(Command, tag="undo"):
     """Take the last step back."""
 
@@ -110,11 +201,18 @@ class Redo(Command, tag="redo"):
 
 
 class Export(Command, tag="export"):
-    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats."""
+    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats.
+
+    Of a structure `dxf` and `svg` are the boards of which its pieces are cut, and `assembly` is how they are put
+    together; of a drawing `toml` is its rules.
+    """
 
     key: Key
-    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json"]
+    format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json", "dxf", "assembly", "toml"]
     scale: Annotated[float, Meta(gt=0.0, le=1e9)] | None = None
+    #: Width and height of a board, and what the saw takes, millimetres.
+    board: tuple[Side, Side] = (600.0, 400.0)
+    kerf: Annotated[float, Meta(ge=0.0, le=100.0)] = 0.2
 
 
 AnyCommand = (
@@ -128,10 +226,14 @@ AnyCommand = (
     | FreeParts
     | Reroll
     | Choose
+    | Drag
+    | Rewrite
     | Describe
     | Show
+    | ShowDifference
     | Pick
     | Star
+    | Judge
     | Undo
     | Redo
     | Export

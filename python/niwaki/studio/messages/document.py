@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
@@ -12,14 +12,17 @@ Share = Annotated[float, Meta(ge=-10.0, le=10.0)]
 Length = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Point = tuple[Length, Length, Length]
 Addresses = Annotated[list[Address], Meta(max_length=10_000)]
+Color = Annotated[str, Meta(pattern="^#[0-9a-fA-F]{6}$")]
 Count = Annotated[int, Meta(ge=1, le=48)]
 Seed = Annotated[int, Meta(ge=0, lt=2**53)]
+Strength = Annotated[float, Meta(ge=0.0, le=1.0)]
+Effort = Annotated[float, Meta(gt=0.0, le=64.0)]
 #: Values of choices by address, as `niwaki.search.data.Writer` writes them.
 Choices = dict[str, Any]
 
 
 class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
-    """A volume to fill: where it comes from, and how it is placed.
+    """A solid in the scene, to fill or to avoid: where it comes from, and how it is placed.
 
     Attributes
     ----------
@@ -41,6 +44,14 @@ class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
     turn: Length = 0.0
 
 
+Obstacles = Annotated[list[TargetAsk], Meta(max_length=16)]
+Light = tuple[
+    Annotated[float, Meta(ge=-1.0, le=1.0)],
+    Annotated[float, Meta(ge=-1.0, le=-0.02)],
+    Annotated[float, Meta(ge=-1.0, le=1.0)],
+]
+
+
 class Eye(Struct, frozen=True, forbid_unknown_fields=True):
     """A perspective camera; `fov` is vertical, degrees."""
 
@@ -58,7 +69,7 @@ class Stroke(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
-    """A silhouette drawn by hand, over the view of a camera.
+    """A silhouette or a shadow drawn by hand, over the view of a camera.
 
     Attributes
     ----------
@@ -66,19 +77,69 @@ class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
         Width of the picture over its height.
     camera
         What saw it; None for a drawing in the plane.
+    kind
+        What the strokes are: the scene itself as the camera sees it, or its shadow on the floor.
     """
 
     strokes: Annotated[list[Stroke], Meta(min_length=1, max_length=500)]
     aspect: Annotated[float, Meta(gt=0.1, lt=10.0)]
     camera: Eye | None = None
+    kind: Literal["silhouette", "shadow"] = "silhouette"
+
+
+class RuleAsk(Struct, frozen=True, forbid_unknown_fields=True):
+    """A rule about regions of a drawing: those of `niwaki.color.Rules`.
+
+    Attributes
+    ----------
+    regions
+        A chain, the lightest first; of "muted" those that it is about (`all`: each without a number of its own).
+    most
+        Of "muted": the largest distance from grey, CIELAB units.
+    """
+
+    kind: Literal["lightness", "lighter", "same-chroma", "same-hue", "muted"]
+    regions: Annotated[list[Text], Meta(min_length=1, max_length=256)]
+    most: Annotated[float, Meta(ge=0.0, le=200.0)] = 30.0
+
+
+class RulesAsk(Struct, frozen=True, forbid_unknown_fields=True):
+    """Rules of a drawing.
+
+    Attributes
+    ----------
+    background
+        The region that the others lie on; None for the one at the picture's edge.
+    weight
+        How strict they are.
+    """
+
+    rules: Annotated[list[RuleAsk], Meta(max_length=1_000)] = []
+    background: Text | None = None
+    weight: Annotated[float, Meta(gt=0.0, le=1e6)] = 100.0
 
 
 class Ask(Struct, frozen=True, forbid_unknown_fields=True):
-    """What a scene should be like; with nothing in it, what the model of the gallery is usually asked."""
+    """What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked.
+
+    Attributes
+    ----------
+    floor
+        Nothing reaches below this height.
+    obstacles
+        Solids that nothing comes near.
+    light
+        The direction in which the light travels that casts a shadow.
+    rules
+        Of a drawing to colour; None for those that come with it.
+    """
 
     target: TargetAsk | None = None
     sketch: Sketch | None = None
     floor: Length | None = None
+    obstacles: Obstacles = []
+    light: Light = (-0.55, -1.0, -0.5)
+    rules: RulesAsk | None = None
 
 
 class Settings(Struct, frozen=True, forbid_unknown_fields=True):
@@ -92,11 +153,14 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
         None for a fresh one each time.
     effort
         Rounds of `improve`, in its usual number.
+    strength
+        Which results are shown of those that were found: 0 the best, 1 those that look most different.
     """
 
     count: Count = 8
     seed: Seed | None = None
-    effort: Annotated[float, Meta(gt=0.0, le=64.0)] = 1.0
+    effort: Effort = 1.0
+    strength: Strength = 0.0
 
 
 class Key(Struct, frozen=True, forbid_unknown_fields=True):
@@ -118,6 +182,11 @@ class Outcome(Struct, frozen=True):
     origin: str = "run"
     #: The reference of its model; the gallery shows those of the present one.
     model: str = ""
+    #: Of what is wanted, the share that it fills; of it, the share that is elsewhere.
+    covered: float | None = None
+    outside: float | None = None
+    #: What is said of it in the gallery, where that is not how much it covers.
+    note: str = ""
 
 
 class Pin(Struct, frozen=True):

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Key, Outcome, Pin, Point, Settings
+from niwaki.studio.messages.document import Ask, Key, Outcome, Pin, Point, RulesAsk, Settings
 
 
 class Place(Struct):
@@ -35,8 +35,24 @@ class Parameter(Struct):
     is_required: bool = False
 
 
+class RegionInfo(Struct):
+    """A region of a drawing: its share of the picture, and the colour that it has there."""
+
+    name: str
+    share: float
+    color: str
+
+
 class ModelInfo(Struct):
-    """A model that can be chosen."""
+    """What can be chosen: a model, or a drawing to colour.
+
+    Attributes
+    ----------
+    kind
+        A "structure" is a model of blocks that stand; a "coloring" is a drawing.
+    regions, rules
+        Of a drawing; the rules that come with it.
+    """
 
     reference: str
     title: str = ""
@@ -46,6 +62,9 @@ class ModelInfo(Struct):
     #: The style of its drawings; None for models in space.
     draws: str | None = None
     is_file: bool = False
+    kind: Literal["scene", "structure", "coloring"] = "scene"
+    regions: list[RegionInfo] = []
+    rules: RulesAsk | None = None
 
 
 class ChoiceInfo(Struct):
@@ -95,6 +114,8 @@ class View(Struct):
     interrupted: bool
     undo: int
     redo: int
+    #: Of a drawing: which rules cannot all hold, and by how much; empty where they can.
+    note: str = ""
 
 
 class Event(Struct, tag_field="kind"):
@@ -119,7 +140,7 @@ class Patch(Event, tag="patch"):
 
 
 class Described(Event, tag="described"):
-    """The choices and parts of a result."""
+    """The choices and parts of a result, in the order in which its run makes them."""
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
@@ -132,12 +153,16 @@ class Shape(Event, tag="shape"):
     Attributes
     ----------
     what
-        "best" of a running search, a "result", a choice that is "moving", or the "ghost" of the target.
+        "best" of a running search, a "result", a choice or a part that is "moving", the "ghost" of the target, or an
+        "obstacle".
+    number
+        Of the obstacle.
     parts
         Addresses; the mesh has the number of its part for each triangle.
     """
 
-    what: Literal["best", "result", "moving", "ghost"] = "result"
+    what: Literal["best", "result", "moving", "ghost", "obstacle"] = "result"
+    number: int = 0
     key: Key | None = None
     detail: Literal["light", "fine"] = "light"
     vertices: int = 0
@@ -149,6 +174,71 @@ class Shape(Event, tag="shape"):
     pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False
     note: str = ""
+    #: Of a part that is dragged: where its held point is; the note says why it is not at the pointer.
+    held: Point | None = None
+    #: What is left from there to the pointer, as a share of the scene's size.
+    left: float = 0.0
+
+
+class Shifted(Struct):
+    """A choice before and after a drag; None where the run has no such choice."""
+
+    address: str
+    before: Any
+    after: Any
+
+
+class Offer(Struct):
+    """A change of the model's file that explains a drag.
+
+    Attributes
+    ----------
+    difference
+        The change as a unified difference.
+    is_instead
+        Whether it takes the place of the changed choices; else they change with it.
+    """
+
+    says: str
+    difference: str
+    is_instead: bool = True
+
+
+class Dragged(Event, tag="dragged"):
+    """The end of a drag: what has changed in the first answer; or why the part is not there.
+
+    Attributes
+    ----------
+    share
+        What is left to the pointer, as a share of the scene's size.
+    """
+
+    part: str = ""
+    share: float = 0.0
+    reason: str = ""
+    changes: list[Shifted] = []
+    offers: list[Offer] = []
+
+
+class Difference(Event, tag="difference"):
+    """The header of a frame with a byte for each cell of a target, or each pixel of a picture.
+
+    1 is wanted and filled, 2 is wanted only, 3 is filled only; x runs fastest, then y, then z. A picture has its first
+    row on top.
+
+    Attributes
+    ----------
+    size
+        Cells along x, y and z; columns, rows and 1.
+    low, high
+        Corners of the grid, or of the window of a drawing; both are the same for a picture seen by a camera.
+    """
+
+    key: Key | None = None
+    size: tuple[int, int, int] = (0, 0, 0)
+    low: Point = (0.0, 0.0, 0.0)
+    high: Point = (0.0, 0.0, 0.0)
+    is_picture: bool = False
 
 
 class Done(Event, tag="done"):

@@ -6,8 +6,9 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Settings
-from niwaki.studio.messages.events import Described, ModelInfo, Problem, Shape
+from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
+from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Problem, Shape
+from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
 class Question(Struct):
@@ -18,6 +19,8 @@ class Question(Struct):
     ask: Ask
     settings: Settings
     lock: Choices = {}
+    #: Of a drawing that was sent: where it is.
+    file: str = ""
 
 
 class Job(Struct, kw_only=True, tag_field="kind"):
@@ -36,10 +39,11 @@ class Load(Job, tag="load"):
     """Read a model, perhaps again."""
 
     reference: str
+    file: str = ""
 
 
 class Ghost(Job, tag="ghost"):
-    """The mesh of a target."""
+    """The mesh of a target; the regions of a drawing."""
 
     question: Question
 
@@ -61,6 +65,7 @@ class Regrow(Job, tag="regrow"):
     number: int
     part: str
     count: int
+    strength: float | None
     run: int
     seed: int
     file: str
@@ -76,6 +81,26 @@ class Change(Job, tag="change"):
     run: int
     file: str = ""
     origin: str = "choose"
+
+
+class DragPart(Job, tag="drag"):
+    """Drag a part of one result: its shape while it moves; answers, written to `file`, where it is named."""
+
+    question: Question
+    source: str
+    number: int
+    part: str
+    to: Point
+    grab: Point | None
+    along: Point | None
+    run: int = 0
+    file: str = ""
+
+
+class RewriteFile(Job, tag="rewrite"):
+    """Write a change that the last drag has offered."""
+
+    difference: str
 
 
 class Hold(Job, tag="hold"):
@@ -104,6 +129,23 @@ class ShowRun(Job, tag="show"):
     detail: Literal["light", "fine"]
 
 
+class FindDifference(Job, tag="difference"):
+    """Where a result differs from what is wanted."""
+
+    source: str
+    number: int
+    key: Key
+
+
+class JudgeRun(Job, tag="judge"):
+    """Whether a structure stands."""
+
+    source: str
+    number: int
+    key: Key
+    simulate: bool = False
+
+
 class WriteFile(Job, tag="write"):
     """Write a result as a file into a folder."""
 
@@ -112,9 +154,26 @@ class WriteFile(Job, tag="write"):
     format: str
     folder: str
     scale: float | None = None
+    board: tuple[float, float] = (600.0, 400.0)
+    kerf: float = 0.2
 
 
-AnyJob = ListModels | Load | Ghost | Grow | Regrow | Change | Hold | DescribeRun | ShowRun | WriteFile
+AnyJob = (
+    ListModels
+    | Load
+    | Ghost
+    | Grow
+    | Regrow
+    | Change
+    | DragPart
+    | RewriteFile
+    | Hold
+    | DescribeRun
+    | ShowRun
+    | FindDifference
+    | JudgeRun
+    | WriteFile
+)
 
 
 class Answer(Struct, tag_field="kind", tag="answer"):
@@ -128,6 +187,8 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     pins: list[Pin] = []
     path: str = ""
     interrupted: bool = False
+    #: What windows see as `View.note`.
+    note: str = ""
 
 
 class Progressed(Struct, tag_field="kind", tag="progressed"):
@@ -139,4 +200,6 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
-AnyReport = Answer | Progressed | Shape | Described
+AnyReport = (
+    Answer | Progressed | Shape | Described | Difference | Dragged | Palette | Judged | Picture | Regions
+)

@@ -11,7 +11,8 @@ clicked, a slider, a file) is the other worker's, so a search never makes the pa
 - `searching`  a search, what it shows meanwhile, its end
 - `holding`    pinned parts
 - `reshaping`  a part grown again, a choice with another value: results in the place of a result
-- `showing`    choices and shapes of a result
+- `dragging`   a part that is dragged
+- `showing`    choices and shapes of a result; whether a structure stands
 - `exporting`  files
 """
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from niwaki.studio import messages as m
 from niwaki.studio.session import (
+    dragging,
     exporting,
     holding,
     loading,
@@ -37,8 +38,12 @@ COMMANDS: dict[type[m.Command], Work] = {
     m.FreeParts: holding.free,
     m.Reroll: reshaping.reroll,
     m.Choose: reshaping.choose,
+    m.Drag: dragging.drag,
+    m.Rewrite: dragging.rewrite,
     m.Describe: showing.describe,
     m.Show: showing.show,
+    m.Judge: showing.judge,
+    m.ShowDifference: showing.show_difference,
     m.Pick: marking.pick,
     m.Star: marking.star,
     m.Undo: marking.undo,

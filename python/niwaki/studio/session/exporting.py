@@ -16,7 +16,14 @@ async def export(session: Session, window: Window, command: m.Export) -> m.Answe
     source, files = session.source(command.key), session.journal.folder / "files"
     folder = files / f"{command.key.run}-{command.key.number}"
     answer = await session.desk.do(
-        m.WriteFile(**source, format=command.format, folder=str(folder), scale=command.scale)
+        m.WriteFile(
+            **source,
+            format=command.format,
+            folder=str(folder),
+            scale=command.scale,
+            board=command.board,
+            kerf=command.kerf,
+        )
     )
     if answer.problem is None:
         data = await asyncio.to_thread(Path(answer.path).read_bytes)

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from niwaki.studio import messages as m
-from niwaki.studio.session.state import Session
+from niwaki.studio.session.state import Refused, Session
 from niwaki.studio.window import Window
 
 
 async def pin(session: Session, window: Window, command: m.PinParts) -> m.Answer:
     """Hold parts of the picked result in what follows."""
-    source = session.source(session.document.picked)
-    answer = await session.desk.do(m.Hold(**source, parts=command.parts))
+    if command.color is None:
+        source = session.source(session.document.picked)
+        answer = await session.desk.do(m.Hold(**source, parts=command.parts))
+    else:
+        regions = [] if session.model is None else [one.name for one in session.model.regions]
+        for name in command.parts:
+            if name not in regions:
+                raise Refused("no-region", f"the drawing has no region `{name}`")
+        answer = m.Answer(pins=[m.Pin(name, {name: command.color}) for name in command.parts])
     if answer.problem is None:
         left = [one for one in session.document.pins if one.part not in command.parts]
         session.step("pin", {"pins": [*left, *answer.pins]})

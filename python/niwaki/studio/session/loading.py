@@ -11,11 +11,13 @@ from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.session import reshaping
 from niwaki.studio.session.state import Refused, Session
-from niwaki.studio.window import Window
+from niwaki.studio.window import Window, newest
 
 
 async def begin(session: Session) -> None:
     """Learn which models there are, and show the session's own."""
+    # The first search finds its process started, and the model read.
+    session.start(session.searcher.do(m.ListModels(files=[])))
     answer = await session.desk.do(m.ListModels(files=session.files))
     session.models, session.targets, session.problem = answer.models, answer.targets, answer.problem
     if answer.problem is not None and session.files:
@@ -28,13 +30,14 @@ async def begin(session: Session) -> None:
     await load(session, keep=session.problem)
     session.ready.set()
     if session.document.model is not None:
-        # The first search finds its process started.
-        await session.searcher.do(m.Load(reference=session.document.model))
+        reference = session.document.model
+        await session.searcher.do(m.Load(reference=reference, file=session.drawing_file(reference)))
 
 
 def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
     """Take another model; starred results stay."""
-    if command.reference not in {one.reference for one in session.models}:
+    is_listed = command.reference in {one.reference for one in session.models}
+    if not is_listed and not session.drawing_file(command.reference):
         text = f"`{command.reference}` is no model of the gallery, and was not named at the start"
         raise Refused("unknown-model", text)
     fresh = {"model": command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
@@ -47,31 +50,37 @@ async def load(session: Session, keep: m.Problem | None = None) -> None:
     reference = session.document.model
     if reference is None:
         return
-    answer = await session.desk.do(m.Load(reference=reference))
+    answer = await session.desk.do(m.Load(reference=reference, file=session.drawing_file(reference)))
     session.problem = answer.problem or keep
     if answer.models:
         session.model = answer.models[0]
         session.models = [session.model if one.reference == reference else one for one in session.models]
     elif session.model is None or session.model.reference != reference:
-        session.model = next((one for one in session.models if one.reference == reference), None)
+        listed = (one for one in session.models if one.reference == reference)
+        session.model = next(listed, None) or m.ModelInfo(reference, is_file=True)
     session.tell_all()
     if answer.problem is None:
         await load_ghost(session, None)
 
 
 async def load_ghost(session: Session, window: Window | None) -> None:
-    """Show the target, or that there is none."""
+    """Show the target, or that there is none, and the obstacles."""
 
     def report(header: Any, payload: bytes) -> None:
-        found.append(frame(msgspec.json.encode(header), payload))
+        found.append((newest(header), frame(msgspec.json.encode(header), payload)))
 
-    found: list[bytes] = []
+    found: list[tuple[str, bytes]] = []
     answer = await session.desk.do(m.Ghost(question=session.question()), report)
+    session.note = answer.note
+    session.tell_all()
     if answer.problem is not None and window is not None:
         window.tell(m.Failed(0, answer.problem))
-    session.ghost = found[0] if found else frame(msgspec.json.encode(m.Shape(what="ghost")))
+    if "ghost" not in dict(found):
+        found.append(("ghost", frame(msgspec.json.encode(m.Shape(what="ghost")))))
+    session.ghosts = dict(found)
     for one in session.windows:
-        one.put(session.ghost, "ghost")
+        for kind, data in found:
+            one.put(data, kind)
 
 
 async def reload(session: Session, paths: set[Path]) -> None:

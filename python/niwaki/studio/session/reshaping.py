@@ -19,6 +19,7 @@ async def reroll(session: Session, window: Window, command: m.Reroll) -> m.Answe
         question=session.question(),
         part=command.part,
         count=command.count,
+        strength=command.strength,
         seed=secrets.randbits(53),
     )
     answer = await session.desk.do(job, session.reported)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import msgspec
+
 from niwaki.studio import messages as m
 from niwaki.studio.session import loading, reshaping
 from niwaki.studio.session.state import Refused, Session
@@ -12,10 +14,17 @@ from niwaki.studio.window import Window
 
 def set_ask(session: Session, window: Window, command: m.SetAsk) -> None:
     """Say what the scene should be like."""
-    source = command.ask.target.source if command.ask.target is not None else None
-    if source is not None and session.file_of(source) is None:
-        raise Refused("no-target", f"there is no target `{source}`")
-    session.step("ask", {"ask": command.ask})
+    changes = _given(command.ask)
+    if changes.get("target") is not None:
+        changes.setdefault("sketch", None)
+    if changes.get("sketch") is not None:
+        changes.setdefault("target", None)
+    ask = msgspec.structs.replace(session.document.ask, **changes)
+    for one in (ask.target, *ask.obstacles):
+        if one is not None and session.file_of(one.source) is None:
+            raise Refused("no-target", f"there is no target `{one.source}`")
+    if ask != session.document.ask:
+        session.step("ask", {"ask": ask})
     session.start(loading.load_ghost(session, window))
 
 
@@ -23,10 +32,18 @@ def set_values(session: Session, window: Window, command: m.Set) -> None:
     """Other arguments or settings; the picked result follows its arguments."""
     changes: dict[str, Any] = {}
     if command.settings is not None:
-        changes["settings"] = command.settings
+        settings = msgspec.structs.replace(session.document.settings, **_given(command.settings))
+        changes["settings"] = settings
     if command.arguments is not None:
         changes["arguments"] = {**session.document.arguments, **command.arguments}
     if changes:
         session.step("set", changes)
     if command.arguments is not None and session.document.picked is not None:
         session.start(reshaping.reshape(session))
+
+
+def _given(changes: msgspec.Struct) -> dict[str, Any]:
+    """The fields that have a value."""
+    return {
+        name: value for name, value in msgspec.structs.asdict(changes).items() if value is not msgspec.UNSET
+    }

@@ -1,4 +1,4 @@
-"""Choices and shapes of a result, for the window that asks."""
+"""Choices and shapes of a result, how it differs from what is wanted, whether it stands: for the window that asks."""
 
 from __future__ import annotations
 
@@ -22,6 +22,16 @@ async def describe(session: Session, window: Window, command: m.Describe) -> m.A
     return await session.desk.do(job, report)
 
 
+async def judge(session: Session, window: Window, command: m.Judge) -> m.Answer:
+    """Whether a structure stands."""
+
+    def report(found: Any, payload: bytes) -> None:
+        window.tell(msgspec.structs.replace(found, id=command.id))
+
+    job = m.JudgeRun(**session.source(command.key), key=command.key, simulate=command.simulate)
+    return await session.desk.do(job, report)
+
+
 async def show(session: Session, window: Window, command: m.Show) -> m.Answer:
     """The shape of a result."""
 
@@ -37,3 +47,14 @@ async def show(session: Session, window: Window, command: m.Show) -> m.Answer:
     if found is not None:
         window.put(found)
     return answer
+
+
+async def show_difference(session: Session, window: Window, command: m.ShowDifference) -> m.Answer:
+    """Where a result differs from what is wanted."""
+
+    def report(found: Any, payload: bytes) -> None:
+        found.id = command.id
+        window.put(frame(msgspec.json.encode(found), payload))
+
+    job = m.FindDifference(**session.source(command.key), key=command.key)
+    return await session.desk.do(job, report)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections import OrderedDict
 from collections.abc import Coroutine
 from pathlib import Path
@@ -14,18 +15,13 @@ from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.journal import Journal
 from niwaki.studio.process import Worker
+from niwaki.studio.refused import Refused as Refused
 from niwaki.studio.window import Window, newest
 
+#: The name of a drawing that was sent.
+DRAWING = re.compile(r"[0-9a-f]{64}\.(svg|png|webp|bmp|gif|tif|tiff|jpg|jpeg)")
 #: Bytes of shapes that are kept ready.
 SHAPES = 256 << 20
-
-
-class Refused(Exception):  # noqa: N818 - it is what happens to a command
-    """A command cannot be carried out; the window that asked is told why."""
-
-    def __init__(self, code: str, text: str) -> None:
-        super().__init__(text)
-        self.problem = m.Problem(code, text)
 
 
 class Session:
@@ -37,6 +33,8 @@ class Session:
         Where it is stored; a session that is there goes on.
     files
         References of models that may be chosen beside those of the gallery; each of a file that was named at the start.
+    trust
+        Whether files that stored runs name may be run for their host functions, where they have not changed.
 
     Attributes
     ----------
@@ -48,32 +46,40 @@ class Session:
         What can be chosen.
     model
         The present one, as it was last read.
-    problem
-        The error of its file.
+    problem, note
+        The error of its file; what is said of what is asked.
     searching
         How far the search is that runs.
     search
         Its task.
+    ghosts
+        Frames of the target and of obstacles, by kind.
     wanted
         The newest value of a choice, by the phase of its slider.
+    dragged, dragging
+        The newest point of a part that is dragged; held while one of them is gone to.
     """
 
-    def __init__(self, folder: Path, files: list[str]) -> None:
+    def __init__(self, folder: Path, files: list[str], trust: bool = False) -> None:
         self.journal = Journal(folder)
         self.document = self.journal.document()
         self.windows: set[Window] = set()
         self.files = files
-        self.searcher, self.desk = Worker(), Worker()
+        words = [*(["--trust"] if trust else []), *files]
+        self.searcher, self.desk = Worker(*words), Worker(*words)
         self.ready = asyncio.Event()
         self.models: list[m.ModelInfo] = []
         self.targets: list[str] = []
         self.model: m.ModelInfo | None = None
         self.problem: m.Problem | None = None
+        self.note = ""
         self.searching: m.Searching | None = None
         self.search: asyncio.Task[m.Answer] | None = None
         self.is_interrupted = self.journal.running is not None
         self.wanted: dict[str, m.Choose] = {}
-        self.ghost: bytes | None = None
+        self.dragged: m.Drag | None = None
+        self.dragging = asyncio.Lock()
+        self.ghosts: dict[str, bytes] = {}
         self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
         self._told: dict[str, Any] = {}
         self._rev = 0
@@ -114,14 +120,15 @@ class Session:
             interrupted=self.is_interrupted,
             undo=self.journal.undoable,
             redo=self.journal.redoable,
+            note=self.note,
         )
 
     def welcome(self, window: Window, command: int) -> None:
         """Give a window the whole state."""
         self.windows.add(window)
         window.tell(m.State(command, session=self.journal.name, rev=self._rev, view=self.view()))
-        if self.ghost is not None:
-            window.put(self.ghost)
+        for kind, data in self.ghosts.items():
+            window.put(data, kind)
 
     def tell_all(self) -> None:
         """Send what has changed since the last time."""
@@ -141,7 +148,7 @@ class Session:
             event = m.Patch(rev=self._rev, changes={"searching": msgspec.to_builtins(self.searching)})
             for window in self.windows:
                 window.put(msgspec.json.encode(event).decode(), "searching")
-        elif isinstance(report, m.Shape):
+        elif isinstance(report, m.Shape | m.Picture):
             report.id = 0
             data = frame(msgspec.json.encode(report), payload)
             if report.what == "result" and report.key is not None:
@@ -206,13 +213,26 @@ class Session:
         """What a search is to find, as a worker reads it."""
         document = self.document
         ask = document.ask
-        if ask.target is not None:
-            source = self.file_of(ask.target.source) or ask.target.source
-            ask = msgspec.structs.replace(ask, target=msgspec.structs.replace(ask.target, source=source))
+        target = None if ask.target is None else self._read(ask.target)
+        ask = msgspec.structs.replace(
+            ask, target=target, obstacles=[self._read(one) for one in ask.obstacles]
+        )
         lock: dict[str, Any] = {}
         for pin in document.pins:
             lock |= pin.choices
-        return m.Question(document.model or "", document.arguments, ask, document.settings, lock)
+        file = self.drawing_file(document.model)
+        return m.Question(document.model or "", document.arguments, ask, document.settings, lock, file)
+
+    def drawing_file(self, reference: str | None) -> str:
+        """Where a drawing is that was sent, by its reference; empty for anything else."""
+        name = (reference or "").removeprefix("drawing:upload:")
+        place = self.journal.folder / "uploads" / name
+        is_sent = reference != name and DRAWING.fullmatch(name) is not None and place.is_file()
+        return str(place.resolve()) if is_sent else ""
+
+    def _read(self, solid: m.TargetAsk) -> m.TargetAsk:
+        """A solid with the file that a worker reads."""
+        return msgspec.structs.replace(solid, source=self.file_of(solid.source) or solid.source)
 
     def file_of(self, source: str) -> str | None:
         """What a worker reads for a target's source; None where there is no such target."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from math import cos, radians, sin
+from dataclasses import replace
+from functools import lru_cache
+from math import cos, dist, radians, sin
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,9 @@ from niwaki.lang.compiled import arguments as positional
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Ask, Question, Sketch, TargetAsk
 from niwaki.studio.worker.models import reference
+from niwaki.studio.worker.thinning import Ghost
+
+Point = tuple[float, float, float]
 
 #: Pixels of the height of a mask that was drawn by hand, and of the longer side of a drawing in the plane.
 MASK_HEIGHT, DRAWING_SIDE = 96, 50
@@ -38,8 +43,10 @@ def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
     score, start, guide = nw.Score(), dict[str, Any](), None
     if ask.floor is not None:
         score *= nw.floor(ask.floor)
+    for obstacle in ask.obstacles:
+        score *= nw.avoid(placed(obstacle))
     if ask.sketch is not None and ask.sketch.camera is not None:
-        score *= nw.match_image(mask(ask.sketch, MASK_HEIGHT), camera(ask.sketch))
+        score *= _seen(ask, ask.sketch)
     elif entry is not None and entry.draws is not None and entry.window is not None:
         score, start = _drawn(found, ask)
         guide = shipped(found.model)
@@ -79,6 +86,17 @@ def _drawn(found: ModelReference, ask: Ask) -> tuple[nw.Score, dict[str, Any]]:
     return drawing.score(entry.window), start
 
 
+def _seen(ask: Ask, sketch: Sketch) -> nw.Score:
+    """The score of a silhouette, or of a shadow on the floor."""
+    wanted, seen_by = mask(sketch, MASK_HEIGHT), camera(sketch)
+    if sketch.kind == "silhouette":
+        return nw.match_image(wanted, seen_by)
+    # As far as the camera can see it well.
+    (x, _, z), reach = seen_by.look_at, 4.0 * dist(seen_by.position, seen_by.look_at)
+    ground = nw.Receiver.floor(ask.floor or 0.0, (x - reach, z - reach), (x + reach, z + reach))
+    return nw.match_shadow(wanted, ask.light, ground, seen_by)
+
+
 def mask(sketch: Sketch, height: int) -> NDArray[np.bool_]:
     """Where the strokes are, (height, columns)."""
     fine = 4 * height
@@ -104,23 +122,58 @@ def camera(sketch: Sketch) -> nw.Camera:
 
 def target(ask: TargetAsk | None) -> nw.Target | None:
     """A target where it is placed; the very one that was named where it has not been moved."""
-    return None if ask is None else placed(ask)[0]
+    return None if ask is None else placed(ask)
 
 
-def placed(ask: TargetAsk) -> tuple[nw.Target, tuple[float, float, float]]:
-    """A target where it is placed, and the middle of its base, about which it is turned and scaled."""
+def placed(ask: TargetAsk) -> nw.Target:
+    """A target where it is placed."""
     base = _named(ask.source)
-    low, high = base.bounds
-    foot = np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2])
-    x, y, z = (foot + np.array(ask.move)).tolist()
-    if (ask.move, ask.scale, ask.turn) == ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), 0.0):
-        return base, (x, y, z)
-    angle = radians(ask.turn)
-    turn = np.array([[cos(angle), 0.0, sin(angle)], [0.0, 1.0, 0.0], [-sin(angle), 0.0, cos(angle)]])
-    moved = ((base.vertices - foot) * np.array(ask.scale)) @ turn.T + np.array([x, y, z])
-    return nw.Target(moved, base.faces, base.name), (x, y, z)
+    place = Placing(ask, base.bounds)
+    return base if place.is_at_rest else nw.Target(place(base.vertices), base.faces, base.name)
 
 
+def shown(ask: TargetAsk) -> tuple[Ghost, Point]:
+    """What is shown of a target where it is placed, and the middle of its base, about which it is turned and scaled."""
+    mesh = Path(ask.source)
+    base = (Ghost.beside(mesh) if mesh.is_absolute() else None) or Ghost.of(_named(ask.source))
+    place = Placing(ask, base.bounds)
+    corners = np.array(
+        [[x, y, z] for x in base.bounds[:, 0] for y in base.bounds[:, 1] for z in base.bounds[:, 2]]
+    )
+    bounds = base.bounds
+    if not place.is_at_rest:
+        moved = place(base.vertices if ask.turn else corners)
+        bounds = np.array([moved.min(axis=0), moved.max(axis=0)])
+    return replace(base, vertices=place(base.vertices), bounds=bounds), place.foot
+
+
+class Placing:
+    """How a target is scaled and turned about the middle of its base, and moved."""
+
+    def __init__(self, ask: TargetAsk, bounds: NDArray[np.float64]) -> None:
+        low, high = bounds
+        self._ask = ask
+        self._base = np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2])
+        self.is_at_rest = (ask.move, ask.scale, ask.turn) == ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), 0.0)
+
+    @property
+    def foot(self) -> Point:
+        """Where the middle of the base stands."""
+        x, y, z = (self._base + np.array(self._ask.move)).tolist()
+        return x, y, z
+
+    def __call__(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points where they are placed."""
+        if self.is_at_rest:
+            return points
+        angle = radians(self._ask.turn)
+        turn = np.array([[cos(angle), 0.0, sin(angle)], [0.0, 1.0, 0.0], [-sin(angle), 0.0, cos(angle)]])
+        moved: NDArray[np.float64] = ((points - self._base) * np.array(self._ask.scale)) @ turn.T
+        moved += np.array(self.foot)
+        return moved
+
+
+@lru_cache(maxsize=4)
 def _named(source: str) -> nw.Target:
     """The target of a source: a primitive, one of the gallery, or a file that was sent."""
     if source in PRIMITIVES:

@@ -9,13 +9,14 @@ from math import isfinite
 from typing import Any
 
 import niwaki as nw
-from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.search import Search
 from niwaki.shell.references import ModelReference
-from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow
-from niwaki.studio.worker import asks, models, runs, shapes
+from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
+from niwaki.studio.refused import Refused
+from niwaki.studio.worker import asks, models, runs, shapes, variety
+from niwaki.studio.worker.thinning import GHOST_TRIANGLES
 
 #: Rounds of `improve` at effort 1: its own usual number.
 ROUNDS = 15
@@ -24,18 +25,24 @@ REGROWN = 100
 
 
 def ghost(job: Ghost, send: Any) -> Answer:
-    """The mesh of the target."""
+    """The meshes of the target and of the obstacles."""
     found = models.reference(job.question.model)
     ask = job.question.ask
-    placed = None if ask.sketch is not None else ask.target or asks.usual(found)
-    if placed is not None:
-        target, foot = asks.placed(placed)
-        many = len(target.faces) > shapes.GHOST_TRIANGLES
-        note = f"shown with fewer than its {len(target.faces):,} triangles" if many else ""
-        header, payload = shapes.ghost(target, foot, note)
-        header.id = job.id
-        send(header, payload)
+    aim = None if ask.sketch is not None else ask.target or asks.usual(found)
+    if aim is not None:
+        _solid(aim, job.id, send, what="ghost")
+    for number, obstacle in enumerate(ask.obstacles):
+        _solid(obstacle, job.id, send, what="obstacle", number=number)
     return Answer()
+
+
+def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
+    ghost, foot = asks.shown(ask)
+    many = ghost.triangles > GHOST_TRIANGLES
+    note = f"shown with fewer than its {ghost.triangles:,} triangles" if many else ""
+    described, payload = shapes.ghost(ghost.vertices, ghost.faces, ghost.bounds, foot, note=note, **header)
+    described.id = job
+    send(described, payload)
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
@@ -48,7 +55,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         sample = now.sample
         if sample is not None and sample.log_score > shown[0]:
             shown[0] = sample.log_score
-            send(*_shape(sample, "best", job.id, Key(job.run)))
+            send(*shape(sample, "best", job.id, Key(job.run)))
         best = shown[0] if isfinite(shown[0]) else None
         send(Progressed(job.id, now.done, best, time.perf_counter() - begun))
         check()
@@ -57,28 +64,31 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         found.model,
         **asked,
         rounds=max(1, round(ROUNDS * settings.effort)),
-        diverse=settings.count if settings.count > 1 else None,
+        diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
         seed=job.seed,
         lock=runs.given(job.question.lock) or None,
         progress=progress,
     )
+    result.samples = variety.spread(_ended(result), settings.count, settings.strength)
     return _answered(result, found, job.run, job.file, "run", send, job.id)
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
     """Grow a part of a result again, in place, by seeds that follow one another; equal outcomes are given once."""
-    search, choices = _searched(
+    search, choices = searched(
         job.question, runs.sample(job.source, job.number), runs.given(job.question.lock)
     )
     with translated(search.model.name, choices=choices):
         whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
     found: list[Sample] = []
-    for number in range(job.count):
+    for number in range(job.count if job.strength is None else 2 * job.count):
         one = whole.regrow(job.part, REGROWN, seed=(job.seed + number) % 2**53).best
         if one.choices not in [choices, *(other.choices for other in found)]:
             found.append(one)
     if not found:
-        raise InputError("no-runs", detail=f"`{job.part}` has no other form here")
+        raise Refused("no-other-form", f"`{job.part}` has no other form here")
+    if job.strength is not None:
+        found = variety.ordered(whole, found, job.count, job.strength)
     result = Result(search, found, job.seed)
     return _answered(result, models.reference(job.question.model), job.run, job.file, "regrow", send, job.id)
 
@@ -86,27 +96,35 @@ def regrow(job: Regrow, send: Any) -> Answer:
 def change(job: Change, send: Any) -> Answer:
     """Run with the choices of a result, some of them changed; choices that it newly makes are drawn from the seed."""
     one = runs.sample(job.source, job.number)
-    search, choices = _searched(job.question, one, None)
+    search, choices = searched(job.question, one, None)
+    for address in job.changes:
+        if address not in choices:
+            raise Refused("no-choice", f"the result has no choice `{address}`")
     choices |= runs.given(job.changes)
     with translated(search.model.name, choices=choices):
         trace = search.task.replay(choices, search.seed)
     sample = Sample.of_trace(trace, search, one.seed)
     if not job.file:
-        send(*_shape(sample, "moving", job.id, Key(job.run)))
+        send(*shape(sample, "moving", job.id, Key(job.run)))
         return Answer()
     result = Result(search, [sample], search.seed)
     found = models.reference(job.question.model)
     return _answered(result, found, job.run, job.file, job.origin, send, job.id)
 
 
-def _searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
+def _ended(result: Result) -> list[Sample]:
+    return [one for one in result.samples if one.has_ended] or list(result.samples)
+
+
+def searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
     """The search of a result with the present model and arguments, and the result's choices."""
     model, args = models.reference(question.model).model, asks.arguments(question)
     search = replace(one.search, model=model, args=args, choices=None, lock=lock or None, polish=None)
     return search, dict(one.choices)
 
 
-def _shape(sample: Sample, what: str, job: int, key: Key) -> Any:
+def shape(sample: Sample, what: str, job: int, key: Key) -> Any:
+    """The header and the payload of a result's scene."""
     return shapes.shape(sample.scene, "light", what=what, id=job, key=key, is_flat=runs.is_flat(sample))
 
 
@@ -114,9 +132,8 @@ def _answered(
     result: Result, found: ModelReference, run: int, file: str, origin: str, send: Any, job: int
 ) -> Answer:
     """Store the results that ended, the best first, and show them."""
-    ended = [one for one in result.samples if one.has_ended] or list(result.samples)
-    result.samples = sorted(ended, key=lambda one: -one.log_score)
+    result.samples = sorted(_ended(result), key=lambda one: -one.log_score)
     outcomes = runs.store(result, found, run, file, origin)
     for one, outcome in zip(result.samples, outcomes, strict=True):
-        send(*_shape(one, "result", job, outcome.key))
+        send(*shape(one, "result", job, outcome.key))
     return Answer(outcomes=outcomes, interrupted=result.interrupted)

@@ -21,7 +21,8 @@ from niwaki.errors import NiwakiError
 from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
-from niwaki.studio.worker import jobs, models, runs
+from niwaki.studio.refused import Refused
+from niwaki.studio.worker import allowed, differences, drag, kinds, offers, structures
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -41,7 +42,8 @@ class Stopped:
 
 
 def main() -> None:
-    """Serve until the pipe closes."""
+    """Serve until the pipe closes; the words of the command line say what may be run."""
+    allowed.take(sys.argv[1:])
     source, sink = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     warnings.simplefilter("ignore")
@@ -87,31 +89,46 @@ def _read(source: BinaryIO, waiting: queue.SimpleQueue[Any], stopped: Stopped) -
 
 def done(job: messages.AnyJob, send: Send, stopped: Stopped) -> messages.Answer:
     """The work of one job."""
+    found: messages.Answer = _done(job, send, stopped)
+    return found
+
+
+def _done(job: messages.AnyJob, send: Send, stopped: Stopped) -> Any:
     match job:
         case messages.ListModels():
-            return models.listed(job)
+            return offers.listed(job)
         case messages.Load():
-            return models.loaded(job)
+            return offers.loaded(job)
         case messages.Ghost():
-            return jobs.ghost(job, send)
+            return kinds.asked(job.question).ghost(job, send)
         case messages.Grow():
-            return jobs.grow(job, send, stopped.check)
+            return kinds.asked(job.question).grow(job, send, stopped.check)
         case messages.Regrow():
-            return jobs.regrow(job, send)
+            return kinds.asked(job.question).regrow(job, send)
         case messages.Change():
-            return jobs.change(job, send)
+            return kinds.asked(job.question).change(job, send)
+        case messages.DragPart():
+            return drag.drag(job, send)
+        case messages.RewriteFile():
+            return drag.rewrite(job)
         case messages.Hold():
-            return runs.hold(job)
+            return kinds.stored(job.source).hold(job)
         case messages.DescribeRun():
-            return runs.describe(job, send)
+            return kinds.stored(job.source).describe(job, send)
         case messages.ShowRun():
-            return runs.show(job, send)
+            return kinds.stored(job.source).show(job, send)
+        case messages.JudgeRun():
+            return structures.judge(job, send)
+        case messages.FindDifference():
+            return differences.find(job, send)
         case messages.WriteFile():
-            return runs.write(job)
+            return kinds.written(job.source, job.number).write(job)
 
 
 def problem(error: BaseException) -> messages.Problem:
     """An error as the page shows it: the shell's text, and the place if it has one."""
+    if isinstance(error, Refused):
+        return error.problem
     if not isinstance(error, NiwakiError):
         traceback.print_exception(error, file=sys.stderr)
         return messages.Problem("failed", f"{type(error).__name__}: {error}")

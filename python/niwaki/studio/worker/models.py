@@ -6,45 +6,61 @@ import inspect
 from pathlib import Path
 from typing import Any
 
-from niwaki import gallery, targets
+from niwaki import stacks
+from niwaki.lang.lower import lowered
 from niwaki.lang.models import Model
 from niwaki.shell.references import ModelReference, find
-from niwaki.studio.messages import Answer, ListModels, Load, ModelInfo, Parameter
+from niwaki.studio.messages import ModelInfo, Parameter
+from niwaki.studio.refused import Refused
+
+#: What the references of our structures begin with.
+STACK = "stack:"
+
+#: Files that were named at the start, with their references: no other one is run for its models.
+named: dict[Path, str] = {}
 
 _kept: dict[str, tuple[object, ModelReference]] = {}
 
 
 def reference(name: str) -> ModelReference:
-    """The model of a reference; that of a file is read again when the file has changed."""
+    """The model of a reference; that of a file is read again when the file has changed.
+
+    Raises
+    ------
+    Refused
+        `unnamed-file`.
+    """
     place = Path(name.rpartition(":")[0] or name)
     stamp: object = None
+    if place.suffix == ".py" and place.resolve() not in named:
+        text = (
+            f"{place} was not named when the studio was started, and a model is code.\n"
+            f"Read the file; then start the studio with it: niwaki studio {place.name}"
+        )
+        raise Refused("unnamed-file", text)
     if place.suffix == ".py" and place.is_file():
         found = place.stat()
         stamp = found.st_mtime_ns, found.st_size, found.st_ino
     known = _kept.get(name)
     if known is None or known[0] != stamp:
-        known = _kept[name] = (stamp, find(name))
+        known = _kept[name] = (stamp, _structure(name) or find(name))
     return known[1]
 
 
-def listed(job: ListModels) -> Answer:
-    """The models that can be chosen: those of the files first."""
-    infos = []
-    for file in job.files:
-        infos.append(info(reference(file), file, is_file=True))
-    for entry in gallery.entries():
-        # A model without a target, a drawing or a score of its own makes no scene to look at.
-        if entry.target_name is not None or entry.draws is not None:
-            infos.append(info(ModelReference(entry.name, entry.model, entry), entry.name))
-    return Answer(models=infos, targets=[f"gallery:{name}" for name in targets.examples.TARGETS])
+def _structure(name: str) -> ModelReference | None:
+    """One of our models of structures."""
+    found = getattr(stacks, name.removeprefix(STACK), None) if name.startswith(STACK) else None
+    return ModelReference(name, found) if isinstance(found, Model) else None
 
 
-def loaded(job: Load) -> Answer:
-    """A model, compiled so that its errors are seen."""
-    found = reference(job.reference)
-    found.model.program()
-    is_file = found.entry is None
-    return Answer(models=[info(found, job.reference, is_file)])
+def is_structure(name: str) -> bool:
+    """Whether a model is one of structures that stand: it calls functions of `niwaki.stacks`."""
+    if name.startswith(STACK):
+        return True
+    found = reference(name)
+    own = f"{stacks.__name__}."
+    called = lowered(found.model.function).units
+    return found.entry is None and any(one.__module__.startswith(own) for one in called)
 
 
 def info(found: ModelReference, name: str, is_file: bool = False) -> ModelInfo:
@@ -57,6 +73,7 @@ def info(found: ModelReference, name: str, is_file: bool = False) -> ModelInfo:
         target=None if entry is None or entry.target_name is None else f"gallery:{entry.target_name}",
         draws=None if entry is None else entry.draws,
         is_file=is_file,
+        kind="structure" if name.startswith(STACK) else "scene",
     )
 
 

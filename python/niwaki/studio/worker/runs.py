@@ -28,8 +28,9 @@ from niwaki.studio.messages import (
     ShowRun,
     WriteFile,
 )
-from niwaki.studio.worker import asks, models, shapes
-from niwaki.studio.worker.places import noted, slider
+from niwaki.studio.refused import Refused
+from niwaki.studio.worker import allowed, asks, models, shapes
+from niwaki.studio.worker.places import Noting, noted, slider
 
 #: Results that are kept ready.
 KEPT = 64
@@ -42,7 +43,7 @@ def sample(source: str, number: int) -> Sample:
     key = source, number
     if key not in _samples:
         data = run_files.load(source)
-        _samples[key] = run_files.replayed(data, number)
+        _samples[key] = run_files.replayed(data, number, allowed.modules(data))
         _samples[key].seed = data["runs"][number]["seed"]
         if len(_samples) > KEPT:
             _samples.popitem(last=False)
@@ -50,9 +51,16 @@ def sample(source: str, number: int) -> Sample:
     return _samples[key]
 
 
-def store(result: Result, found: ModelReference, run: int, file: str, origin: str) -> list[Outcome]:
-    """Write a run, and name its results."""
-    data = run_files.written(result, found)
+def store(
+    result: Result,
+    found: ModelReference,
+    run: int,
+    file: str,
+    origin: str,
+    beside: dict[str, Any] | None = None,
+) -> list[Outcome]:
+    """Write a run, with what else belongs to it, and name its results."""
+    data = {**run_files.written(result, found), **(beside or {})}
     for number, one in enumerate(result.samples):
         _samples[file, number] = one
     _saved(Path(file), data)
@@ -62,7 +70,10 @@ def store(result: Result, found: ModelReference, run: int, file: str, origin: st
 def outcome(one: Sample, key: Key, origin: str) -> Outcome:
     """The numbers of a result."""
     numbers = run_files.numbers(one)
-    return Outcome(key, numbers["log_score"], numbers["similarity"], one.primitives, one.seed, origin)
+    shares = {name: numbers[name] for name in ("similarity", "covered", "outside")}
+    return Outcome(
+        key, numbers["log_score"], primitives=one.primitives, seed=one.seed, origin=origin, **shares
+    )
 
 
 def given(choices: Choices) -> dict[str, Any]:
@@ -84,8 +95,12 @@ def describe(job: DescribeRun, send: Any) -> Answer:
     """The choices and parts of a result, with places in the source."""
     one = sample(job.source, job.number)
     choices, families = one.choices, one.families
-    found = models.reference(job.question.model)
-    seen = noted(found.model, asks.arguments(job.question), choices)
+    try:
+        model = models.reference(job.question.model).model
+        seen = noted(model, asks.arguments(job.question), choices)
+    except Refused:
+        # The file of the model may not be run: without lines and sliders.
+        seen = Noting({})
     infos = []
     for address, value in choices.items():
         if families[address] == "delta":
@@ -94,15 +109,15 @@ def describe(job: DescribeRun, send: Any) -> Answer:
         low, high, whole = reach or (None, None, False)
         infos.append(
             ChoiceInfo(
-                address, families[address], _shown(value), low, high, whole, _place(seen.places.get(address))
+                address, families[address], shown(value), low, high, whole, _place(seen.places.get(address))
             )
         )
-    parts = [PartInfo(part.address, _place(seen.places.get(part.address))) for part in one.scene.parts]
+    parts = [PartInfo(part.address, _place(seen.places.get(part.address))) for part in one.parts]
     send(Described(job.id, job.key, infos, parts))
     return Answer()
 
 
-def _shown(value: Any) -> Any:
+def shown(value: Any) -> Any:
     """A value as a page shows it."""
     return value if isinstance(value, bool | int | float) else str(value)
 

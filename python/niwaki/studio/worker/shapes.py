@@ -19,10 +19,7 @@ from niwaki.draw.palette import paints
 from niwaki.draw.parts import part_meshes
 from niwaki.draw.scene import Scene
 from niwaki.studio.messages import Shape
-from niwaki.targets.target import Target
 
-#: The ghost of a target has no more triangles than about this; a larger mesh is thinned for the eye.
-GHOST_TRIANGLES = 60_000
 GHOST_COLOR = (0.36, 0.55, 0.80)
 
 Arrays = tuple[NDArray[Any], NDArray[Any] | None, NDArray[Any], NDArray[Any], NDArray[Any]]
@@ -34,15 +31,18 @@ def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tupl
     return _packed([part.address for part in scene.parts], pieces, detail=detail, **header)
 
 
-def ghost(target: Target, pivot: tuple[float, float, float], note: str = "") -> tuple[Shape, bytes]:
-    """The header and the payload of a target."""
-    vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
-    header, data = _packed(
-        [], [(0, GHOST_COLOR, vertices, None, faces)], what="ghost", pivot=pivot, note=note
-    )
-    low, high = target.bounds.tolist()
-    header.low, header.high = tuple(low), tuple(high)
-    return header, data
+def ghost(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    bounds: NDArray[np.float64],
+    pivot: tuple[float, float, float],
+    **header: Any,
+) -> tuple[Shape, bytes]:
+    """The header and the payload of a target or an obstacle."""
+    described, data = _packed([], [(0, GHOST_COLOR, vertices, None, faces)], pivot=pivot, **header)
+    low, high = bounds.tolist()
+    described.low, described.high = tuple(low), tuple(high)
+    return described, data
 
 
 def _fine(scene: Scene) -> list[tuple[int, Any, NDArray[Any], NDArray[Any] | None, NDArray[Any]]]:
@@ -94,22 +94,3 @@ def _joined(arrays: list[NDArray[Any]], width: int, kind: str) -> NDArray[Any]:
 
 def _bytes(color: tuple[float, float, float]) -> NDArray[np.uint8]:
     return np.array([*(round(255 * min(max(c, 0.0), 1.0)) for c in color), 255], dtype=np.uint8)
-
-
-def thinned(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int = GHOST_TRIANGLES
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """A mesh of about `most` triangles at most: vertices of one cell of a grid become one (Rossignac, Borrel 1993)."""
-    cells = 256
-    extent = float(np.ptp(vertices, axis=0).max()) or 1.0
-    while len(faces) > most and cells > 8:
-        grid = np.floor((vertices - vertices.min(axis=0)) * (cells / extent)).astype(np.int64)
-        key = (grid[:, 0] * (cells + 1) + grid[:, 1]) * (cells + 1) + grid[:, 2]
-        _, first, number = np.unique(key, return_index=True, return_inverse=True)
-        merged = number[faces]
-        a, b, c = merged.T
-        merged = np.unique(merged[(a != b) & (b != c) & (c != a)], axis=0)
-        if len(merged) <= most:
-            return vertices[first], merged
-        cells = cells * 3 // 4
-    return vertices, faces

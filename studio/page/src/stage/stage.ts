@@ -14,6 +14,7 @@ import {
   Group,
   HemisphereLight,
   LineBasicMaterial,
+  LineDashedMaterial,
   LineSegments,
   Material,
   Mesh,
@@ -21,6 +22,7 @@ import {
   MeshStandardMaterial,
   PCFShadowMap,
   PerspectiveCamera,
+  Plane,
   PlaneGeometry,
   Raycaster,
   Scene,
@@ -30,15 +32,18 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { TransformControls } from "three/addons/controls/TransformControls.js";
-import type { Eye, Shape, TargetAsk } from "../messages";
+import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
+import { cubes, KINDS, sheet } from "./cells";
+import { arrowMeshes } from "./arrows";
 import { frame } from "./framing";
+import { type Order, sorted } from "./growth";
 import { subset, unpacked } from "./meshes";
+import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
-  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16 },
-  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45 },
+  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
+  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
 };
 
 export class Stage {
@@ -47,23 +52,28 @@ export class Stage {
   piece: Piece | null = null;
   private readonly renderer: WebGLRenderer;
   private readonly orbit: OrbitControls;
-  private readonly handles: TransformControls;
+  readonly things: Things;
   private readonly sun = new DirectionalLight(0xfff9ef, 2.3);
   private readonly ground: Mesh;
   private readonly shape = new Group();
   private readonly marks = new Group();
-  private readonly ghost = new Group();
+  private readonly line = new Group();
+  readonly arrows = new Group();
+  private differences = new Group();
+  private ends: { order: Order; at: Uint32Array } | null = null;
+  private sides: Group[] = [];
   private ghostBox = new Box3();
+  private ask: Ask = {};
   private look = COLORS.light;
+  private theme: "light" | "dark" = "light";
   private isAsked = false;
   private isFramed = false;
-  private asked: TargetAsk | null = null;
   /** Pixels may be drawn again. */
   frames = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly onPlaced: (ask: TargetAsk) => void,
+    onPlaced: (change: AskChange) => void,
     private readonly onLook: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -84,7 +94,9 @@ export class Stage {
       this.ground,
       this.shape,
       this.marks,
-      this.ghost,
+      this.line,
+      this.arrows,
+      this.differences,
     );
     this.camera.position.set(14, 9, 18);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -93,16 +105,25 @@ export class Stage {
       this.draw();
       this.onLook();
     });
-    this.handles = new TransformControls(this.camera, canvas);
-    this.handles.setSpace("local");
-    this.handles.size = 0.8;
-    this.handles.addEventListener("dragging-changed", ({ value }) => {
-      this.orbit.enabled = !value;
-      if (!value) this.place();
-    });
-    this.handles.addEventListener("change", () => this.draw());
-    this.scene.add(this.handles.getHelper());
+    const dragging = (isDragging: boolean) => (this.orbit.enabled = !isDragging);
+    this.things = new Things(this.camera, canvas, onPlaced, dragging, () => this.draw());
+    this.scene.add(this.things.group, this.things.handles.getHelper());
     this.paint("light");
+    this.warm();
+  }
+
+  /** Compile what shapes are drawn with before the first one comes. */
+  private warm(): void {
+    const colors = new Float32Array(9);
+    for (const flatShading of [true, false]) {
+      const geometry = new BufferGeometry();
+      for (const name of ["position", "normal", "color"]) geometry.setAttribute(name, new BufferAttribute(colors, 3));
+      const mesh = new Mesh(geometry, solid(flatShading));
+      mesh.castShadow = mesh.receiveShadow = true;
+      this.shape.add(mesh);
+    }
+    this.renderer.render(this.scene, this.camera);
+    clear(this.shape);
   }
 
   /** Draw with the next frame. */
@@ -112,26 +133,67 @@ export class Stage {
     requestAnimationFrame(() => {
       this.isAsked = false;
       this.frames++;
+      if (this.sides.length === 0) this.renderer.render(this.scene, this.camera);
+      else this.drawSides();
+    });
+  }
+
+  /** Several shapes side by side, seen by the same camera; none of them shows the one shape again. */
+  setSides(shapes: [Shape, ArrayBuffer][]): void {
+    for (const one of this.sides) clear(one);
+    this.scene.remove(...this.sides);
+    this.sides = shapes.map(([header, payload]) => {
+      const group = new Group();
+      if (header.triangles > 0) group.add(this.meshOf(unpacked(header, payload)));
+      return group;
+    });
+    if (this.sides.length > 0) this.scene.add(...this.sides);
+    this.shape.visible = this.marks.visible = this.sides.length === 0;
+    this.aspect();
+    this.draw();
+  }
+
+  /** Triangles of what stands side by side. */
+  get compared(): number[] {
+    return this.sides.map((one) => ((one.children[0] as Mesh)?.geometry.index?.count ?? 0) / 3);
+  }
+
+  private drawSides(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const edge = (k: number) => Math.round((k * clientWidth) / this.sides.length);
+    this.renderer.setScissorTest(true);
+    this.sides.forEach((_, k) => {
+      this.sides.forEach((one, other) => (one.visible = other === k));
+      this.renderer.setViewport(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
+      this.renderer.setScissor(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
       this.renderer.render(this.scene, this.camera);
     });
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, clientWidth, clientHeight);
+  }
+
+  /** The camera's view is as wide as one of those that stand side by side. */
+  private aspect(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.camera.aspect = clientWidth / Math.max(this.sides.length, 1) / Math.max(clientHeight, 1);
+    // What was seen across the whole width is seen across the narrower one.
+    this.camera.zoom = 1 / Math.max(this.sides.length, 1);
+    this.camera.updateProjectionMatrix();
   }
 
   resize(width: number, height: number): void {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / Math.max(height, 1);
-    this.camera.updateProjectionMatrix();
+    this.aspect();
     this.draw();
   }
 
   paint(theme: "light" | "dark"): void {
+    this.theme = theme;
     this.look = COLORS[theme];
     this.scene.background = new Color(this.look.paper);
     (this.ground.material as ShadowMaterial).opacity = this.look.shade;
-    this.ghost.traverse((one) => {
-      const material = (one as Mesh).material as (Material & { color: Color }) | undefined;
-      material?.color.set(this.look.ghost);
-    });
+    this.things.paint(this.look);
     this.draw();
   }
 
@@ -141,56 +203,91 @@ export class Stage {
   show(header: Shape | null, payload: ArrayBuffer): void {
     clear(this.shape);
     this.piece = null;
+    this.ends = null;
     if (header !== null && header.triangles > 0) {
       this.piece = unpacked(header, payload);
-      const isFine = header.detail === "fine";
-      const material = header.is_flat
-        ? new MeshBasicMaterial({ vertexColors: true })
-        : new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading: !isFine });
-      const mesh = new Mesh(this.piece.geometry, material);
-      mesh.castShadow = mesh.receiveShadow = !header.is_flat;
-      this.shape.add(mesh);
+      this.shape.add(this.meshOf(this.piece));
     }
-    this.settle();
+    this.come();
+  }
+
+  private meshOf({ header, geometry }: Piece): Mesh {
+    const material = header.is_flat
+      ? new MeshBasicMaterial({ vertexColors: true })
+      : solid(header.detail !== "fine");
+    const mesh = new Mesh(geometry, material);
+    mesh.castShadow = mesh.receiveShadow = !header.is_flat;
+    return mesh;
+  }
+
+  /** Show the first parts of the shape in an order; all of them where there is no count. */
+  setGrowth(count: number | null, order: Order, emitted: string[]): void {
+    if (this.piece === null) return;
+    if (count === null) this.piece.geometry.setDrawRange(0, Infinity);
+    else {
+      if (this.ends === null || this.ends.order !== order) this.ends = { order, at: sorted(this.piece, order, emitted) };
+      this.piece.geometry.setDrawRange(0, 3 * this.ends.at[Math.min(count, this.ends.at.length - 1)]);
+    }
+    this.marks.visible = this.shape.visible && count === null;
     this.draw();
   }
 
-  /** Show the ghost of a target where it is placed. */
-  setGhost(header: Shape, payload: ArrayBuffer, ask: TargetAsk | null): void {
-    this.handles.detach();
-    clear(this.ghost);
-    this.ghostBox.makeEmpty();
-    this.asked = ask;
-    if (header.triangles > 0) {
-      const { geometry } = unpacked(header, payload);
-      const turn = ((ask?.turn ?? 0) * Math.PI) / 180;
-      const pivot = new Vector3(...header.pivot);
-      geometry.translate(-pivot.x, -pivot.y, -pivot.z).rotateY(-turn);
-      this.ghost.position.copy(pivot);
-      this.ghost.rotation.set(0, turn, 0);
-      this.ghost.scale.set(1, 1, 1);
-      const color = this.look.ghost;
-      const fill = new MeshBasicMaterial({ color, transparent: true, opacity: 0.1, depthWrite: false });
-      const line = new LineBasicMaterial({ color, transparent: true, opacity: 0.7 });
-      this.ghost.add(new Mesh(geometry, fill), new LineSegments(new EdgesGeometry(geometry, 24), line));
-      this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
+  /** Show the target or an obstacle where it is placed. */
+  setSolid(name: string, header: Shape, payload: ArrayBuffer, asked: TargetAsk | null): void {
+    this.things.setSolid(name, header, payload, asked);
+    if (kindOf(name) === "target") {
+      this.ghostBox.makeEmpty();
+      if (header.triangles > 0) this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
+    this.come();
+  }
+
+  /** What is asked, apart from solids: floor, light and camera. */
+  setAsk(ask: Ask): void {
+    this.ask = ask;
     this.settle();
     this.draw();
   }
 
   setGhostVisible(isVisible: boolean): void {
-    this.ghost.visible = isVisible;
+    this.things.setGhostVisible(isVisible);
+    this.draw();
+  }
+
+  /** Show where the scene differs from what is wanted in its place, or the scene itself. */
+  setDifference(header: Difference | null, marks: Uint8Array): void {
+    clear(this.differences);
+    this.scene.remove(this.differences);
+    const isSeen = header?.is_picture === true && header.low[0] === header.high[0];
+    if (header !== null && !isSeen) {
+      this.differences = (header.is_picture ? sheet : cubes)(header, marks, KINDS[this.theme]);
+      this.scene.add(this.differences);
+    }
+    const hides = header !== null && !header.is_picture;
+    this.shape.visible = this.marks.visible = !hides;
     this.draw();
   }
 
   /** Mark parts: those that are selected or under the pointer, and those that are pinned. */
-  mark(isSelected: (address: string) => boolean, isPinned: (address: string) => boolean): void {
+  mark(
+    isSelected: (address: string) => boolean,
+    isPinned: (address: string) => boolean,
+    isFalling: (address: string) => boolean,
+  ): void {
     clear(this.marks);
     if (this.piece !== null && !this.piece.header.is_flat) {
+      this.tint(isFalling, this.look.falling, 0.5);
       this.tint(isPinned, this.look.pinned, 0.28);
       this.tint(isSelected, this.look.selected, 0.35);
     }
+    this.draw();
+  }
+
+  /** Show forces, as long as a fifth of the scene where they are largest. */
+  setArrows(forces: Arrow[]): void {
+    clear(this.arrows);
+    const size = this.bounds().getSize(new Vector3()).length();
+    for (const one of arrowMeshes(forces, 0.2 * size, this.look.force)) this.arrows.add(one);
     this.draw();
   }
 
@@ -215,15 +312,18 @@ export class Stage {
     return box;
   }
 
-  /** Put light and ground around what is there; look at it if nothing was looked at before. */
+  /** Put light and ground around what is there. */
   private settle(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
     const middle = box.getCenter(new Vector3());
     const radius = Math.max(0.5 * box.getSize(new Vector3()).length(), 1e-3);
-    this.ground.position.set(middle.x, box.min.y - 0.002 * radius, middle.z);
+    this.things.update(this.ask, middle, radius);
+    const isOnFloor = this.ask.floor != null || this.ask.sketch?.kind === "shadow";
+    this.ground.position.set(middle.x, (isOnFloor ? (this.ask.floor ?? 0) : box.min.y) - 0.002 * radius, middle.z);
     this.ground.scale.setScalar(40 * radius);
-    this.sun.position.copy(middle).addScaledVector(new Vector3(0.55, 1.0, 0.5).normalize(), 4 * radius);
+    const light = new Vector3(...(this.ask.light ?? [-0.55, -1, -0.5])).normalize();
+    this.sun.position.copy(middle).addScaledVector(light, -4 * radius);
     this.sun.target.position.copy(middle);
     const side = 1.9 * radius;
     Object.assign(this.sun.shadow.camera, { left: -side, right: side, top: side, bottom: -side });
@@ -232,7 +332,13 @@ export class Stage {
     this.sun.shadow.camera.near = radius;
     this.sun.shadow.camera.far = 8 * radius;
     this.sun.shadow.camera.updateProjectionMatrix();
+  }
+
+  /** Look at what has come, where nothing of this model was looked at before. */
+  private come(): void {
+    this.settle();
     if (!this.isFramed) this.fit();
+    this.draw();
   }
 
   /** Look at everything, along the direction of our pictures. */
@@ -243,6 +349,27 @@ export class Stage {
     this.orbit.update();
     this.isFramed = true;
     this.draw();
+  }
+
+  /** A solid of unit size above what is there, where the camera sees it. */
+  above(source: string): TargetAsk {
+    const box = this.bounds();
+    if (box.isEmpty()) return { source };
+    const side = Math.max(round(box.getSize(new Vector3()).length() / 8), 1e-3);
+    const middle = box.getCenter(new Vector3());
+    return { source, move: [round(middle.x), round(box.max.y + 0.3 * side), round(middle.z)], scale: [side, side, side] };
+  }
+
+  /** The lowest height of what is there. */
+  bottom(): number {
+    const box = this.bounds();
+    return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
+  }
+
+  /** A light from behind the scene, so that its shadow falls towards the camera. */
+  lightFromBehind(): [number, number, number] {
+    const ahead = this.camera.getWorldDirection(new Vector3()).setY(0).normalize();
+    return [round(-0.6 * ahead.x - 0.25 * ahead.z), -1, round(-0.6 * ahead.z + 0.25 * ahead.x)];
   }
 
   /** The next content is looked at. */
@@ -271,54 +398,82 @@ export class Stage {
 
   // ---- handles
 
-  setHandles(mode: "translate" | "scale" | "rotate" | null): void {
-    if (mode === null || this.ghost.children.length === 0) this.handles.detach();
-    else {
-      this.handles.attach(this.ghost);
-      this.handles.setMode(mode);
-      this.handles.showX = this.handles.showZ = mode !== "rotate";
-    }
+  /** Put handles on an object of the scene, or take them away. */
+  setHandles(name: string | null, mode: Mode): void {
+    this.things.select(name, mode);
     this.draw();
   }
 
-  /** The handles were let go: the target as it now stands. */
-  private place(): void {
-    const ask = this.asked;
-    if (ask === null) return;
-    const { position, rotation, scale } = this.ghost;
-    const was = ask.scale ?? [1, 1, 1];
-    const moved = ask.move ?? [0, 0, 0];
-    const from = this.pivot;
-    this.onPlaced({
-      source: ask.source,
-      move: [
-        round(moved[0] + position.x - from.x),
-        round(moved[1] + position.y - from.y),
-        round(moved[2] + position.z - from.z),
-      ],
-      scale: [
-        round(Math.max(was[0] * scale.x, 1e-3)),
-        round(Math.max(was[1] * scale.y, 1e-3)),
-        round(Math.max(was[2] * scale.z, 1e-3)),
-      ],
-      turn: round((rotation.y * 180) / Math.PI),
-    });
+  /** Where the handles are seen, in CSS pixels. */
+  handlePoint(): [number, number] | null {
+    const at = this.things.at?.clone().project(this.camera);
+    return at == null ? null : this.pixel(at);
   }
-  pivot = new Vector3();
+
+  /** Whether nothing of the page lies over a point. */
+  private isFree(x: number, y: number): boolean {
+    const { left, top } = this.canvas.getBoundingClientRect();
+    return document.elementFromPoint(left + x, top + y) === this.canvas;
+  }
+
+  private pixel(at: Vector3): [number, number] {
+    return [((at.x + 1) / 2) * this.canvas.clientWidth, ((1 - at.y) / 2) * this.canvas.clientHeight];
+  }
 
   // ---- picking
 
   /** The address of the part under a point of the canvas, in CSS pixels. */
   partAt(x: number, y: number): string | null {
+    return this.hitAt(x, y)?.address ?? null;
+  }
+
+  /** The part under a point of the canvas, and the point of the part that is seen there. */
+  hitAt(x: number, y: number): { address: string; point: Vector3 } | null {
     const mesh = this.shape.children[0];
     if (this.piece === null || mesh === undefined) return null;
-    const { clientWidth, clientHeight } = this.canvas;
-    const place = new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
-    const ray = new Raycaster();
-    ray.setFromCamera(place, this.camera);
-    const hit = ray.intersectObject(mesh, false)[0];
+    const hit = this.ray(x, y).intersectObject(mesh, false)[0];
     if (hit?.faceIndex == null) return null;
-    return this.piece.header.parts[this.piece.owners[hit.faceIndex]] ?? null;
+    const address = this.piece.header.parts[this.piece.owners[hit.faceIndex]];
+    return address === undefined ? null : { address, point: hit.point };
+  }
+
+  /** The direction in which the camera looks at a point. */
+  sight(point: Vector3): Vector3 {
+    return point.clone().sub(this.camera.position).normalize();
+  }
+
+  /** The point of the canvas in the plane through `point` that faces the camera. */
+  across(x: number, y: number, point: Vector3): Vector3 {
+    const facing = this.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(facing, point);
+    return this.ray(x, y).ray.intersectPlane(plane, new Vector3()) ?? point.clone();
+  }
+
+  /** A line from where a dragged part is to where it should be; none without points. */
+  tether(from: Vector3 | null, to: Vector3 | null): void {
+    clear(this.line);
+    if (from !== null && to !== null) {
+      const geometry = new BufferGeometry().setFromPoints([from, to]);
+      const look = { color: this.look.selected, dashSize: 0.03, gapSize: 0.02, depthTest: false, transparent: true };
+      const scale = 1 / Math.max(from.distanceTo(to), 1e-9);
+      const line = new LineSegments(geometry, new LineDashedMaterial({ ...look, scale }));
+      line.computeLineDistances();
+      line.renderOrder = 2;
+      this.line.add(line);
+    }
+    this.draw();
+  }
+
+  /** The obstacle, light or camera under a point of the canvas. */
+  thingAt(x: number, y: number): string | null {
+    return this.things.hit(this.ray(x, y));
+  }
+
+  private ray(x: number, y: number): Raycaster {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    return ray;
   }
 
   /** Where a part is seen, in CSS pixels: a point that `partAt` answers with it. */
@@ -334,15 +489,15 @@ export class Stage {
       point.set(0, 0, 0);
       for (let c = 0; c < 3; c++) point.add(new Vector3().fromBufferAttribute(at, corners[3 * k + c]));
       point.divideScalar(3).project(this.camera);
-      const x = ((point.x + 1) / 2) * this.canvas.clientWidth;
-      const y = ((1 - point.y) / 2) * this.canvas.clientHeight;
-      if (this.partAt(x, y) === address) return [x, y];
+      const [x, y] = this.pixel(point);
+      if (this.isFree(x, y) && this.partAt(x, y) === address) return [x, y];
     }
     return null;
   }
 }
 
-const round = (value: number): number => Math.round(value * 1e4) / 1e4;
+const solid = (flatShading: boolean) => new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading });
+const round = (value: number): number => Math.round(value * 1e3) / 1e3;
 
 /** A geometry with the vertices of its own triangles only, for edges. */
 function compact(geometry: BufferGeometry): BufferGeometry {

@@ -6,7 +6,7 @@ import {
   HemisphereLight,
   Mesh,
   MeshBasicMaterial,
-  MeshStandardMaterial,
+  MeshLambertMaterial,
   PerspectiveCamera,
   Scene,
   Vector3,
@@ -17,8 +17,23 @@ import { frame } from "./framing";
 import { COLORS } from "./stage";
 import { unpacked } from "./meshes";
 
-export const WIDTH = 296;
-export const HEIGHT = 208;
+const SHARP = Math.min(Math.max(devicePixelRatio, 1), 2);
+export const WIDTH = Math.round(148 * SHARP);
+export const HEIGHT = Math.round(98 * SHARP);
+
+const waiting: (() => void)[] = [];
+
+/** Draws one picture after the other, so that none of them keeps the page from what is clicked meanwhile. */
+export function later(draw: () => void): void {
+  waiting.push(draw);
+  if (waiting.length === 1) setTimeout(next, 30);
+}
+
+function next(): void {
+  waiting[0]();
+  waiting.shift();
+  if (waiting.length > 0) setTimeout(next, 8);
+}
 
 let renderer: WebGLRenderer | null = null;
 
@@ -43,7 +58,7 @@ export function thumbnail(
   const { geometry } = unpacked(header, payload);
   const material = header.is_flat
     ? new MeshBasicMaterial({ vertexColors: true })
-    : new MeshStandardMaterial({ vertexColors: true, roughness: 0.75, flatShading: header.detail !== "fine" });
+    : new MeshLambertMaterial({ vertexColors: true, flatShading: header.detail !== "fine" });
   const sun = new DirectionalLight(0xfff9ef, 2.3);
   sun.position.set(0.55, 1, 0.5);
   scene.add(new Mesh(geometry, material), new HemisphereLight(0xffffff, 0xdedad2, 1.85), sun);

@@ -12,11 +12,17 @@ const FORMATS = [
   ["json", "Recipe", "run.json, for niwaki replay"],
 ] as const;
 
+const MORE = {
+  structure: [["dxf", "DXF", "boards to cut"], ["svg", "SVG", "boards to cut"], ["assembly", "Plan", "how its pieces are put together"], ...FORMATS],
+  coloring: [["svg", "SVG", "the drawing"], ["png", "PNG", "a picture"], ["toml", "Rules", "rules.toml, for niwaki color"]],
+} as const;
+
 export function Bar({ onFit }: { onFit: () => void }) {
   const view = store.view.value;
   const [isExporting, setExporting] = useState(false);
   const isFlat = view?.model?.draws != null;
-  const formats = isFlat ? ([["svg", "SVG", "the drawing"], ...FORMATS.slice(3)] as const) : FORMATS;
+  const kind = store.kind.value;
+  const formats = kind !== "scene" ? MORE[kind] : isFlat ? ([["svg", "SVG", "the drawing"], ...FORMATS.slice(3)] as const) : FORMATS;
   return (
     <header class="bar">
       <span class="mark">Niwaki</span>
@@ -32,22 +38,44 @@ export function Bar({ onFit }: { onFit: () => void }) {
         <button class="icon-button" title="Look at everything (F)" onClick={onFit}>
           <Icon name="fit" />
         </button>
-        <button
-          class="icon-button"
-          title="Show the target (T)"
-          aria-pressed={store.showGhost.value}
-          onClick={() => (store.showGhost.value = !store.showGhost.value)}
-        >
-          <Icon name="ghost" />
-        </button>
-        <button
-          class="icon-button"
-          title="Draw a silhouette to grow into (D)"
-          aria-pressed={store.tool.value === "draw"}
-          onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}
-        >
-          <Icon name="pen" />
-        </button>
+        {kind === "scene" && (
+          <>
+            <button
+              class="icon-button"
+              title="Show the target (T)"
+              aria-pressed={store.showGhost.value}
+              onClick={() => (store.showGhost.value = !store.showGhost.value)}
+            >
+              <Icon name="ghost" />
+            </button>
+            <button
+              class="icon-button"
+              title="Difference to what is wanted (X)"
+              aria-pressed={store.showDifference.value}
+              disabled={store.picked.value === null}
+              onClick={() => (store.showDifference.value = !store.showDifference.value)}
+            >
+              <Icon name="difference" />
+            </button>
+            <button
+              class="icon-button"
+              title="Compare starred results (C)"
+              aria-pressed={store.compared.value.length > 0}
+              disabled={!view?.stars.length}
+              onClick={store.compare}
+            >
+              <Icon name="compare" />
+            </button>
+            <button
+              class="icon-button"
+              title="Draw a silhouette to grow into (D)"
+              aria-pressed={store.tool.value === "draw"}
+              onClick={() => (store.tool.value = store.tool.value === "draw" ? "look" : "draw")}
+            >
+              <Icon name="pen" />
+            </button>
+          </>
+        )}
       </div>
       <span class="grow" />
       {!store.isOpen.value && <span class="warning" role="status">not connected</span>}

@@ -2,33 +2,38 @@
 
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { Drag } from "../stage/drag";
 import { isBelow } from "../stage/meshes";
 import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
 import * as store from "../store";
 import { shapeOf } from "./gallery";
-import { Icon } from "./icons";
+import { Sides, sideShapes } from "./compare";
+import { Legend } from "./difference";
+import { Offers } from "./offers";
+import { Growth } from "./growth";
+import { Notices, Problem } from "./notices";
 import { Pen } from "./pen";
-import { currentTarget } from "./setup";
 
 export let stage: Stage;
+export let drag: Drag;
 /** What is on the stage: of tests and of the page itself. */
-export const shown: { key: Key | null; what: string; detail: string } = { key: null, what: "", detail: "" };
+export const shown = { key: null as Key | null, what: "", detail: "", bests: 0 };
 
-export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" | null }) {
+export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
   const holder = useRef<HTMLDivElement>(null);
   useEffect(() => {
     stage = new Stage(
       canvas.current!,
-      (target) => void store.tell({ kind: "ask", ask: { target } }),
+      store.ask,
       () => (store.eye.value = stage.eye()),
     );
+    drag = new Drag(stage);
     const watch = new ResizeObserver(([entry]) => stage.resize(entry.contentRect.width, entry.contentRect.height));
     watch.observe(holder.current!);
     follow();
   }, []);
-  useEffect(() => stage?.setHandles(handles), [handles]);
 
   const down = useRef<[number, number] | null>(null);
   const at = (event: PointerEvent): [number, number] => [event.offsetX, event.offsetY];
@@ -37,61 +42,59 @@ export function Canvas({ handles }: { handles: "translate" | "scale" | "rotate" 
       <canvas
         ref={canvas}
         tabIndex={0}
-        aria-label="The scene. Drag to look around, click a part to select it."
-        onPointerDown={(event) => (down.current = at(event))}
+        aria-label="The scene. Drag to look around, click a part to select it, drag the selected part to move it."
+        onPointerDown={(event) => {
+          down.current = at(event);
+          if (event.button === 0 && drag.press(...at(event))) event.currentTarget.setPointerCapture(event.pointerId);
+        }}
         onPointerMove={(event) => {
-          if (event.buttons === 0 && store.tool.value === "look") store.hovered.value = stage.partAt(...at(event));
+          if (drag.move(...at(event))) return;
+          if (event.buttons === 0 && store.tool.value === "look" && store.compared.value.length === 0) store.hovered.value = stage.partAt(...at(event));
         }}
         onPointerLeave={() => (store.hovered.value = null)}
         onPointerUp={(event) => {
           const from = down.current;
           const to = at(event);
-          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) store.select(stage.partAt(...to));
+          if (drag.release(event.shiftKey)) return;
+          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) clicked(...to);
         }}
       />
       <Pen />
+      <Legend />
+      <Sides />
+      <Growth />
       <Problem />
       <Notices />
+      <Offers />
+      {store.quiet.value !== "" && (
+        <p class="reason" role="status">
+          {store.quiet.value}
+        </p>
+      )}
     </main>
   );
 }
 
-function Problem() {
-  const problem = store.view.value?.problem;
-  if (problem == null) return null;
-  return (
-    <div class="problem" role="alert">
-      <h3>{problem.place === null ? problem.code : `${problem.place.path.replace(/^.*\//, "")}:${problem.place.line}`}</h3>
-      <pre>{problem.text}</pre>
-      <p>The last good shape stays. Save the file again to go on.</p>
-    </div>
-  );
-}
-
-function Notices() {
-  return (
-    <div class="notices" aria-live="polite">
-      {store.notices.value.map((one) => (
-        <div key={one.id} class={one.isError ? "notice error" : "notice"}>
-          <pre>{one.text}</pre>
-          <button class="icon-button tiny" title="Dismiss" onClick={() => store.dismiss(one.id)}>
-            <Icon name="close" />
-          </button>
-        </div>
-      ))}
-    </div>
-  );
+function clicked(x: number, y: number): void {
+  if (store.compared.value.length > 0) return;
+  const part = stage.partAt(x, y);
+  const name = part === null ? stage.thingAt(x, y) : null;
+  store.select(part);
+  if (name !== null) store.thing.value = { name, mode: "translate" };
+  else if (part === null) store.thing.value = null;
 }
 
 /** Keep the stage up to date with what the studio tells. */
 function follow(): void {
   store.onShape((shape, payload) => {
     if (shape.what === "ghost") {
-      stage.pivot.set(...shape.pivot);
-      stage.setGhost(shape, payload, currentTarget());
+      stage.setSolid("target", shape, payload, store.target.value);
       if (shape.note) store.note(shape.note);
+    } else if (shape.what === "obstacle") {
+      stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);
     } else if (shape.what === "best" || shape.what === "moving") {
       put(shape, payload);
+      drag.shown(shape);
     } else if (store.sameKey(shape.key, store.picked.value) && !store.isSearching.value) {
       if (shape.detail === "fine" || !(shown.detail === "fine" && store.sameKey(shown.key, shape.key))) {
         put(shape, payload);
@@ -102,6 +105,7 @@ function follow(): void {
     stage.show(shape, payload);
     shown.key = shape?.key ?? null;
     shown.what = shape?.what ?? "";
+    shown.bests = shown.what !== "best" ? 0 : shown.bests + 1;
     shown.detail = shape?.detail ?? "";
     remark();
   };
@@ -109,9 +113,11 @@ function follow(): void {
     const level = store.level.value;
     const over = store.hovered.value;
     const pins = [...store.pinned.value];
+    const falls = new Set([...(store.judged.value?.loose ?? []), ...(store.judged.value?.fallen ?? [])]);
     stage.mark(
       (address) => (level !== null && level !== "" && isBelow(address, level)) || (over !== null && isBelow(address, over)) || address === store.part.value,
       (address) => pins.some((pin) => isBelow(address, pin)),
+      (address) => falls.has(address),
     );
   };
   // What is picked is shown: at once as it is in the gallery, then finely, with its choices.
@@ -123,13 +129,15 @@ function follow(): void {
     last = name;
     if (key === null) {
       put(null, new ArrayBuffer(0));
-      store.described.value = null;
+      store.described.value = store.judged.value = store.palette.value = null;
       return;
     }
     const light = shapeOf(name);
     if (light !== undefined) put(light[0], light[1]);
     void store.tell({ kind: "show", key, detail: "fine" });
     void store.tell({ kind: "describe", key });
+    store.judged.value = store.palette.value = null;
+    if (store.kind.value === "structure") void store.tell({ kind: "judge", key });
   });
   effect(() => {
     // A search that has ended without a result leaves the picked one.
@@ -148,6 +156,43 @@ function follow(): void {
     void [store.level.value, store.hovered.value, store.pinned.value, store.part.value];
     remark();
   });
+  effect(() => {
+    void store.showForces.value;
+    stage.setArrows(store.showForces.value ? (store.judged.value?.arrows ?? []) : []);
+    remark();
+  });
+  let rules = "";
+  effect(() => {
+    // The rules of a drawing have changed: how well the picked result keeps them has, too.
+    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.pins.map((one) => one.part)]);
+    const key = store.picked.peek();
+    if (now !== rules && rules !== "" && key !== null && store.kind.peek() === "coloring") void store.tell({ kind: "describe", key });
+    rules = now;
+  });
+  effect(() => {
+    if (store.view.value !== null) stage.setAsk(store.view.value.ask);
+  });
+  effect(() => {
+    const { count, order } = store.growth.value;
+    stage.setGrowth(count, order, (store.described.value?.parts ?? []).map((one) => one.address));
+  });
+  effect(() => stage.setSides(sideShapes.value));
+  // The difference of the picked result, asked for when it is looked at.
+  let asked = "";
+  effect(() => {
+    const key = store.isSearching.value || !store.showDifference.value ? null : store.picked.value;
+    const name = key === null ? "" : store.nameOf(key);
+    if (name === asked) return;
+    asked = name;
+    store.difference.value = null;
+    if (key !== null) void store.tell({ kind: "difference", key });
+  });
+  effect(() => {
+    void store.theme.value;
+    const found = store.showDifference.value ? store.difference.value : null;
+    stage.setDifference(found?.header ?? null, found?.marks ?? new Uint8Array());
+  });
+  effect(() => stage.setHandles(store.thing.value?.name ?? null, store.thing.value?.mode ?? "translate"));
   effect(() => stage.setGhostVisible(store.showGhost.value));
   effect(() => {
     document.documentElement.dataset.theme = store.theme.value;

@@ -1,8 +1,9 @@
 // The strip of results: pictures from one direction, scores, stars.
 
 import { useEffect, useRef } from "preact/hooks";
-import { HEIGHT, thumbnail, WIDTH } from "../stage/thumbs";
+import { HEIGHT, later, thumbnail, WIDTH } from "../stage/thumbs";
 import type { Outcome, Shape } from "../messages";
+import { onPictureOf, pictureOf } from "../pictures";
 import * as store from "../store";
 import { Icon } from "./icons";
 
@@ -13,11 +14,18 @@ const waiting = new Map<string, () => void>();
 store.onShape((shape, payload) => {
   if (shape.what !== "result" || shape.key == null) return;
   const name = store.nameOf(shape.key);
-  if (shape.detail === "light" || !shapes.has(name)) shapes.set(name, [shape, payload]);
+  if (shape.detail !== "light" && shapes.has(name)) return;
+  shapes.set(name, [shape, payload]);
   waiting.get(name)?.();
 });
 
 export const shapeOf = (name: string): [Shape, ArrayBuffer] | undefined => shapes.get(name);
+
+/** How much of what is wanted a result covers, and how much of it is elsewhere; rounded to the worse side. */
+export function fits(one: Outcome): string {
+  if (one.covered === null || one.outside === null) return "";
+  return `${Math.floor(100 * one.covered + 1e-9)} % covered, ${Math.ceil(100 * one.outside - 1e-9)} % outside`;
+}
 
 export function Gallery() {
   const view = store.view.value;
@@ -51,17 +59,29 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
   const theme = store.theme.value;
   useEffect(() => {
     const draw = () => {
+      if (canvas.current === null) return;
+      const picture = pictureOf(name);
+      if (picture !== undefined) {
+        fitted(canvas.current, picture);
+        canvas.current.dataset.drawn = "yes";
+        return;
+      }
       const found = shapes.get(name);
-      if (found === undefined || canvas.current === null) return;
+      if (found === undefined) return;
       thumbnail(canvas.current, found[0], found[1], theme, found[0].low, found[0].high);
       canvas.current.dataset.drawn = "yes";
     };
-    waiting.set(name, draw);
-    if (shapes.has(name)) draw();
+    const wait = () => later(draw);
+    waiting.set(name, wait);
+    onPictureOf(name, wait);
+    if (shapes.has(name) || pictureOf(name) !== undefined) wait();
     else void store.tell({ kind: "show", key: outcome.key, detail: "light" });
-    return () => void waiting.delete(name);
+    return () => {
+      waiting.delete(name);
+      onPictureOf(name, null);
+    };
   }, [name, theme]);
-  const share = outcome.similarity === null ? "" : `${(100 * outcome.similarity).toFixed(1)} %`;
+  const share = outcome.note || fits(outcome);
   const score = outcome.log_score === null ? "impossible" : outcome.log_score.toFixed(1);
   return (
     <div
@@ -69,13 +89,16 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       role="option"
       tabIndex={isPicked ? 0 : -1}
       aria-selected={isPicked}
-      aria-label={`Result ${number}, score ${score}, ${share} agreement${isStarred ? ", starred" : ""}`}
+      aria-label={`Result ${number}, score ${score}, ${share}${isStarred ? ", starred" : ""}`}
       onClick={() => void store.tell({ kind: "pick", key: outcome.key })}
     >
       <canvas ref={canvas} width={WIDTH} height={HEIGHT} />
       <div class="caption">
         <b>{number}</b>
-        <span title={`log score ${score}`}>{share || score}</span>
+        <span title={`${share || "no target"}, log score ${score}`}>
+          {outcome.note !== "" ? outcome.note : outcome.covered === null ? score : `${Math.floor(100 * outcome.covered + 1e-9)} %`}
+          {outcome.outside !== null && <em>−{Math.ceil(100 * outcome.outside - 1e-9)} %</em>}
+        </span>
         <button
           class="icon-button tiny star"
           aria-pressed={isStarred}
@@ -90,4 +113,14 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       </div>
     </div>
   );
+}
+
+/** Draws a picture whole, in the middle. */
+function fitted(canvas: HTMLCanvasElement, picture: ImageBitmap): void {
+  const pen = canvas.getContext("2d")!;
+  const scale = Math.min(WIDTH / picture.width, HEIGHT / picture.height);
+  const [wide, high] = [picture.width * scale, picture.height * scale];
+  pen.clearRect(0, 0, WIDTH, HEIGHT);
+  pen.imageSmoothingQuality = "high";
+  pen.drawImage(picture, (WIDTH - wide) / 2, (HEIGHT - high) / 2, wide, high);
 }

@@ -1,8 +1,11 @@
 // The right side: the part that is selected, its place in the source, its choices.
 
+import { useState } from "preact/hooks";
 import { isBelow } from "../stage/meshes";
 import type { ChoiceInfo, Place } from "../messages";
 import * as store from "../store";
+import { Balance } from "./balance";
+import { Field } from "./fields";
 import { Icon } from "./icons";
 
 const SHOWN = 150;
@@ -53,7 +56,23 @@ export function Inspector() {
             </button>
           </div>
         )}
+        {here !== "" && (
+          <label class="row" title="How different the variants are from this part">
+            <span>variants</span>
+            <input
+              type="range"
+              min={0}
+              max={1}
+              step={0.25}
+              value={store.strength.value}
+              aria-label="how different variants are"
+              onInput={(event) => (store.strength.value = Number(event.currentTarget.value))}
+            />
+            <output>{["alike", "near", "some", "far", "unlike"][Math.round(4 * store.strength.value)]}</output>
+          </label>
+        )}
       </section>
+      {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
           <div key={call} role="group" aria-label={call || "its own choices"}>
@@ -127,6 +146,7 @@ function grouped(choices: ChoiceInfo[], here: string): [string, ChoiceInfo[]][] 
 
 function Choice({ choice }: { choice: ChoiceInfo }) {
   const name = choice.address.split("/").pop()!;
+  const [moving, setMoving] = useState<number | null>(null);
   const isBoolean = typeof choice.value === "boolean";
   const isPinned = store.pinned.value.has(choice.address);
   const set = (value: number | boolean, phase: "move" | "end") =>
@@ -144,21 +164,23 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
             onChange={(event) => set(event.currentTarget.checked, "end")}
           />
         ) : choice.low === null ? null : (
-          <input
+          <Field
             type="range"
             min={choice.low}
             max={choice.high ?? undefined}
             step={step || "any"}
             value={choice.value}
-            onInput={(event) => {
-              const value = Number(event.currentTarget.value);
-              event.currentTarget.nextElementSibling!.textContent = shown(value);
-              set(value, "move");
+            onMove={(text) => {
+              setMoving(Number(text));
+              set(Number(text), "move");
             }}
-            onChange={(event) => set(Number(event.currentTarget.value), "end")}
+            onEnd={(text) => {
+              setMoving(null);
+              set(Number(text), "end");
+            }}
           />
         )}
-        <output>{shown(choice.value)}</output>
+        <output>{shown(moving ?? choice.value)}</output>
       </label>
       <button
         class="icon-button tiny"

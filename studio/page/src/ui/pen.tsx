@@ -1,7 +1,8 @@
 // The pen: strokes over the view become a silhouette that is asked for, seen by the camera of that moment.
 
 import { useEffect, useRef } from "preact/hooks";
-import type { Eye, Sketch, Stroke } from "../messages";
+import type { Difference, Eye, Sketch, Stroke } from "../messages";
+import { KINDS, pixels } from "../stage/cells";
 import * as store from "../store";
 import { stage } from "./canvas";
 
@@ -33,7 +34,12 @@ export function Pen() {
       pen.stroke();
     }
   };
-  useEffect(() => redraw(isSeen ? sketch!.strokes : []), [sketch, isSeen, store.theme.value]);
+  const found = store.showDifference.value ? store.difference.value : null;
+  const isCompared = isSeen && found?.header.is_picture === true && found.header.low[0] === found.header.high[0];
+  useEffect(() => {
+    redraw(isSeen && !isCompared ? sketch!.strokes : []);
+    if (isCompared) overlay(canvas.current!, found!.header, found!.marks);
+  }, [sketch, isSeen, isCompared, found, store.theme.value]);
 
   const point = (event: PointerEvent): [number, number] => {
     const high = canvas.current!.clientHeight;
@@ -45,8 +51,12 @@ export function Pen() {
     if (stroke === null) return;
     const { clientWidth, clientHeight } = canvas.current!;
     const kept = isSeen ? sketch!.strokes : [];
-    const ask: Sketch = { strokes: [...kept, stroke], aspect: clientWidth / clientHeight, camera: isFlat ? null : stage.eye() };
-    void store.tell({ kind: "ask", ask: { sketch: ask } });
+    const camera = isFlat ? null : stage.eye();
+    const kind = isFlat ? "silhouette" : store.sketchKind.value;
+    const drawn: Sketch = { strokes: [...kept, stroke], aspect: clientWidth / clientHeight, camera, kind };
+    // The first stroke of a shadow puts the light where its shadow is seen.
+    const light = kind === "shadow" && sketch?.kind !== "shadow" ? { light: stage.lightFromBehind() } : {};
+    store.ask({ sketch: drawn, ...light });
   };
   return (
     <>
@@ -80,12 +90,25 @@ export function Pen() {
               onInput={(event) => (store.penWidth.value = Number(event.currentTarget.value))}
             />
           </label>
+          {!isFlat && (
+            <select
+              aria-label="What the strokes are"
+              value={sketch?.kind ?? store.sketchKind.value}
+              onChange={(event) => {
+                store.sketchKind.value = event.currentTarget.value as "silhouette" | "shadow";
+                if (sketch !== null) store.ask({ sketch: { ...sketch, kind: store.sketchKind.value } });
+              }}
+            >
+              <option value="silhouette">a silhouette</option>
+              <option value="shadow">a shadow on the floor</option>
+            </select>
+          )}
           {sketch?.camera != null && !isSeen && (
             <button class="text-button" onClick={() => stage.lookFrom(sketch.camera!)}>
               back to its view
             </button>
           )}
-          <button class="text-button" disabled={sketch === null} onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+          <button class="text-button" disabled={sketch === null} onClick={() => store.ask({ sketch: null })}>
             clear
           </button>
           <button class="button small" onClick={() => ((store.tool.value = "look"), store.run())} disabled={sketch === null}>
@@ -95,4 +118,13 @@ export function Pen() {
       )}
     </>
   );
+}
+
+/** The pixels of a picture over the view of its camera. */
+function overlay(page: HTMLCanvasElement, { size }: Difference, marks: Uint8Array): void {
+  const small = new OffscreenCanvas(size[0], size[1]);
+  small.getContext("2d")!.putImageData(new ImageData(pixels(marks, KINDS[store.theme.value], 190), size[0], size[1]), 0, 0);
+  const pen = page.getContext("2d")!;
+  pen.imageSmoothingEnabled = false;
+  pen.drawImage(small, 0, 0, page.width, page.height);
 }

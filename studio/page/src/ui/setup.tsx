@@ -1,39 +1,47 @@
 // The left side: the model and its arguments, what to grow into, how to search.
 
-import { useRef } from "preact/hooks";
-import type { Parameter, Settings, TargetAsk } from "../messages";
+import type { ModelInfo, Parameter, Settings } from "../messages";
 import * as store from "../store";
+import { Drop } from "./drop";
+import { Field } from "./fields";
 import { Icon } from "./icons";
+import { Handles, Objects, title } from "./objects";
 
-const title = (name: string): string => {
-  const bare = name.replace(/^.*\//, "").replace("gallery:", "").replace(/_/g, " ");
-  return bare.startsWith("upload:") ? "your mesh" : bare;
-};
+const GROUPS: [string, (one: ModelInfo) => boolean][] = [
+  ["Yours", (one) => one.is_file],
+  ["Scenes", (one) => !one.is_file && one.kind === "scene"],
+  ["Structures that stand", (one) => !one.is_file && one.kind === "structure"],
+  ["Drawings to colour", (one) => one.kind === "coloring"],
+];
 
-/** The target as it is asked, or the model's usual one. */
-export function currentTarget(): TargetAsk | null {
-  const view = store.view.value;
-  if (view === null || view.ask.sketch != null) return null;
-  return view.ask.target ?? (view.model?.target ? { source: view.model.target } : null);
-}
-
-export function Setup({ handles, setHandles }: { handles: string | null; setHandles: (mode: any) => void }) {
+export function Setup() {
   const view = store.view.value;
   if (view === null) return <aside class="side" aria-label="Model and target" />;
+  const { model } = view;
+  // A drawing that was sent is not listed.
+  const isListed = model === null || view.models.some((one) => one.reference === model.reference);
+  const known = isListed ? view.models : [...view.models, model];
   return (
     <aside class="side" aria-label="Model and target">
       <section>
-        <h2>Model</h2>
+        <h2>{store.kind.value === "coloring" ? "Drawing" : "Model"}</h2>
         <select
           aria-label="Model"
           value={view.model?.reference ?? ""}
           onChange={(event) => void store.tell({ kind: "model", reference: event.currentTarget.value })}
         >
-          {view.models.map((one) => (
-            <option key={one.reference} value={one.reference}>
-              {title(one.reference)}
-            </option>
-          ))}
+          {GROUPS.map(([name, isIn]) => {
+            const members = known.filter(isIn);
+            return members.length === 0 ? null : (
+              <optgroup key={name} label={name}>
+                {members.map((one) => (
+                  <option key={one.reference} value={one.reference}>
+                    {title(one.reference)}
+                  </option>
+                ))}
+              </optgroup>
+            );
+          })}
         </select>
         <p class="quiet">{view.model?.title}</p>
         {(view.model?.parameters ?? [])
@@ -41,8 +49,10 @@ export function Setup({ handles, setHandles }: { handles: string | null; setHand
           .map((one) => (
             <Argument key={one.name} parameter={one} />
           ))}
+        {store.kind.value === "coloring" && <Drop what="drawing" />}
       </section>
-      <Target handles={handles} setHandles={setHandles} />
+      {store.kind.value === "scene" && <Target />}
+      {store.kind.value === "scene" && <Objects />}
       <Search settings={view.settings} />
     </aside>
   );
@@ -64,28 +74,22 @@ function Argument({ parameter }: { parameter: Parameter }) {
     return (
       <label class="row">
         <span>{parameter.name}</span>
-        <input type="text" value={value} onChange={(event) => set(event.currentTarget.value)} />
+        <Field type="text" value={value} onEnd={set} />
       </label>
     );
   }
   return (
     <label class="row">
       <span>{parameter.name}</span>
-      <input
-        type="number"
-        step={isWhole ? 1 : "any"}
-        value={value}
-        onChange={(event) => event.currentTarget.value !== "" && set(Number(event.currentTarget.value))}
-      />
+      <Field type="number" step={isWhole ? 1 : "any"} value={value} onEnd={(text) => text !== "" && set(Number(text))} />
     </label>
   );
 }
 
-function Target({ handles, setHandles }: { handles: string | null; setHandles: (mode: any) => void }) {
+function Target() {
   const view = store.view.value!;
-  const input = useRef<HTMLInputElement>(null);
-  const target = currentTarget();
-  const place = (source: string) => void store.tell({ kind: "ask", ask: { target: { source } } });
+  const target = store.target.value;
+  const place = (source: string) => store.ask({ target: { source } });
   const isSketched = view.ask.sketch != null;
   const own = target?.source.startsWith("upload:") ? [target.source] : [];
   return (
@@ -93,8 +97,8 @@ function Target({ handles, setHandles }: { handles: string | null; setHandles: (
       <h2>Grow into</h2>
       {isSketched ? (
         <div class="group">
-          <span>What you drew</span>
-          <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+          <span>{view.ask.sketch?.kind === "shadow" ? "The shadow you drew" : "What you drew"}</span>
+          <button class="text-button" onClick={() => store.ask({ sketch: null })}>
             clear
           </button>
         </div>
@@ -126,97 +130,85 @@ function Target({ handles, setHandles }: { handles: string | null; setHandles: (
       )}
       {target !== null && (
         <div class="group" role="group" aria-label="Place the target">
-          {(
-            [
-              ["translate", "Move"],
-              ["scale", "Scale"],
-              ["rotate", "Turn"],
-            ] as const
-          ).map(([mode, name]) => (
-            <button
-              key={mode}
-              class="button small"
-              aria-pressed={handles === mode}
-              onClick={() => setHandles(handles === mode ? null : mode)}
-            >
-              {name}
-            </button>
-          ))}
+          <Handles name="target" />
           {view.ask.target != null && (
-            <button class="text-button" onClick={() => void store.tell({ kind: "ask", ask: {} })}>
+            <button class="text-button" onClick={() => store.ask({ target: null })}>
               reset
             </button>
           )}
         </div>
       )}
-      <button class="drop" onClick={() => input.current?.click()}>
-        Drop a mesh here <span>OBJ, STL, PLY, GLB</span>
-      </button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        accept=".obj,.stl,.ply,.glb,.gltf"
-        aria-label="A mesh to grow into"
-        onChange={(event) => {
-          const file = event.currentTarget.files?.[0];
-          if (file) void store.uploaded(file);
-          event.currentTarget.value = "";
-        }}
-      />
+      <Drop what="mesh" />
     </section>
   );
 }
 
+const STRENGTHS = ["best", "little", "some", "more", "most"];
+
 function Search({ settings }: { settings: Settings }) {
   const view = store.view.value!;
-  const set = (changes: Settings) => void store.tell({ kind: "set", settings: { ...settings, ...changes } });
+  const { set } = store;
   const running = view.searching;
-  const cannot = view.model === null || (view.model.draws === null && currentTarget() === null && !view.ask.sketch);
+  const isScene = store.kind.value === "scene";
+  const cannot = view.model === null || (isScene && view.model.draws === null && store.target.value === null && !view.ask.sketch);
+  const verb = store.kind.value === "coloring" ? "Colour" : "Grow";
   return (
     <section>
       <h2>Search</h2>
       <label class="row">
         <span>results</span>
-        <input
+        <Field
           type="range"
           min={1}
           max={16}
           value={settings.count}
           aria-valuetext={`${settings.count} results`}
-          onChange={(event) => set({ count: Number(event.currentTarget.value) })}
+          onEnd={(text) => set({ count: Number(text) })}
         />
         <output>{settings.count}</output>
       </label>
+      {isScene && (
+        <label class="row" title="Which of the results that were found: the best, or those that look most different">
+          <span>different</span>
+          <Field
+            type="range"
+            min={0}
+            max={1}
+            step={0.25}
+            value={settings.strength}
+            aria-label="how different"
+            aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
+            onEnd={(text) => set({ strength: Number(text) })}
+          />
+          <output>{STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}</output>
+        </label>
+      )}
       <label class="row">
         <span>effort</span>
-        <input
+        <Field
           type="range"
           min={-2}
           max={3}
           step={1}
           value={Math.log2(settings.effort ?? 1)}
           aria-valuetext={`${settings.effort} times`}
-          onChange={(event) => set({ effort: 2 ** Number(event.currentTarget.value) })}
+          onEnd={(text) => set({ effort: 2 ** Number(text) })}
         />
         <output>{settings.effort}×</output>
       </label>
       <label class="row">
         <span>seed</span>
-        <input
+        <Field
           type="number"
           min={0}
           placeholder="another each time"
           value={settings.seed ?? ""}
-          onChange={(event) => {
-            const text = event.currentTarget.value;
-            set({ seed: text === "" ? null : Number(text) });
-          }}
+          onEnd={(text) => set({ seed: text === "" ? null : Number(text) })}
         />
       </label>
       {running === null ? (
-        <button class="primary" disabled={cannot} onClick={store.run} title="Grow (Enter)">
-          {view.pins.length > 0 ? "Grow the rest" : "Grow"}
+        <button class="primary" disabled={cannot} onClick={store.run} title={`${verb} (Enter)`}>
+          {view.pins.length > 0 ? `${verb} the rest` : verb}
         </button>
       ) : (
         <button class="primary stop" onClick={store.stop} title="Stop and keep what is there (Esc)">

@@ -1,0 +1,254 @@
+//! Where the shapes of a run are, as functions of its continuous choices.
+//!
+//! The coordinates are the values of the choices themselves, within their supports. The point of a shape is its middle
+//! plus a sum of three directions that the shape was made with (`niwaki_vm::builtins::shapes`), so a point fixed to a
+//! shape moves, turns and stretches with it. Its derivatives are three reverse sweeps over the recorded graph. Factors,
+//! observations and scores of the scene are not looked at: an impossible run has positions, too.
+//!
+//! Where numbers of the program may move, a choice whose distribution they change keeps its place in it: so many
+//! deviations from the mean, or its share of the way between two bounds.
+
+use crate::graph::{Graph, Id};
+use crate::operation::Op;
+use crate::record::HostCall;
+use crate::reverse;
+use crate::scalar::{Var, with_notes};
+use crate::tape::{Lanes, Tape};
+use niwaki_geom::Shape;
+use niwaki_math::{Dist, Draw, Scalar, Support};
+use niwaki_vm::builtins::{draw_to_value, value_to_draw};
+use niwaki_vm::code::Program;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::held::Held;
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::machine::{Limits, Machine};
+use niwaki_vm::value::Value;
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// A number that may move: a real choice, or a number that the program was given.
+#[derive(Clone, Debug)]
+pub struct Movable {
+    /// Hash of the choice's address; the number of the input, for one that is no choice.
+    pub address: u128,
+    /// Its readable address; empty for an input.
+    pub path: String,
+    /// Its value in the run.
+    pub value: f64,
+    /// Its support; infinite where there is no bound.
+    pub low: f64,
+    /// The same.
+    pub high: f64,
+    /// How far it usually varies: the deviation of a uniform number between two bounds, the scale of a family on the
+    /// line, the distance from one bound, a radian for an angle; in units of its value.
+    pub spread: f64,
+    /// Whether it is an angle, without bounds.
+    pub is_angle: bool,
+}
+
+/// A shape of a part. The numbers are of its middle and three directions; none where it does not vary.
+type Framed = Option<[Id; 12]>;
+
+/// The positions of a run's shapes.
+pub struct Positions {
+    /// What they depend on, in the order of the run.
+    pub movables: Vec<Movable>,
+    /// The parts of the scene: their readable addresses, and their shapes.
+    pub parts: Vec<(String, Vec<Framed>)>,
+    /// Choices that keep their place in a distribution that inputs change: their addresses and values.
+    followed: Vec<(u128, Id)>,
+    graph: Graph,
+}
+
+/// The program of a run and its arguments, of the inputs that they are given.
+pub type Given<'a> = dyn Fn(&[Var]) -> Result<(Arc<Program<Var>>, Vec<Value<Var>>), Fault> + 'a;
+
+/// A run whose positions are wanted.
+pub struct Placed<'a> {
+    /// The program and its arguments, made while the run is recorded.
+    pub given: &'a Given<'a>,
+    /// Numbers that they are given and that may move: no choices, but arguments or numbers in the source.
+    pub inputs: Vec<Movable>,
+    /// Choices whose values are given, and observed.
+    pub held: Option<&'a Held<Var>>,
+    /// The limits of the run.
+    pub limits: Limits,
+    /// Pure functions of the host.
+    pub host: &'a HostCall<'a>,
+    /// The values of all choices, by address.
+    pub choices: &'a HashMap<u128, Value>,
+    /// The addresses of the real choices that may move.
+    pub free: &'a HashSet<u128>,
+}
+
+struct Placer<'a> {
+    run: &'a Placed<'a>,
+    movables: Vec<Movable>,
+    parts: Vec<(String, Vec<Vec<Var>>)>,
+    followed: Vec<(u128, Var)>,
+}
+
+/// Records the positions of a run.
+///
+/// # Errors
+/// A missing choice, or a fault of the program.
+pub fn positions(run: &Placed<'_>) -> Result<Positions, Box<RunFault>> {
+    let mut placer = Placer { run, movables: run.inputs.clone(), parts: vec![], followed: vec![] };
+    let (finished, sheet) = with_notes(|| {
+        let inputs: Vec<Var> = run.inputs.iter().map(|input| Var::input(input.value)).collect();
+        let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
+        let (program, args) = (run.given)(&inputs).map_err(bare)?;
+        let mut machine = Machine::new(&program, run.limits).holding(run.held);
+        let mut state = machine.start(&args, true).map_err(bare)?;
+        state.remember_origins();
+        machine.finish(&mut state, &mut placer)?;
+        Ok::<(), Box<RunFault>>(())
+    });
+    finished?;
+    let mut graph = sheet.graph;
+    let mut framed = |numbers: Vec<Var>| -> Framed {
+        let numbers: [Var; 12] = numbers.try_into().ok()?;
+        numbers.iter().any(|x| x.varies()).then(|| numbers.map(|x| x.id(&mut graph)))
+    };
+    let parts = placer.parts.into_iter();
+    let parts = parts.map(|(path, shapes)| (path, shapes.into_iter().map(&mut framed).collect())).collect();
+    let followed = placer.followed.into_iter().map(|(address, x)| (address, x.id(&mut graph))).collect();
+    Ok(Positions { movables: placer.movables, parts, followed, graph })
+}
+
+impl Placer<'_> {
+    /// A real choice that may move; `None` for another.
+    fn moving(&mut self, at: &At<'_, Var>, dist: &Dist<Var>, x: f64) -> Option<Var> {
+        let (address, number) = (at.address(), |bound: Option<Var>, or: f64| bound.map_or(or, Scalar::value));
+        let (low, high, is_angle) = match dist.support() {
+            _ if !self.run.free.contains(&address) => return None,
+            Support::Reals(one) => (number(one.lo, f64::NEG_INFINITY), number(one.hi, f64::INFINITY), false),
+            Support::Circle => (f64::NEG_INFINITY, f64::INFINITY, true),
+            _ => return None,
+        };
+        let spread = match (low.is_finite(), high.is_finite()) {
+            (true, true) => (high - low) / 12.0_f64.sqrt(),
+            (true, false) => x - low,
+            (false, true) => high - x,
+            (false, false) => dist.scale().map_or(1.0, Scalar::value),
+        };
+        let path = at.path();
+        self.movables.push(Movable { address, path, value: x, low, high, spread, is_angle });
+        Some(Var::input(x))
+    }
+}
+
+/// The value with the place in its distribution that `x` has in the recorded one; `None` for families without one.
+fn keeping_its_place(dist: &Dist<Var>, x: f64) -> Option<Var> {
+    let c = Var::from_f64;
+    let scaled = |from: Var, by: Var| from + c((x - from.value()) / by.value()) * by;
+    match dist {
+        Dist::Gaussian { mean, sd } => Some(scaled(*mean, *sd)),
+        Dist::Laplace { loc, scale } => Some(scaled(*loc, *scale)),
+        Dist::Uniform { lo, hi } => Some(scaled(*lo, *hi - *lo)),
+        _ => None,
+    }
+}
+
+impl Answers<Var> for Placer<'_> {
+    fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
+        if let Dist::Delta(value) = dist {
+            return Ok(Answer::Go(draw_to_value(value.clone())));
+        }
+        let Some(given) = self.run.choices.get(&at.address()) else {
+            let path = at.path();
+            return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
+                .about(path)
+                .with_help("record with the model that the choices are from"));
+        };
+        let Some(draw) = value_to_draw(given) else {
+            return Err(Fault::type_mismatch(format!("no distribution draws {}", given.described())));
+        };
+        if let Draw::Real(x) = draw
+            && let Some(moving) = self.moving(at, dist, x)
+        {
+            return Ok(Answer::Go(Value::Real(moving)));
+        }
+        if let Draw::Real(x) = draw
+            && let Some(same) = keeping_its_place(dist, x).filter(|same| same.varies())
+        {
+            self.followed.push((at.address(), same));
+            return Ok(Answer::Go(Value::Real(same.at(x))));
+        }
+        Ok(Answer::Go(draw_to_value(draw.convert(&Var::from_f64))))
+    }
+
+    fn score(&mut self, _: &At<'_, Var>, _: Factor, _: Var) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
+
+    fn emit(&mut self, at: &At<'_, Var>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
+        let noted = shapes.iter().map(|shape| Var::noted(shape.address())).collect();
+        self.parts.push((at.path(), noted));
+        Ok(Answer::Go(()))
+    }
+
+    fn query(&mut self, _: &At<'_, Var>, _: &Value<Var>, _: &Value<Var>) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    /// What a host function gives does not vary: its derivative is not known.
+    fn host(&mut self, constant: u16, args: &[Value<Var>], _: &mut u64) -> Result<Value<Var>, Fault> {
+        let given: Vec<Value> = args.iter().map(|arg| arg.convert(&Var::value)).collect();
+        Ok((self.run.host)(constant, &given)?.convert(&Var::from_f64))
+    }
+}
+
+impl Positions {
+    /// The middle of a shape and its three directions, scene units; `None` where nothing that may move moves it.
+    ///
+    /// # Panics
+    /// When there is no such part or shape.
+    pub fn frame(&self, part: usize, shape: usize) -> Option<Vec<f64>> {
+        self.parts[part].1[shape].map(|frame| self.numbers(&self.graph, &frame))
+    }
+
+    /// The derivatives of the point `middle + sum(share * direction)` by all movables, scene units for each unit of a
+    /// value: the three rows one after another. `None` as for [`Positions::frame`].
+    ///
+    /// # Panics
+    /// As for [`Positions::frame`].
+    pub fn slopes(&self, part: usize, shape: usize, shares: [f64; 3]) -> Option<Vec<f64>> {
+        let frame = self.parts[part].1[shape]?;
+        let mut graph = self.graph.clone();
+        let mut rows = Vec::with_capacity(3 * self.movables.len());
+        for axis in 0..3 {
+            let mut root = frame[axis];
+            for (k, share) in shares.into_iter().enumerate() {
+                let share = graph.constant(share);
+                let term = graph.binary(Op::Mul, share, frame[3 + 3 * k + axis]);
+                root = graph.add(root, term);
+            }
+            rows.extend(reverse::gradient(&mut graph, root));
+        }
+        Some(self.numbers(&graph, &rows))
+    }
+
+    /// The values of the choices that keep their places, by address, where the movables have the values `x`.
+    ///
+    /// # Panics
+    /// When there is not one number for each movable.
+    pub fn followed(&self, x: &[f64]) -> HashMap<u128, f64> {
+        let nodes: Vec<Id> = self.followed.iter().map(|(_, id)| *id).collect();
+        let addresses = self.followed.iter().map(|(address, _)| *address);
+        addresses.zip(numbers(&self.graph, &nodes, x)).collect()
+    }
+
+    /// Numbers of nodes in the run.
+    fn numbers(&self, graph: &Graph, nodes: &[Id]) -> Vec<f64> {
+        let x: Vec<f64> = self.movables.iter().map(|one| one.value).collect();
+        numbers(graph, nodes, &x)
+    }
+}
+
+fn numbers(graph: &Graph, nodes: &[Id], x: &[f64]) -> Vec<f64> {
+    let tape = Tape::of(graph, nodes, &[]);
+    let mut lanes: Lanes<1> = tape.lanes();
+    lanes.outputs(&tape, x)
+}

@@ -1,0 +1,211 @@
+"""The answers for a point, the least change first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from niwaki import _engine
+from niwaki.draw.scene import Scene
+from niwaki.lang.compiled import translated
+from niwaki.result import Sample, parts
+from niwaki.search.drag.answers import Drag, Dragged, Moved
+from niwaki.search.drag.descent import bounds, descend
+from niwaki.search.drag.held import Held, Place, Point, State, Vector, point_of, triple
+from niwaki.search.drag.reasons import nothing_moves, too_far
+from niwaki.search.drag.structure import structures
+from niwaki.search.source import NEAR, SourceChange, explained
+
+if TYPE_CHECKING:
+    from niwaki.search.request import Search
+
+#: Answers are the same if their choices differ by less than this, in deviations of the priors.
+SAME = 0.05
+#: Another structure that does not reach the point is given as the nearest where it leaves this share at most.
+WORTH = 0.8
+#: Descents from other values where the first ones give no answer, and how far these are, in deviations of the priors.
+ELSEWHERE, AROUND = 6, 0.5
+
+
+class Dragging(Held):
+    """A part that is held, for one point or for many: see `Sample.drag` for the parameters."""
+
+    #: Where the choices were for the last point of a pointer that moves.
+    _warm: Mapping[int, float] = {}
+
+    def source(self, point: Point, most: int = 3) -> list[SourceChange]:
+        """The changes of the model's file that take the part to a point, those that change it least first.
+
+        There are none for a model without a file of its own, such as those of the gallery.
+        """
+        return explained(self, point_of("to", point), most)
+
+    def to(self, point: Point, *, answers: int = 4, structure: bool = True) -> Drag:
+        """The answers for a point: see `Sample.drag`."""
+        goal = point_of("to", point)
+        with translated(self.search.model.name):
+            return self._to(goal, answers, structure)
+
+    def _to(self, goal: Vector, answers: int, structure: bool) -> Drag:
+        begun = self.begun
+        names = set[str]() if begun is None else self.movers(begun)
+        if begun is None or not names:
+            found: list[tuple[str, State]] = []
+        else:
+            found = [
+                (kind, descend(self, goal, self.start, some)) for kind, some in self._kinds(begun, names)
+            ]
+        answered, forbidden = self._possible(found, answers)
+        if found and not answered:
+            others = [("other", state) for state in self._elsewhere(goal, names)]
+            found += others
+            answered, forbidden = self._possible(others, answers, forbidden)
+        if structure and not answered:
+            others = [("structure", state) for state in structures(self, goal)]
+            found += others
+            answered, forbidden = self._possible(others, answers, forbidden)
+        if answered:
+            return Drag(answered)
+        there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
+        if there:
+            near = self._scored(*there[0])
+            return Drag([], near, f"the run is impossible with `{self.start.part}` there: {forbidden}")
+        if not found:
+            return Drag([], None, nothing_moves(self))
+        # Another structure only where it is nearer by a good deal.
+        kind, state = min(found, key=lambda one: one[1].error / (WORTH if one[0] == "structure" else 1.0))
+        return Drag([], self._scored(kind, state), too_far(self, goal, state))
+
+    def _possible(
+        self, found: Sequence[tuple[str, State]], answers: int, forbidden: str = ""
+    ) -> tuple[list[Dragged], str]:
+        """The answers among these: there, different, and possible, the least change first; or what forbids one."""
+        answered: list[Dragged] = []
+        looked_at: list[dict[str, Any]] = []
+        there = [(kind, state) for kind, state in found if state.error <= NEAR * self.size]
+        for kind, state in sorted(there, key=lambda one: self._change(one[1])):
+            after = state.choices
+            if len(answered) >= answers or any(self._is_same(after, other) for other in looked_at):
+                continue
+            looked_at.append(after)
+            one = self._scored(kind, state)
+            if one.sample.cause is None or self.sample.cause is not None:
+                answered.append(one)
+            else:
+                forbidden = forbidden or one.sample.cause
+        return answered, forbidden
+
+    def _elsewhere(self, goal: Vector, names: set[str]) -> list[State]:
+        """Descents that begin at other values of the choices, drawn around those of the run: by the search's seed."""
+        rng = np.random.default_rng(self.search.seed)
+        first = self.begun
+        assert first is not None
+        low, high = bounds(first.ranges)
+        moving = np.array([name in names for _, name, _ in first.movables])
+        found = []
+        for _ in range(ELSEWHERE):
+            drawn = first.ranges[:, 0] + rng.normal(size=len(moving)) * first.ranges[:, 3] * AROUND
+            values = np.clip(drawn, low, high).tolist()
+            warm = {
+                one[0]: value
+                for one, value, is_in in zip(first.movables, values, moving, strict=True)
+                if is_in
+            }
+            # A run with these values may fail, or make other choices.
+            with suppress(_engine.EngineFault):
+                found.append(descend(self, goal, self.start, names, warm, is_near_warm=True))
+        return found
+
+    def move(self, point: Point) -> Moved:
+        """The part with the least change, for a pointer that moves: it goes on from where the last point was."""
+        goal = point_of("to", point)
+        with translated(self.search.model.name):
+            return self._move(goal)
+
+    def _move(self, goal: Vector) -> Moved:
+        begun = self.begun
+        names = set() if begun is None else self.movers(begun)
+        if begun is None or not names:
+            left = self.left(goal, self.middle) / self.size
+            return Moved(Scene(self.start.trace.parts), triple(self.middle), left, nothing_moves(self))
+        state = descend(self, goal, self.start, names, self._warm)
+        self._warm = {} if state.is_other else state.values
+        here = self.whole(state)
+        assert here is not None
+        reason = "" if state.error <= NEAR * self.size else too_far(self, goal, state)
+        scene = Scene(self.replayed(self.task, state).parts)
+        return Moved(scene, triple(here.point), state.error / self.size, reason)
+
+    def _kinds(self, begun: Place, names: set[str]) -> list[tuple[str, set[str]]]:
+        """Sets of choices that may change: the ways in which an edit can be meant."""
+        call = self.start.part.rpartition("/")[0]
+        own = {name for name in names if name.rpartition("/")[0] == call}
+        outer = {name for name in names if "/" not in name}
+        kinds = [("least", names), ("own", own), ("outermost", outer)]
+        reach = begun.reach
+        few = set(sorted(names, key=lambda name: -reach[name])[:3])
+        kinds.append(("fewest", few))
+        kept: list[tuple[str, set[str]]] = []
+        for kind, some in kinds:
+            if some and some not in [other for _, other in kept]:
+                kept.append((kind, some))
+        return kept
+
+    def _change(self, state: State) -> float:
+        """The sum of squares of the changes, in deviations; a changed structure comes after all others."""
+        moved = [
+            (value - self.values[name]) / self.spreads[name]
+            for name, value in state.choices.items()
+            if name in self.spreads
+        ]
+        return float(np.square(moved).sum()) + (1e6 if state.is_other else 0.0)
+
+    def _is_same(self, one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+        """Whether two runs differ by little in all of their choices."""
+        return one.keys() == other.keys() and all(
+            value == other[name]
+            or (isinstance(value, float) and abs(value - other[name]) < SAME * self.spreads.get(name, 0.0))
+            for name, value in one.items()
+        )
+
+    def _scored(self, kind: str, state: State) -> Dragged:
+        trace = self.replayed(self.search.task, state)
+        sample = Sample.of_trace(trace, self.search, self.sample.seed)
+        after = sample.choices
+        changed = {
+            name: (self.values.get(name), after.get(name))
+            for name in dict.fromkeys([*self.values, *after])
+            if self.values.get(name) != after.get(name)
+        }
+        here = self.whole(state)
+        movers = set() if here is None else self.movers(here)
+        call = state.part.rpartition("/")[0]
+        deciding = {*parts.deciding(call), call}
+        free = {choice.path for choice in sample._trace.choices if choice.family != "delta"}
+        holds = {
+            name: value
+            for name, value in after.items()
+            if name in free and (name in movers or name.rpartition("/")[0] in deciding)
+        }
+        return Dragged(sample, changed, state.error, state.error / self.size, kind, state.part, holds)
+
+
+def dragged(
+    search: Search,
+    sample: Sample,
+    part: str,
+    to: Point,
+    *,
+    grab: Point | None = None,
+    along: Point | None = None,
+    lock: Iterable[str] = (),
+    answers: int = 4,
+    structure: bool = True,
+) -> Drag:
+    """Drag a part of a sample of this search: see `Sample.drag`."""
+    return Dragging(search, sample, part, grab=grab, along=along, lock=lock, to=to).to(
+        to, answers=answers, structure=structure
+    )

@@ -1,0 +1,232 @@
+"""A part that is held by a point of it: the run, the point, what may move, and where the point is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki import _engine
+from niwaki.errors import InputError
+from niwaki.errors.settings import bad
+from niwaki.lang.compiled import translated
+from niwaki.once import cached_property
+from niwaki.result import Sample, parts
+from niwaki.targets.sketches import Score
+
+if TYPE_CHECKING:
+    from niwaki.search.request import Search
+
+Vector = NDArray[np.float64]
+Point = Sequence[float]
+
+
+@dataclass(frozen=True)
+class Grip:
+    """A point that is fixed to a shape of a part: a sum of the shape's directions, and an offset that stays."""
+
+    shape: int
+    shares: tuple[float, float, float]
+    offset: Vector
+
+    def at(self, frame: Vector) -> Vector:
+        """Where the point is, given the middle and the directions of the shape, (4, 3)."""
+        return np.asarray(frame[0] + np.asarray(self.shares) @ frame[1:] + self.offset)
+
+
+@dataclass
+class State:
+    """A run, and where its choices have been moved to."""
+
+    trace: _engine.Trace
+    placer: _engine.Placer
+    #: The address of the part that is held in it.
+    part: str
+    values: dict[int, float] = field(default_factory=dict)
+    #: What is left to the point, scene units.
+    error: float = inf
+    #: Whether it makes other choices than the run where the drag begins.
+    is_other: bool = False
+
+    @property
+    def choices(self) -> dict[str, Any]:
+        """The choices where they have been moved to, by readable address."""
+        return {c.path: self.values.get(c.address, c.value) for c in self.trace.choices}
+
+
+@dataclass
+class Place:
+    """The numbers of a descent: what may move, by how much, and the derivatives of the point."""
+
+    movables: list[tuple[int, str, bool]]
+    #: Value, bounds and deviation of each, (n, 4).
+    ranges: Vector
+    #: The point, and its derivatives, (3,) and (3, n).
+    point: Vector
+    slopes: Vector
+
+    @property
+    def reach(self) -> dict[str, float]:
+        """How far each choice moves the point when it changes by its deviation, scene units."""
+        far = np.linalg.norm(self.slopes, axis=0) * self.ranges[:, 3]
+        return {name: float(d) for (_, name, _), d in zip(self.movables, far, strict=True)}
+
+
+class Held:
+    """A part that is held by a point of it: see `Sample.drag` for the parameters."""
+
+    def __init__(
+        self,
+        search: Search,
+        sample: Sample,
+        part: str,
+        *,
+        grab: Point | None = None,
+        along: Point | None = None,
+        lock: Iterable[str] = (),
+        to: Point | None = None,
+    ) -> None:
+        self.search, self.sample = search, sample
+        if not sample.has_ended:
+            raise bad("sample", sample, "a run that has ended", "more time or particles")
+        # Descents do not score the scene, and know by themselves what is held.
+        bare = replace(search, score=Score(), choices=None, polish=None, lock=None)
+        with translated(search.model.name):
+            self.task = bare.task
+            trace = self.task.replay(dict(sample.choices), None)
+            self.start = State(trace, self.task.placer(trace.run), "")
+        scene = [address for address, _ in trace.parts]
+        if not scene:
+            raise InputError(
+                "no-address", pattern=part, name=search.model.name, nearest="none: it has no part"
+            )
+        boxes = np.array([shape.aabb() for _, shapes in trace.parts for shape in shapes])
+        self.size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) or 1.0
+        self.locked = set(sample.held(*lock)) if lock else set()
+        self.locked |= set(search.lock or ())
+        self.across = _projection(along)
+        self.values = {choice.path: choice.value for choice in trace.choices}
+        self._grips = self._gripped(part, grab)
+        self.grip = self._grip(
+            None if grab is None else point_of("grab", grab), None if to is None else point_of("to", to)
+        )
+
+    def _gripped(self, part: str, grab: Point | None) -> list[tuple[int, int, Vector, Any]]:
+        """The shapes of the part: place, number, middle and directions, and the shape."""
+        trace = self.start.trace
+        scene = [address for address, _ in trace.parts]
+        wanted = {n for n, address in enumerate(scene) if _engine.matches(part, address)}
+        if not wanted:
+            choices = [choice.path for choice in trace.choices if choice.family != "delta"]
+            calls = parts.matching(part, choices, scene, self.search.model.name)
+            wanted = {n for n, place in enumerate(scene) if any(place.startswith(f"{c}/") for c in calls)}
+        if not wanted:
+            near = ", ".join(f"`{one}`" for one in _engine.nearest(part, scene))
+            raise InputError("no-address", pattern=part, name=self.search.model.name, nearest=near)
+        free = {choice.address for choice in trace.choices}
+        # A part that is held is placed as well: then nothing moves it, and the reason says so.
+        self.all = self.start.placer.positions({}, free)
+        spreads = np.maximum(self.all.ranges()[:, 3], 1e-12).tolist()
+        self.spreads = {one[1]: spread for one, spread in zip(self.all.movables, spreads, strict=True)}
+        found: list[tuple[int, int, Vector, Any]] = []
+        for n in sorted(wanted):
+            for k, shape in enumerate(trace.parts[n][1]):
+                frame = self.all.frame(n, k)
+                low, high = (np.array(corner) for corner in shape.aabb())
+                middle = np.vstack([(low + high) / 2, np.zeros((3, 3))]) if frame is None else frame
+                found.append((n, k, middle, shape))
+        return found
+
+    def _grip(self, grab: Vector | None, to: Vector | None) -> Grip:
+        """The point that is held.
+
+        It is `grab`, fixed to the shape that it is nearest to; without it the middle of the shape that is nearest to
+        where it should go.
+        """
+        goal = to if grab is None else grab
+
+        def distance(one: tuple[int, int, Vector, Any]) -> float:
+            low, high = (np.array(corner) for corner in one[3].aabb())
+            return 0.0 if goal is None else float(np.linalg.norm(np.clip(goal, low, high) - goal))
+
+        self.at, shape, frame, _ = min(self._grips, key=distance)
+        self.start.part = self.start.trace.parts[self.at][0]
+        if grab is None:
+            return Grip(shape, (0.0, 0.0, 0.0), np.zeros(3))
+        shares = np.linalg.lstsq(frame[1:].T, grab - frame[0], rcond=1e-9)[0]
+        offset = grab - frame[0] - shares @ frame[1:]
+        return Grip(shape, triple(shares), offset)
+
+    def movable(self, state: State) -> set[int]:
+        """Choices that may move: all that are not held."""
+        return {choice.address for choice in state.trace.choices if choice.path not in self.locked}
+
+    def place(self, state: State, free: set[int]) -> Place | None:
+        """The point and its derivatives; None where nothing moves it."""
+        positions = state.placer.positions(state.values, free)
+        number = next((n for n, (address, _) in enumerate(positions.parts) if address == state.part), None)
+        if number is None or self.grip.shape >= positions.parts[number][1]:
+            return None
+        frame = positions.frame(number, self.grip.shape)
+        if frame is None:
+            return None
+        slopes = positions.slopes(number, self.grip.shape, self.grip.shares)
+        assert slopes is not None
+        return Place(positions.movables, positions.ranges(), self.grip.at(frame), slopes)
+
+    def whole(self, state: State) -> Place | None:
+        """The same, with all that may move."""
+        return self.place(state, self.movable(state))
+
+    def left(self, goal: Vector, point: Vector) -> float:
+        """What is left from a point to the goal, scene units."""
+        return float(np.linalg.norm(self.across @ (goal - point)))
+
+    def movers(self, place: Place) -> set[str]:
+        """The choices that move the point."""
+        return {name for name, far in place.reach.items() if far > 1e-9 * self.size}
+
+    @cached_property
+    def begun(self) -> Place | None:
+        """The point in the run where the drag begins, with all that may move."""
+        return self.whole(self.start)
+
+    @property
+    def middle(self) -> Vector:
+        """The middle of the shape that is held, in that run."""
+        return next(frame[0] for n, k, frame, _ in self._grips if (n, k) == (self.at, self.grip.shape))
+
+    def replayed(self, task: _engine.Task, state: State, seed: int | None = None) -> _engine.Trace:
+        """A run with the choices where they have been moved to; others are drawn from the seed."""
+        return task.replay(state.choices, seed)
+
+
+def point_of(name: str, given: Point) -> Vector:
+    """A point of two or three numbers."""
+    point = np.array(given, dtype=np.float64)
+    if point.shape == (2,):
+        point = np.append(point, 0.0)
+    if point.shape != (3,) or not np.isfinite(point).all():
+        raise bad(name, given, "a point of two or three finite numbers", "(1.0, 2.0, 0.0)")
+    return point
+
+
+def triple(point: Vector) -> tuple[float, float, float]:
+    """A point as a tuple."""
+    x, y, z = point.tolist()
+    return x, y, z
+
+
+def _projection(along: Point | None) -> Vector:
+    """The projection along a direction in which distances do not count."""
+    if along is None:
+        return np.eye(3)
+    direction = point_of("along", along)
+    norm = float(np.linalg.norm(direction))
+    if norm == 0.0:
+        raise bad("along", along, "a direction", "(0.0, 0.0, 1.0)")
+    return np.asarray(np.eye(3) - np.outer(direction, direction) / norm**2)

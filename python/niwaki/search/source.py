@@ -1,0 +1,285 @@
+"""A drag that a number of the source explains, as a change of the model's file: a default, or a literal.
+
+The program is recorded once more with each real number of the model's file as something that may move, and no choice. A
+choice whose distribution has such a number keeps its place in it (`crates/grad/src/positions.rs`), so that the mean of
+a `gaussian` explains a value that has moved. Each number alone is tried, and the numbers of one tuple together.
+"""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import inspect
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import niwaki
+from niwaki import _engine
+from niwaki.errors import InputError
+from niwaki.errors.files import write_whole
+from niwaki.errors.source import Span, find_function, span_of
+from niwaki.lang.compiled import compile_core, translated
+from niwaki.lang.lower import lower
+
+if TYPE_CHECKING:
+    from niwaki.search.drag.held import Held, Vector
+    from niwaki.search.request import Search
+
+#: Steps of a descent, and numbers that are tried: those that move the point most.
+STEPS, TRIED = 12, 24
+#: A part is there when what is left is less than this share of the scene's size.
+NEAR = 0.01
+#: Digits of a number that is written.
+DIGITS = 4
+
+
+@dataclass(frozen=True)
+class Edit:
+    """A piece of a line and what takes its place; line and columns from 1, the end excluded."""
+
+    line: int
+    column: int
+    end_column: int
+    before: str
+    after: str
+
+
+@dataclass(frozen=True)
+class SourceChange:
+    """A change of a model's file that takes a part to a point.
+
+    Attributes
+    ----------
+    path : str
+        The file.
+    edits : tuple of Edit
+        What changes.
+    share : float
+        What is left to the point, as a share of the scene's size.
+    choices : dict
+        Choices that keep their places in distributions that have changed, with their values.
+    arguments : dict
+        Arguments whose defaults have changed, by name.
+    """
+
+    path: str
+    edits: tuple[Edit, ...]
+    share: float
+    choices: dict[str, float]
+    arguments: dict[str, float]
+    text: str
+
+    @property
+    def says(self) -> str:
+        """What it does, in a few words."""
+        return "; ".join(f"line {one.line}: {one.before} becomes {one.after}" for one in self.edits)
+
+    @property
+    def changed(self) -> str:
+        """The text of the file with the change."""
+        lines = self.text.split("\n")
+        for one in sorted(self.edits, key=lambda one: (one.line, -one.column)):
+            line = lines[one.line - 1]
+            lines[one.line - 1] = line[: one.column - 1] + one.after + line[one.end_column - 1 :]
+        return "\n".join(lines)
+
+    def difference(self) -> str:
+        """The change as a unified difference."""
+        name = Path(self.path).name
+        before, after = (text.splitlines(keepends=True) for text in (self.text, self.changed))
+        return "".join(difflib.unified_diff(before, after, fromfile=name, tofile=name, n=1))
+
+    def apply(self) -> None:
+        """Write the file, completely or not at all.
+
+        Raises
+        ------
+        InputError
+            `edited-meanwhile`: the file is not what it was when this change was found.
+        """
+        place = Path(self.path)
+        if not place.is_file() or place.read_bytes() != self.text.encode():
+            raise InputError("edited-meanwhile", path=self.path)
+        write_whole(place, self.changed.encode())
+
+
+@dataclass
+class _Number:
+    """A number of the source: its key for the engine, its place and its value."""
+
+    kind: str
+    key: int
+    span: Span
+    value: float
+    name: str = ""
+
+
+def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
+    """The changes of the model's file that take the held point to a goal, those that change the source least first."""
+    model = held.search.model
+    function = getattr(model, "function", None)
+    found = None if function is None else find_function(function)
+    if function is None or found is None:
+        return []
+    file, node = found
+    path = Path(file.path)
+    if not path.is_file() or Path(niwaki.__file__).parent in path.resolve().parents:
+        return []
+    text = path.read_bytes().decode()
+    if tuple(line.rstrip("\r") for line in text.removesuffix("\n").split("\n")) != file.lines:
+        return []
+    core = lower(function, lifts=True)
+    numbers = [
+        _Number("constants", key, span, core.constants[key])
+        for key, span in core.lifted.items()
+        if span.file == file
+    ]
+    args = _arguments(held.search)
+    numbers += [
+        _Number("arguments", place, span_of(default, file), args[place], name)
+        for place, name, default in _defaults(node)
+        if place < len(args) and isinstance(args[place], float) and _value(default) == args[place]
+    ]
+    with translated(model.name):
+        task = _engine.Task(compile_core(core), args)
+        if held.search.lock:
+            task = task.holding(dict(held.search.lock))
+        placer = task.placer(held.start.trace.run)
+        descent = _Descent(held, placer, goal)
+        begun = descent.look(numbers, [one.value for one in numbers], {})
+        reach = {} if begun is None else dict(enumerate(np.linalg.norm(begun.slopes, axis=0).tolist()))
+        moving = [numbers[k] for k in sorted(reach, key=lambda k: -reach[k]) if reach[k] > 0][:TRIED]
+        groups = [[one] for one in moving] + list(_together(moving, ast.parse(text)))
+        changes = [
+            change for group in groups if (change := descent.change(group, file.path, text)) is not None
+        ]
+    # A group of which one number changes is that number alone.
+    different = {one.edits: one for one in reversed(changes) if one.edits}
+    return sorted(different.values(), key=lambda one: sum(map(_size, one.edits)))[:most]
+
+
+@dataclass
+class _Look:
+    """The point, its derivatives by numbers, and what gives the choices that follow them."""
+
+    point: Vector
+    slopes: Vector
+    positions: _engine.Positions
+
+
+class _Descent:
+    """Numbers that are moved until the held point is at a goal."""
+
+    def __init__(self, held: Held, placer: _engine.Placer, goal: Vector) -> None:
+        self.held, self.placer, self.goal = held, placer, goal
+        self.names = {choice.address: choice.path for choice in held.start.trace.choices}
+
+    def look(
+        self, numbers: Sequence[_Number], values: Sequence[float], choices: Mapping[int, float]
+    ) -> _Look | None:
+        """Where the point is with these numbers; None where the run fails or the part is not there."""
+        kinds: dict[str, dict[int, float]] = {"arguments": {}, "constants": {}}
+        for one, value in zip(numbers, values, strict=True):
+            kinds[one.kind][one.key] = value
+        try:
+            positions = self.placer.positions(choices, set(), **kinds)
+        except _engine.EngineFault:
+            return None
+        grip, part = self.held.grip, self.held.start.part
+        number = next((n for n, (address, _) in enumerate(positions.parts) if address == part), None)
+        frame = None if number is None else positions.frame(number, grip.shape)
+        if number is None or frame is None:
+            return None
+        slopes = positions.slopes(number, grip.shape, grip.shares)
+        assert slopes is not None
+        # The engine's order: arguments, then constants, each by their numbers.
+        order = sorted(range(len(numbers)), key=lambda k: (numbers[k].kind, numbers[k].key))
+        place = {k: n for n, k in enumerate(order)}
+        return _Look(grip.at(frame), slopes[:, [place[k] for k in range(len(numbers))]], positions)
+
+    def change(self, numbers: list[_Number], path: str, text: str) -> SourceChange | None:
+        """The change of these numbers that takes the point to the goal; None where none does."""
+        numbers = sorted(numbers, key=lambda one: (one.kind, one.key))
+        across, size = self.held.across, self.held.size
+        values, choices = [one.value for one in numbers], dict[int, float]()
+        scale = np.maximum(np.abs(values), 0.01 * size)
+        here = self.look(numbers, values, choices)
+        for _ in range(STEPS):
+            if here is None:
+                return None
+            rows, left = across @ here.slopes * scale, across @ (self.goal - here.point)
+            if np.linalg.norm(left) < 1e-4 * size:
+                break
+            step = (
+                rows.T @ np.linalg.lstsq(rows @ rows.T + 1e-9 * np.trace(rows @ rows.T) * np.eye(3), left)[0]
+            )
+            values = [float(x + by) for x, by in zip(values, np.clip(step, -2.0, 2.0) * scale, strict=True)]
+            choices = {**choices, **here.positions.followed(values)}
+            here = self.look(numbers, values, choices)
+        rounded = [float(f"{x:.{DIGITS}g}") for x in values]
+        if here is None:
+            return None
+        choices = {**choices, **here.positions.followed(rounded)}
+        here = self.look(numbers, rounded, choices)
+        share = np.inf if here is None else float(np.linalg.norm(across @ (self.goal - here.point))) / size
+        if share > NEAR or any(abs(x) > 1e6 for x in rounded):
+            return None
+        edits = tuple(
+            Edit(one.span.line, one.span.column, one.span.end_column, one.span.text, repr(x))
+            for one, x in zip(numbers, rounded, strict=True)
+            if x != one.value
+        )
+        return SourceChange(
+            path,
+            edits,
+            share,
+            {self.names[address]: x for address, x in choices.items() if address in self.names},
+            {one.name: x for one, x in zip(numbers, rounded, strict=True) if one.name},
+            text,
+        )
+
+
+def _arguments(search: Search) -> list[Any]:
+    """All arguments of a search by position, defaults included."""
+    bound = inspect.signature(search.model.function).bind(*search.args)
+    bound.apply_defaults()
+    return [bound.arguments[name] for name in search.model.core().parameters]
+
+
+def _defaults(node: ast.FunctionDef | ast.Lambda) -> Iterator[tuple[int, str, ast.expr]]:
+    """The parameters with defaults: place, name, and the default's expression."""
+    every = [*node.args.posonlyargs, *node.args.args]
+    first = len(every) - len(node.args.defaults)
+    for k, default in enumerate(node.args.defaults):
+        yield first + k, every[first + k].arg, default
+
+
+def _value(node: ast.expr) -> float | None:
+    """The number that an expression writes."""
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        inner = _value(node.operand)
+        return None if inner is None else -inner
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, float) else None
+
+
+def _together(numbers: Sequence[_Number], tree: ast.Module) -> Iterator[list[_Number]]:
+    """Numbers that stand in one tuple or `vec`, two or more."""
+    for node in ast.walk(tree):
+        is_vec = (
+            isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == "vec"
+        )
+        inside = node.args if isinstance(node, ast.Call) and is_vec else getattr(node, "elts", [])
+        places = {(one.lineno, one.col_offset + 1) for one in inside if _value(one) is not None}
+        group = [one for one in numbers if (one.span.line, one.span.column) in places]
+        if len(group) > 1:
+            yield group
+
+
+def _size(edit: Edit) -> float:
+    """How much an edit changes its number, as a share of it."""
+    before, after = float(edit.before.replace(" ", "")), float(edit.after)
+    return abs(after - before) / max(abs(before), 0.1)

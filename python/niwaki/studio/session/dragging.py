@@ -1,0 +1,69 @@
+"""A part that is dragged: of the points of a pointer that moves the newest is shown; at its end there are results."""
+
+from __future__ import annotations
+
+import secrets
+from typing import Any
+
+import msgspec
+
+from niwaki.studio import messages as m
+from niwaki.studio.session.state import Session, of_model
+from niwaki.studio.window import Window
+
+#: The effort with which the rest is grown again.
+EFFORT = 0.25
+
+
+async def drag(session: Session, window: Window, command: m.Drag) -> m.Answer | None:
+    """Drag a part of the picked result."""
+    picked, is_end = session.document.picked, command.phase == "end"
+    source = session.source(picked)
+    session.dragged = command
+    async with session.dragging:
+        if session.dragged is not command or command.phase == "cancel":
+            return None
+        job = m.DragPart(
+            **source,
+            **(session.fresh_run() if is_end else {}),
+            question=session.question(),
+            part=command.part,
+            to=command.to,
+            grab=command.grab,
+            along=command.along,
+        )
+
+        def report(found: Any, payload: bytes) -> None:
+            if isinstance(found, m.Dragged):
+                window.tell(msgspec.structs.replace(found, id=command.id))
+            else:
+                session.reported(found, payload)
+
+        answer = await session.desk.do(job, report)
+    if answer.outcomes:
+        found = of_model(answer.outcomes, job.question.model)
+        session.placed("drag", picked, found)
+        if command.follow:
+            await _follow(session, found[0].key, job.question, answer.pins)
+    return answer
+
+
+async def rewrite(session: Session, window: Window, command: m.Rewrite) -> m.Answer:
+    """Write a change of the model's file; it is read again as after any edit."""
+    return await session.desk.do(m.RewriteFile(difference=command.difference))
+
+
+async def _follow(session: Session, picked: m.Key, question: m.Question, pins: list[m.Pin]) -> None:
+    """Grow the rest again around the part; where that gives nothing, the result stays."""
+    if session.searching is not None:
+        return
+    lock = question.lock | {name: value for pin in pins for name, value in pin.choices.items()}
+    settings = m.Settings(count=1, effort=EFFORT)
+    job = m.Grow(
+        **session.fresh_run(),
+        question=msgspec.structs.replace(question, lock=lock, settings=settings),
+        seed=secrets.randbits(53),
+    )
+    answer = await session.searcher.do(job, session.reported)
+    if answer.outcomes and session.document.picked == picked:
+        session.placed("follow", picked, of_model(answer.outcomes, question.model))

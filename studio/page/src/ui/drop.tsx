@@ -1,0 +1,33 @@
+// Where files are dropped, or chosen: a mesh to grow into, a drawing to colour.
+
+import { useRef } from "preact/hooks";
+import * as store from "../store";
+
+const WHAT = {
+  mesh: { text: "Drop a mesh here", formats: "OBJ, STL, PLY, GLB", accept: ".obj,.stl,.ply,.glb,.gltf" },
+  drawing: { text: "Drop a drawing here", formats: "SVG, or an image in flat colours", accept: ".svg,.png,.webp,.bmp,.gif,.tif,.tiff,.jpg,.jpeg" },
+};
+
+export function Drop({ what }: { what: keyof typeof WHAT }) {
+  const input = useRef<HTMLInputElement>(null);
+  const { text, formats, accept } = WHAT[what];
+  return (
+    <>
+      <button class="drop" onClick={() => input.current?.click()}>
+        {text} <span>{formats}</span>
+      </button>
+      <input
+        ref={input}
+        type="file"
+        hidden
+        accept={accept}
+        aria-label={what === "mesh" ? "A mesh to grow into" : "A drawing to colour"}
+        onChange={(event) => {
+          const file = event.currentTarget.files?.[0];
+          if (file) void store.uploaded(file);
+          event.currentTarget.value = "";
+        }}
+      />
+    </>
+  );
+}

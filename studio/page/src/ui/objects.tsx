@@ -1,0 +1,150 @@
+// The objects of the scene beside its target, a row each: the floor, what to keep away from, light and camera of a sketch.
+
+import { useRef, useState } from "preact/hooks";
+import { kindOf, MODES, type Mode, numberOf } from "../stage/things";
+import * as store from "../store";
+import { stage } from "./canvas";
+import { Field } from "./fields";
+import { Icon } from "./icons";
+
+export const title = (name: string): string => {
+  const bare = name.replace(/^.*\//, "").replace(/^(gallery|stack|drawing):/, "").replace(/_/g, " ");
+  return bare.startsWith("upload:") ? (name.startsWith("drawing:") ? "your drawing" : "your mesh") : bare;
+};
+
+const NAMES: Record<Mode, [string, string]> = {
+  translate: ["move", "Move"],
+  scale: ["scale", "Scale"],
+  rotate: ["turn", "Turn"],
+};
+
+/** What handles an object may have. */
+export function Handles({ name }: { name: string }) {
+  const now = store.thing.value;
+  return (
+    <>
+      {MODES[kindOf(name)].map((mode) => {
+        const isOn = now?.name === name && now.mode === mode;
+        return (
+          <button
+            key={mode}
+            class="icon-button small"
+            title={`${NAMES[mode][1]} the ${label(name)}`}
+            aria-pressed={isOn}
+            onClick={() => (store.thing.value = isOn ? null : { name, mode })}
+          >
+            <Icon name={NAMES[mode][0]} />
+          </button>
+        );
+      })}
+    </>
+  );
+}
+
+const label = (name: string): string => {
+  const { obstacles = [] } = store.view.value?.ask ?? {};
+  if (kindOf(name) !== "obstacle") return name;
+  const source = obstacles[numberOf(name)]?.source ?? "";
+  return obstacles.length > 1 ? `${title(source)} ${numberOf(name) + 1}` : title(source);
+};
+
+export function Objects() {
+  const { ask, model } = store.view.value!;
+  const input = useRef<HTMLInputElement>(null);
+  const [isAdding, setAdding] = useState(false);
+  if (model?.draws) return null;
+  const obstacles = ask.obstacles ?? [];
+  const remove = (number: number) => {
+    store.thing.value = null;
+    store.ask({ obstacles: obstacles.filter((_, k) => k !== number) });
+  };
+  const add = (source: string) => {
+    setAdding(false);
+    if (source === "floor") store.ask({ floor: stage.bottom() });
+    else if (source === "mesh") input.current?.click();
+    else store.avoid(stage.above(source));
+  };
+  return (
+    <section aria-label="Objects of the scene">
+      <div class="head">
+        <h2>In the scene</h2>
+        <div class="menu-holder">
+          <button class="icon-button small" title="Add an object" aria-haspopup="menu" aria-expanded={isAdding} onClick={() => setAdding(!isAdding)}>
+            <Icon name="plus" />
+          </button>
+          {isAdding && (
+            <div class="menu narrow" role="menu" onMouseLeave={() => setAdding(false)}>
+              {ask.floor == null && (
+                <button role="menuitem" onClick={() => add("floor")}>
+                  <b>Floor</b> <span>nothing below it</span>
+                </button>
+              )}
+              {["box", "ball", "column"].map((source) => (
+                <button key={source} role="menuitem" onClick={() => add(source)}>
+                  <b>{source[0].toUpperCase() + source.slice(1)}</b> <span>to keep away from</span>
+                </button>
+              ))}
+              <button role="menuitem" onClick={() => add("mesh")}>
+                <b>Mesh…</b> <span>to keep away from</span>
+              </button>
+            </div>
+          )}
+        </div>
+      </div>
+      {ask.floor == null && obstacles.length === 0 && ask.sketch == null && (
+        <p class="quiet">Nothing but the target. Add a floor, or something to keep away from.</p>
+      )}
+      {ask.floor != null && (
+        <Row name="floor" icon="floor" onRemove={() => store.ask({ floor: null })}>
+          <Field
+            type="number"
+            step="any"
+            aria-label="Height of the floor"
+            value={ask.floor}
+            onEnd={(text) => text !== "" && store.ask({ floor: Number(text) })}
+          />
+        </Row>
+      )}
+      {obstacles.map((one, k) => (
+        <Row key={k} name={`obstacle ${k}`} icon={one.source === "ball" ? "ball" : "box"} onRemove={() => remove(k)} />
+      ))}
+      {ask.sketch?.kind === "shadow" && <Row name="light" icon="sun" />}
+      {ask.sketch?.camera != null && (
+        <Row name="camera" icon="camera">
+          <button class="text-button" title="Look through the camera of the sketch" onClick={() => stage.lookFrom(ask.sketch!.camera!)}>
+            look
+          </button>
+        </Row>
+      )}
+      <input
+        ref={input}
+        type="file"
+        hidden
+        accept=".obj,.stl,.ply,.glb,.gltf"
+        aria-label="A mesh to keep away from"
+        onChange={(event) => {
+          const file = event.currentTarget.files?.[0];
+          if (file) void store.uploaded(file, true);
+          event.currentTarget.value = "";
+        }}
+      />
+    </section>
+  );
+}
+
+function Row({ name, icon, onRemove, children }: { name: string; icon: string; onRemove?: () => void; children?: any }) {
+  const text = label(name);
+  return (
+    <div class={store.thing.value?.name === name ? "object selected" : "object"}>
+      <Icon name={icon} />
+      <span>{text}</span>
+      {children}
+      <Handles name={name} />
+      {onRemove && (
+        <button class="icon-button small" title={`Take the ${text} away`} onClick={onRemove}>
+          <Icon name="close" />
+        </button>
+      )}
+    </div>
+  );
+}

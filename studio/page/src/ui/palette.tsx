@@ -1,0 +1,66 @@
+// The right side of a drawing: the colours of its regions, which are pinned, and the rules.
+
+import * as store from "../store";
+import { Icon } from "./icons";
+import { clicked, Rules } from "./rules";
+
+export function Palette() {
+  const view = store.view.value;
+  const model = view?.model;
+  if (view === null || model == null) return <aside class="side right" aria-label="Colours" />;
+  const held = new Map(view.pins.map((one) => [one.part, one.choices[one.part] as string]));
+  const colors = store.palette.value?.colors ?? {};
+  return (
+    <aside class="side right" aria-label="Colours">
+      <section>
+        <h2>Colours</h2>
+        <ul class="regions">
+          {model.regions.map((one) => (
+            <Region key={one.name} name={one.name} color={colors[one.name] ?? held.get(one.name) ?? one.color} isHeld={held.has(one.name)} />
+          ))}
+        </ul>
+        {model.regions.length === 0 && <p class="quiet">…</p>}
+      </section>
+      <Rules />
+    </aside>
+  );
+}
+
+function Region({ name, color, isHeld }: { name: string; color: string; isHeld: boolean }) {
+  const isSelected = store.level.value === name;
+  const give = async (value: string) => {
+    if (store.picked.value !== null) await store.tell({ kind: "choose", address: name, value });
+    await store.tell({ kind: "pin", parts: [name], color: value });
+  };
+  return (
+    <li
+      class={isSelected ? "region selected" : "region"}
+      onMouseEnter={() => (store.hovered.value = name)}
+      onMouseLeave={() => (store.hovered.value = null)}
+    >
+      <input
+        type="color"
+        value={color}
+        aria-label={`Colour of ${name}`}
+        title={`${name}: ${color}. Choose a colour; it is pinned`}
+        onInput={(event) => {
+          if (store.picked.value === null) return;
+          void store.tell({ kind: "choose", address: name, value: event.currentTarget.value, phase: "move" });
+        }}
+        onChange={(event) => void give(event.currentTarget.value)}
+      />
+      <button class="name" aria-pressed={isSelected} onClick={() => clicked(name)}>
+        {name}
+      </button>
+      <button
+        class="icon-button tiny"
+        aria-pressed={isHeld}
+        title={isHeld ? `Free ${name}` : `Pin ${name}`}
+        disabled={!isHeld && store.picked.value === null}
+        onClick={() => store.pinOrFree(name)}
+      >
+        <Icon name="pin" filled={isHeld} />
+      </button>
+    </li>
+  );
+}

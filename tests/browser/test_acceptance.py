@@ -1,0 +1,310 @@
+"""What the studio promises, tried in a browser: searches, pins, undo, files, large meshes, the keyboard alone."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from functools import partial
+from xml.etree import ElementTree
+
+import pytest
+import trimesh
+from niwaki import _engine
+from niwaki.shell import run_files
+from studio_page import at_rest, camera, choose, click_part, grow, timed, until, visible
+
+#: The fields of the view that undo takes back.
+DOCUMENT = ("model", "arguments", "ask", "settings", "results", "picked", "pins", "stars")
+
+
+@pytest.fixture
+def open_page(open_page):
+    """Windows that are small: nothing is looked at here, and a software renderer draws them sooner."""
+    return partial(open_page, viewport={"width": 1080, "height": 640})
+
+
+def document(page):
+    view = page.evaluate("window.__studio.view")
+    return {name: view[name] for name in DOCUMENT} | {"model": view["model"]["reference"]}
+
+
+def effort(page, power):
+    page.get_by_role("slider", name="effort").fill(str(power))
+    until(page, f"window.__studio.view.settings.effort == {2**power}")
+
+
+def downloaded(page, name, folder):
+    page.get_by_role("button", name="Export").click()
+    with page.expect_download() as download:
+        page.get_by_role("menuitem", name=name).click()
+    place = folder / download.value.suggested_filename
+    download.value.save_as(place)
+    return place
+
+
+def test_sliders_move_during_a_search_and_the_newest_values_win(open_page, served):
+    page = open_page(served)
+    choose(page, "gnarly-tree", 1)
+    effort(page, 3)
+    page.locator("button.primary").click()
+    until(page, "window.__studio.view.searching")
+    for count in (3, 5, 7):
+        page.get_by_role("slider", name="results").fill(str(count))
+    page.get_by_role("slider", name="how different").fill("0.5")
+    assert page.locator("aside input:disabled, aside select:disabled").count() == 0
+    until(page, "window.__studio.view.settings.count == 7 && window.__studio.view.settings.strength == 0.5")
+    assert page.evaluate("window.__studio.view.searching !== null")
+    until(page, "window.__studio.bests >= 2")
+    begun = time.perf_counter()
+    page.keyboard.press("Escape")
+    until(page, "!window.__studio.view.searching")
+    assert time.perf_counter() - begun < 2.0
+    assert page.evaluate("window.__studio.view.results.length") == 1
+    at_rest(page)
+
+
+def test_a_gallery_of_eight_differs_and_stars_keep_their_order(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 8)
+    grow(page)
+    at_rest(page)
+    results = page.evaluate("window.__studio.view.results")
+    data = run_files.load(served.folder / "runs" / f"{results[0]['key']['run']}.json")
+    runs = [run_files.replayed(data, one["key"]["number"])._run for one in results]
+    assert len(runs) >= 6 and len(_engine.different(runs, len(runs))) == len(runs)
+    for number in (4, 1):
+        page.locator(".card .star").nth(number).click()
+        until(page, f"window.__studio.view.stars.some(one => one.number == {number})")
+    kept = [results[1]["key"], results[4]["key"]]
+    choose(page, "spaceship", 3, seed=5)
+    grow(page)
+    assert [one["key"] for one in page.evaluate("window.__studio.view.results")][:2] == kept
+    for _ in kept:
+        page.locator(".card .star[aria-pressed=true]").first.click()
+        page.wait_for_timeout(100)
+
+
+def test_pinned_choices_are_equal_after_searches(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 1, seed=3)
+    effort(page, -2)
+    grow(page)
+    at_rest(page)
+    address = visible(page, "wings")
+    click_part(page, address)
+    until(page, f"window.__studio.selection.part == {json.dumps(address)}")
+    page.keyboard.press("p")
+    until(page, "window.__studio.view.pins.length == 1")
+    held = page.evaluate("window.__studio.view.pins[0].choices")
+    seed = page.locator("input[placeholder='another each time']")
+    for number in range(5):
+        seed.fill(str(100 + number))
+        seed.blur()
+        until(page, f"window.__studio.view.settings.seed == {100 + number}")
+        grow(page)
+        key = page.evaluate("window.__studio.view.picked")
+        data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
+        found = {one["address"]: one["value"] for one in data["runs"][key.get("number", 0)]["choices"]}
+        assert {one: found[one] for one in held} == held
+    page.keyboard.press("p")
+    effort(page, 0)
+
+
+def test_undo_ten_deep_and_redo_give_the_same_states(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 3, seed=2)
+    grow(page)
+    at_rest(page)
+    before = camera(page)
+    states = [document(page)]
+
+    def done(act):
+        steps = page.evaluate("window.__studio.view.undo")
+        act()
+        until(page, f"window.__studio.view.undo == {steps + 1}")
+        states.append(document(page))
+
+    done(lambda: page.locator(".card .star").nth(1).click())
+    done(lambda: page.locator("[role=option]").nth(2).click())
+    done(lambda: page.get_by_role("slider", name="results").fill("5"))
+    done(lambda: page.get_by_role("slider", name="how different").fill("0.75"))
+    until(page, "window.__studio.described?.key.number == 2")
+    done(lambda: page.locator(".choice .icon-button").first.click())
+    done(lambda: page.locator(".choice .icon-button").nth(1).click())
+    done(lambda: page.select_option("select[aria-label=Target]", "box"))
+    page.get_by_role("button", name="Add an object").click()
+    done(lambda: page.get_by_role("menuitem", name="Floor").click())
+    page.get_by_role("button", name="Add an object").click()
+    done(lambda: page.get_by_role("menuitem", name="Box").click())
+    done(lambda: page.locator(".card .star").nth(0).click())
+    assert len(states) == 11
+    for state in states[-2::-1]:
+        redo = page.evaluate("window.__studio.view.redo")
+        page.keyboard.press("Control+z")
+        until(page, f"window.__studio.view.redo == {redo + 1}")
+        assert document(page) == state
+    for state in states[1:]:
+        redo = page.evaluate("window.__studio.view.redo")
+        page.keyboard.press("Control+Shift+z")
+        until(page, f"window.__studio.view.redo == {redo - 1}")
+        assert document(page) == state
+    assert (camera(page) == before).all()
+    for _ in range(10):
+        page.keyboard.press("Control+z")
+
+
+def test_files_can_be_opened_elsewhere_and_the_recipe_makes_the_same_bytes(open_page, served, tmp_path):
+    page = open_page(served)
+    choose(page, "spaceship", 2)
+    grow(page)
+    at_rest(page)
+    places = {name: downloaded(page, name, tmp_path) for name in ("GLB", "STL", "OBJ", "Recipe")}
+    for name in ("GLB", "STL", "OBJ"):
+        assert len(trimesh.load(places[name], force="mesh").faces) > 100
+    command = [sys.executable, "-m", "niwaki.shell.main", "replay", str(places["Recipe"]), "--no-picture"]
+    subprocess.run([*command, "--format", "glb"], cwd=tmp_path, check=True, capture_output=True)
+    assert (tmp_path / "out" / "best.glb").read_bytes() == places["GLB"].read_bytes()
+    choose(page, "vines", 1)
+    effort(page, -2)
+    grow(page)
+    at_rest(page)
+    drawing = downloaded(page, "SVG", tmp_path)
+    assert ElementTree.parse(drawing).getroot().tag.endswith("svg")
+    effort(page, 0)
+
+
+def test_a_save_by_rename_twice_at_once_is_one_reload_with_the_same_seed_and_scores(open_page, served, pile):
+    page = open_page(served)
+    good = pile.read_text()
+    choose(page, str(pile), 1, seed=4)
+    page.select_option("select[aria-label=Target]", "box")
+    until(page, "window.__studio.view.ask.target?.source == 'box'")
+    grow(page)
+    at_rest(page)
+    steps = page.evaluate("window.__studio.view.undo")
+    first = page.evaluate("window.__studio.view.results[0]")
+    try:
+        for _ in range(2):
+            other = pile.with_suffix(".tmp")
+            other.write_text(good + "\n")
+            other.rename(pile)
+        until(page, f"window.__studio.view.undo == {steps + 1}")
+        page.wait_for_timeout(500)
+        assert page.evaluate("window.__studio.view.undo") == steps + 1
+        again = page.evaluate("window.__studio.view.results[0]")
+        assert (again["log_score"], again["seed"]) == (first["log_score"], first["seed"])
+    finally:
+        pile.write_text(good)
+        page.wait_for_timeout(500)
+
+
+def test_a_large_mesh_is_shown_thinned_and_parts_are_still_picked_at_once(open_page, served, tmp_path):
+    page = open_page(served)
+    choose(page, "spaceship", 1)
+    grow(page)
+    at_rest(page)
+    place = tmp_path / "ball.stl"
+    place.write_bytes(trimesh.creation.icosphere(8, 3.0).export(file_type="stl"))
+    page.get_by_label("A mesh to grow into").set_input_files(place)
+    page.locator(".notice", has_text="1,310,720").wait_for(timeout=120_000)
+    assert 2_000 < page.evaluate("window.__studio.ghost") <= 60_000
+    address = visible(page, "emit")
+    with timed("part, large"):
+        click_part(page, address)
+        until(page, f"window.__studio.selection.part == {json.dumps(address)}")
+
+
+def test_a_mesh_above_the_limit_is_refused_with_a_message(open_page, served, tmp_path):
+    page = open_page(served)
+    choose(page, "spaceship", 1)
+    place = tmp_path / "ball.stl"
+    place.write_bytes(bytes(66 << 20))
+    page.get_by_label("A mesh to grow into").set_input_files(place)
+    page.locator(".notice", has_text="at most 64 MB").wait_for()
+    assert page.evaluate("window.__studio.view.ask.target") is None
+
+
+def test_the_keyboard_alone_is_enough(open_page, served):
+    page = open_page(served)
+    page.mouse.move(0, 0)
+
+    def tab_to(condition):
+        for _ in range(80):
+            page.keyboard.press("Tab")
+            if page.evaluate(f"(one => {condition})(document.activeElement)"):
+                return
+        raise AssertionError(f"no control with {condition}")
+
+    tab_to("one.ariaLabel == 'Model'")
+    page.keyboard.type("spaceship")
+    until(page, "window.__studio.view.model.reference == 'spaceship'")
+    tab_to("one.title == 'Add an object'")
+    page.keyboard.press("Enter")
+    tab_to("one.getAttribute('role') == 'menuitem'")
+    page.keyboard.press("Enter")
+    until(page, "window.__studio.view.ask.floor !== null")
+    tab_to("one.type == 'range' && one.closest('label').innerText.startsWith('results')")
+    count = page.evaluate("window.__studio.view.settings.count")
+    page.keyboard.press("ArrowRight")
+    until(page, f"window.__studio.view.settings.count == {count + 1}")
+    tab_to("one.classList.contains('primary')")
+    page.keyboard.press("Enter")
+    until(page, "window.__studio.view.searching")
+    until(page, "!window.__studio.view.searching && window.__studio.view.results.length > 1")
+    at_rest(page)
+    tab_to("one.getAttribute('role') == 'option'")
+    page.keyboard.press("ArrowRight")
+    until(page, "window.__studio.view.picked.number == 1")
+    page.keyboard.press("s")
+    until(page, "window.__studio.view.stars.length == 1")
+    page.keyboard.press("s")
+    until(page, "window.__studio.view.stars.length == 0")
+    at_rest(page)
+    tab_to("one.classList.contains('call')")
+    page.keyboard.press("Enter")
+    until(page, "window.__studio.selection.level")
+    page.keyboard.press("p")
+    until(page, "window.__studio.view.pins.length == 1")
+    page.keyboard.press("Control+z")
+    until(page, "window.__studio.view.pins.length == 0")
+
+
+def test_the_five_places_have_names_for_a_screen_reader(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 2)
+    grow(page)
+    at_rest(page)
+    for role, name in (
+        ("complementary", "Model and target"),
+        ("complementary", "Part"),
+        ("listbox", "Results"),
+        ("group", "History"),
+        ("group", "View"),
+        ("group", "Growth"),
+    ):
+        assert page.get_by_role(role, name=name, exact=True).count() == 1, name
+    option = page.locator("[role=option]").first.get_attribute("aria-label")
+    assert "covered" in option and "outside" in option
+
+
+def test_what_is_typed_stays_while_a_search_tells_its_progress(open_page, served):
+    page = open_page(served)
+    choose(page, "gnarly-tree", 1)
+    effort(page, 3)
+    page.locator("button.primary").click()
+    until(page, "window.__studio.view.searching?.seconds > 0")
+    seed = page.locator("input[placeholder='another each time']")
+    seed.focus()
+    page.keyboard.press("Control+a")
+    for digit in "4321":
+        page.keyboard.type(digit)
+        page.wait_for_timeout(150)
+    assert page.evaluate("window.__studio.view.searching") is not None
+    assert seed.input_value() == "4321"
+    seed.blur()
+    until(page, "window.__studio.view.settings.seed == 4321")
+    page.keyboard.press("Escape")
+    until(page, "!window.__studio.view.searching")
+    effort(page, 0)

@@ -1,0 +1,141 @@
+"""A part that is dragged in a browser: it goes to the pointer or a line of text says why not; Esc takes it back.
+
+The animation of the manual is recorded on the way, into `out/studio/drag.gif`.
+"""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import pytest
+from niwaki import studio
+from PIL import Image, ImageDraw
+from studio_page import OUT, at_rest, choose, click_part, grow, picture, timed, until
+
+#: The frames of the animation: size in pixels, colours, and how long each is shown, milliseconds.
+SIZE, COLORS, STEP = (480, 400), 64, 90
+#: The share of the scene's height that they show.
+ZOOM = 0.86
+
+
+@pytest.fixture
+def tree(open_page, served):
+    """A tree that has grown into its target."""
+    page = open_page(served)
+    choose(page, "gnarly-tree", 1)
+    grow(page)
+    at_rest(page)
+    page.keyboard.press("t")
+    return page
+
+
+def branch(page):
+    """A branch that is seen well: its address and the point at which it is seen, in pixels of the page."""
+    found = page.evaluate(
+        "window.__studio.shown.parts.map(one => [one, window.__studio.pointOf(one)]).filter(([_, at]) => at)"
+    )
+    deep = [(one, at) for one, at in found if one.count("branch") >= 6] or found
+    address, (x, y) = deep[len(deep) // 2]
+    box = page.locator("main.stage").bounding_box()
+    return address, box["x"] + x, box["y"] + y
+
+
+def frame(page, pointer=None):
+    """A frame of the animation: what is around the middle of the scene, with the pointer."""
+    box = page.locator("main.stage").bounding_box()
+    height = ZOOM * box["height"]
+    width = height * SIZE[0] / SIZE[1]
+    left, top = box["x"] + (box["width"] - width) / 2, box["y"] + 3
+    clip = {"x": left, "y": top, "width": width, "height": height}
+    with Image.open(io.BytesIO(page.screenshot(clip=clip))) as shot:
+        picture = shot.convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
+    if pointer is not None:
+        x, y = (pointer[0] - left) * SIZE[0] / width, (pointer[1] - top) * SIZE[1] / height
+        pen = ImageDraw.Draw(picture)
+        pen.ellipse((x - 7, y - 7, x + 7, y + 7), outline=(255, 255, 255), width=4)
+        pen.ellipse((x - 6, y - 6, x + 6, y + 6), outline=(30, 30, 34), width=2)
+    return picture
+
+
+def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
+    page = tree
+    address, x, y = branch(page)
+    click_part(page, address)
+    until(page, "window.__studio.selection.part")
+    picked = page.evaluate("window.__studio.view.picked")
+    before = np.array(page.evaluate("window.__studio.camera"))
+    page.evaluate("document.activeElement.blur()")
+    frames = [frame(page, (x, y))] * 6
+    page.mouse.move(x, y)
+    page.mouse.down()
+    with timed("drag"):
+        page.mouse.move(x + 9, y - 5, steps=2)
+        until(page, "window.__studio.shown.what == 'moving'")
+    for step in range(1, 15):
+        to = (x + 9 + 7 * step, y - 5 - 4 * step)
+        page.mouse.move(*to)
+        page.wait_for_timeout(150)
+        frames.append(frame(page, to))
+    drag = page.evaluate("window.__studio.drag")
+    assert drag["left"] <= 0.01 or drag["reason"]
+    frames += [frames[-1]] * 6
+    page.keyboard.down("Shift")
+    with timed("refit"):
+        page.mouse.up()
+        until(page, f"window.__studio.view.picked.run >= {picked['run']} + 2")
+    page.keyboard.up("Shift")
+    at_rest(page)
+    page.wait_for_timeout(400)
+    frames += [frame(page)] * 16
+    assert (np.array(page.evaluate("window.__studio.camera")) == before).all()
+    OUT.mkdir(parents=True, exist_ok=True)
+    first, *rest = [one.quantize(COLORS, dither=Image.Dither.NONE) for one in frames]
+    first.save(OUT / "drag.gif", save_all=True, append_images=rest, duration=STEP, loop=0, optimize=True)
+
+
+def test_escape_takes_a_part_back(tree):
+    page = tree
+    address, x, y = branch(page)
+    click_part(page, address)
+    until(page, "window.__studio.selection.part")
+    picked = page.evaluate("window.__studio.view.picked")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 40, y, steps=4)
+    until(page, "window.__studio.shown.what == 'moving'")
+    page.keyboard.press("Escape")
+    at_rest(page)
+    page.mouse.up()
+    assert page.evaluate("window.__studio.view.picked") == picked
+    assert page.evaluate("window.__studio.shown.what") == "result"
+
+
+def test_a_change_of_the_file_is_offered_and_written_when_accepted(open_page, served, pile):
+    text = pile.read_text()
+    page = open_page(served)
+    choose(page, str(pile), 1)
+    with studio.connect(served.url, served.key) as script:
+        script.ask("ask", ask={"target": {"source": "box", "scale": [2.0, 3.0, 2.0]}})
+    grow(page)
+    at_rest(page)
+    page.keyboard.press("t")
+    address = page.evaluate("window.__studio.shown.parts.find(one => one.includes('i[3]'))")
+    x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
+    box = page.locator("main.stage").bounding_box()
+    click_part(page, address)
+    until(page, "window.__studio.selection.part")
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x, box["y"] + y - 30, steps=4)
+    until(page, "window.__studio.shown.what == 'moving'")
+    page.mouse.up()
+    offer = page.locator(".offer").first
+    offer.locator("summary").click()
+    assert "height: float = 3.0" in offer.inner_text()
+    assert pile.read_text() == text
+    picture(page, "offer")
+    offer.get_by_role("button", name="Write it").click()
+    page.wait_for_timeout(1500)
+    assert "height: float = 3." in pile.read_text() and pile.read_text() != text
+    pile.write_text(text)

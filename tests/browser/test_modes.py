@@ -1,0 +1,131 @@
+"""Drawings are coloured and structures judged in the page as by a script."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+
+import ezdxf
+from niwaki.color.drawing import OWN
+from studio_page import at_rest, choose, grow, picture, until
+
+
+def colored(page):
+    """Wait for the picture and the rules of the picked result."""
+    until(page, "window.__studio.easel?.detail == 'fine'")
+    until(page, "window.__studio.palette?.key.run == window.__studio.view.picked.run")
+
+
+def click_region(page, name):
+    until(page, f"window.__studio.regionPoint({json.dumps(name)})")
+    box = page.locator("main.easel").bounding_box()
+    x, y = page.evaluate("name => window.__studio.regionPoint(name)", name)
+    page.mouse.click(box["x"] + x, box["y"] + y)
+
+
+def colors(page):
+    return page.evaluate("window.__studio.palette.colors")
+
+
+def test_a_pinned_region_keeps_its_colour_the_rest_changes_and_rules_say_how_far(open_page, served):
+    page = open_page(served)
+    choose(page, "drawing:house", 8)
+    until(page, "window.__studio.view.model.regions.length > 10")
+    grow(page)
+    colored(page)
+    click_region(page, "roof")
+    until(page, "window.__studio.selection.level == 'roof'")
+    page.get_by_role("button", name="Pin roof", exact=True).click()
+    until(page, "window.__studio.view.pins.length == 1")
+    before = colors(page)
+    picture(page, "coloring")
+    page.get_by_role("button", name="Colour the rest").click()
+    until(page, "window.__studio.view.picked.run > 0")
+    colored(page)
+    after = colors(page)
+    assert after["roof"] == before["roof"]
+    assert sum(after[name] != before[name] for name in before) > len(before) / 2
+    # What the page shows of the rules is what the studio has measured.
+    kept = page.evaluate("window.__studio.palette.kept")
+    assert len(kept) > 40 and all(one["holds"] for one in kept)
+    page.keyboard.press("Escape")
+    page.get_by_text(f"all {len(kept)} hold").wait_for()
+    # A colour against the rules: they say by how much.
+    page.get_by_label("Colour of wall", exact=True).fill("#2040ff")
+    until(page, "window.__studio.view.pins.some(one => one.part == 'wall')")
+    until(page, "window.__studio.palette?.colors.wall == '#2040ff'")
+    missed = [one for one in page.evaluate("window.__studio.palette.kept") if not one["holds"]]
+    assert any({"wall", "wall-shade"} == {one["first"], one["second"]} for one in missed)
+    page.get_by_text(f"{len(missed)} of {len(kept)} missed").wait_for()
+    picture(page, "rules")
+    for _ in range(2):
+        page.keyboard.press("Control+z")
+    until(page, "window.__studio.view.pins.length == 1 && window.__studio.palette?.colors.wall != '#2040ff'")
+
+
+def test_a_rule_is_added_by_clicking_regions_and_a_result_is_exported(open_page, served):
+    page = open_page(served)
+    choose(page, "drawing:robot", 2)
+    page.get_by_role("button", name="Lighter", exact=True).click()
+    click_region(page, "face")
+    # By its name, as from the keyboard.
+    page.get_by_role("button", name="body", exact=True).press("Enter")
+    page.get_by_role("button", name="Add", exact=True).click()
+    rules = "window.__studio.view.ask.rules?.rules.at(-1)"
+    until(page, f"{rules}?.kind == 'lighter'")
+    assert page.evaluate(rules)["regions"] == ["face", "body"]
+    grow(page)
+    colored(page)
+    kept = page.evaluate("window.__studio.palette.kept")
+    assert any((one["first"], one["second"]) == ("face", "body") for one in kept)
+    page.get_by_role("button", name="Export").click()
+    with page.expect_download() as download:
+        page.get_by_role("menuitem", name="SVG").click()
+    assert colors(page)["face"] in Path(download.value.path()).read_text()
+
+
+def test_a_drawing_is_dropped(open_page, served):
+    page = open_page(served)
+    choose(page, "drawing:bug", 1)
+    page.get_by_label("A drawing to colour").set_input_files(OWN / "rocket.svg")
+    until(page, "window.__studio.view.model.reference.startsWith('drawing:upload:')")
+    until(page, "window.__studio.view.model.regions.some(one => one.name == 'flame')")
+    grow(page)
+    colored(page)
+    page.reload()
+    until(page, "window.__studio?.view?.model")
+    colored(page)
+
+
+def test_a_structure_shows_its_forces_what_falls_is_marked_and_boards_are_cut(open_page, served):
+    page = open_page(served)
+    choose(page, "stack:cut_lean", 2, seed=3)
+    grow(page)
+    at_rest(page)
+    until(page, "window.__studio.judged?.key.run == window.__studio.view.picked.run")
+    judged = page.evaluate("window.__studio.judged")
+    assert judged["holds"] and judged["tilt"] > 0.5 and judged["loose"] == [] and judged["board"] > 37.9
+    until(page, "window.__studio.arrows > 0")
+    assert page.evaluate("window.__studio.arrows") == 2 * len(judged["arrows"])
+    page.get_by_text("Stands", exact=True).wait_for()
+    page.get_by_text(f"until the ground is tilted by {judged['tilt']:.1f}°").wait_for()
+    page.get_by_role("button", name="Let go").click()
+    until(page, "window.__studio.judged.stands === true")
+    picture(page, "structure")
+    with page.expect_download() as download:
+        page.get_by_role("group", name="Boards").get_by_role("button", name="DXF").click()
+    board = ezdxf.read(io.StringIO(Path(download.value.path()).read_text()))
+    cuts = [one for one in board.modelspace().query("LWPOLYLINE") if one.dxf.layer == "CUT"]
+    assert len(cuts) == 6
+    # A block pushed to the edge of the one below it falls.
+    described = page.evaluate("window.__studio.described.choices")
+    slid = [
+        one for one in described if one["family"] == "uniform" and (one["low"], one["high"]) == (-1.0, 1.0)
+    ]
+    label = page.locator(f"label[title^='{slid[0]['address']}:']")
+    label.locator("input").fill("1")
+    until(page, "window.__studio.judged?.holds === false")
+    assert page.evaluate("window.__studio.judged.loose.length") > 0
+    page.get_by_text("Falls", exact=True).wait_for()
+    picture(page, "falls")

@@ -1,0 +1,204 @@
+"""The scene: objects beside the target, the difference to what is wanted, results side by side."""
+
+from __future__ import annotations
+
+import numpy as np
+import trimesh
+from niwaki import _engine
+from niwaki.shell import run_files
+from studio_page import at_rest, camera, choose, grow, picture, timed, until
+
+
+def add(page, name):
+    page.get_by_role("button", name="Add an object").click()
+    page.get_by_role("menuitem", name=name).click()
+
+
+def dragged(page, x, y, by_x, by_y):
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + by_x, y + by_y, steps=4)
+    page.mouse.up()
+
+
+def handle(page):
+    """Where the handles of the selected object stand, on the page."""
+    box = page.locator("main.stage").bounding_box()
+    x, y = page.evaluate("window.__studio.handle")
+    return box["x"] + x, box["y"] + y
+
+
+def test_objects_stand_in_the_scene_are_moved_by_handles_and_kept_away_from(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 1)
+    add(page, "Floor")
+    until(page, "window.__studio.view.ask.floor !== null")
+    floor = page.evaluate("window.__studio.view.ask.floor")
+    add(page, "Ball")
+    until(page, "window.__studio.things.includes('obstacle 0')")
+    first = page.evaluate("window.__studio.view.ask.obstacles[0].move")
+    before = camera(page)
+    dragged(page, *handle(page), 90, -60)
+    until(page, f"window.__studio.view.ask.obstacles[0].move.some((one, k) => one != {first}[k])")
+    moved = page.evaluate("window.__studio.view.ask.obstacles[0].move")
+    picture(page, "objects")
+    grow(page)
+    at_rest(page)
+    assert (camera(page) == before).all()
+    assert page.evaluate("window.__studio.bounds.low")[1] >= floor - 1e-6
+    for _ in range(3):
+        page.keyboard.press("Control+z")
+    until(page, "!window.__studio.view.ask.obstacles.length")
+    assert page.evaluate("window.__studio.view.ask.floor") == floor
+    for _ in range(3):
+        page.keyboard.press("Control+Shift+z")
+    until(page, "window.__studio.view.redo == 0")
+    assert page.evaluate("window.__studio.view.ask.obstacles[0].move") == moved
+    page.get_by_role("button", name="Take the ball away").click()
+    until(page, "!window.__studio.things.includes('obstacle 0')")
+
+
+def test_a_mesh_is_kept_away_from(open_page, served, tmp_path):
+    page = open_page(served)
+    choose(page, "spaceship", 1)
+    place = tmp_path / "wall.stl"
+    trimesh.creation.box((1.0, 4.0, 4.0)).export(place)
+    page.get_by_label("A mesh to keep away from").set_input_files(place)
+    until(page, "window.__studio.things.includes('obstacle 0')")
+    assert page.evaluate("window.__studio.view.ask.target") is None
+
+
+def test_a_shadow_is_drawn_and_grown_into(open_page, served):
+    page = open_page(served)
+    choose(page, "building", 1)
+    page.wait_for_timeout(300)
+    page.keyboard.press("d")
+    page.get_by_label("What the strokes are").select_option("shadow")
+    box = page.locator("main.stage").bounding_box()
+    dragged(page, box["x"] + 0.35 * box["width"], box["y"] + 0.66 * box["height"], 190, -30)
+    until(page, "window.__studio.view.ask.sketch?.kind == 'shadow'")
+    until(page, "window.__studio.things.includes('light')")
+    page.get_by_role("button", name="Grow into it").click()
+    until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
+    at_rest(page)
+    picture(page, "shadow")
+    page.get_by_role("button", name="Move the light").click()
+    before = np.array(page.evaluate("window.__studio.view.ask.light"))
+    dragged(page, *handle(page), 60, 40)
+    until(page, f"window.__studio.view.ask.light[0] != {before[0]}")
+
+
+def engine_fit(served, key):
+    """Cells that the engine's own score counts: wanted and filled, wanted only, filled only."""
+    data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
+    one = run_files.replayed(data, key.get("number", 0))
+    call = next((one for one in one.search.score.asks if one.function == "match_volume"), None)
+    if call is None:
+        view = one.search.score.views[0]
+        wanted, made = view.image, view.mask(one.scene)
+        return int((wanted & made).sum()), int((wanted & ~made).sum()), int((made & ~wanted).sum())
+    sketch = _engine.Sketch([call.spec])
+    for part in one.scene:
+        sketch.add(list(part.shapes))
+    measures = sketch.measures()
+    differ = round((1 - measures["similarity"]) * np.prod(call.grid.dims))
+    inside = round((call.grid.filled + measures["filled"] - differ) / 2)
+    assert abs(one.fit.covered - inside / call.grid.filled) < 1e-12
+    return inside, call.grid.filled - inside, round(measures["filled"]) - inside
+
+
+def test_the_difference_to_a_target_has_the_cells_that_the_engine_counts(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 2)
+    grow(page)
+    at_rest(page)
+    with timed("difference"):
+        page.keyboard.press("x")
+        until(page, "window.__studio.counts")
+    picture(page, "difference")
+    for _ in range(2):
+        key = page.evaluate("window.__studio.view.picked")
+        until(page, "window.__studio.counts")
+        counts = page.evaluate("window.__studio.counts")
+        assert (counts["covered"], counts["missing"], counts["outside"]) == engine_fit(served, key)
+        page.locator("[role=option]").nth(1).click()
+        until(page, "window.__studio.differs == '1'")
+    page.keyboard.press("x")
+    until(page, "!document.querySelector('.legend')")
+
+
+def test_the_difference_to_a_drawn_silhouette_lies_over_the_view(open_page, served):
+    page = open_page(served)
+    choose(page, "building", 1)
+    page.wait_for_timeout(300)
+    page.keyboard.press("d")
+    box = page.locator("main.stage").bounding_box()
+    dragged(page, box["x"] + 0.5 * box["width"], box["y"] + 0.35 * box["height"], 3, 180)
+    until(page, "window.__studio.view.ask.sketch")
+    page.get_by_role("button", name="Grow into it").click()
+    until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
+    at_rest(page)
+    page.keyboard.press("x")
+    until(page, "window.__studio.counts")
+    counts = page.evaluate("window.__studio.counts")
+    key = page.evaluate("window.__studio.view.picked")
+    assert (counts["covered"], counts["missing"], counts["outside"]) == engine_fit(served, key)
+    picture(page, "difference-drawn")
+
+
+def test_starred_results_stand_side_by_side_seen_by_one_camera(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 3)
+    page.get_by_role("slider", name="how different").fill("1")
+    until(page, "window.__studio.view.settings.strength == 1")
+    grow(page)
+    at_rest(page)
+    for number in range(3):
+        page.locator(".card .star").nth(number).click()
+        until(page, f"window.__studio.view.stars.length == {number + 1}")
+    before = camera(page)
+    with timed("compare"):
+        page.keyboard.press("c")
+        until(page, "window.__studio.compared.filter(one => one > 0).length == 3")
+    page.wait_for_timeout(500)
+    picture(page, "compare")
+    assert page.locator(".side-name").count() == 3
+    assert (camera(page) == before).all()
+    page.locator(".side-name").nth(1).click()
+    until(page, "window.__studio.view.picked.number == 1 && !window.__studio.compared.length")
+    for _ in range(3):
+        page.locator(".card .star[aria-pressed=true]").first.click()
+        page.wait_for_timeout(100)
+
+
+def test_growth_is_scrubbed_and_played_in_the_order_of_the_run(open_page, served):
+    page = open_page(served)
+    choose(page, "building", 1, seed=2)
+    grow(page)
+    at_rest(page)
+    parts = page.evaluate("window.__studio.described.parts.map(one => one.address)")
+    assert len(parts) > 3 and page.evaluate("window.__studio.drawn.length") == len(parts)
+    slider = page.get_by_role("slider", name="parts that are shown")
+    slider.fill("2")
+    until(page, "window.__studio.drawn.length == 2")
+    assert set(page.evaluate("window.__studio.drawn")) == set(parts[:2])
+    page.get_by_label("order of growth").select_option("depth")
+    slider.fill("3")
+    depths = [one.count("/") for one in page.evaluate("window.__studio.drawn")]
+    assert sorted(depths) == sorted(one.count("/") for one in parts)[:3]
+    page.locator("main.stage canvas").first.focus()
+    page.keyboard.press("Space")
+    until(page, "window.__studio.drawn.length > 3")
+    until(page, f"window.__studio.drawn.length == {len(parts)}")
+
+
+def test_growth_goes_part_by_part_where_motion_is_not_wanted(open_page, served):
+    page = open_page(served, reduced_motion="reduce")
+    choose(page, "building", 1, seed=2)
+    grow(page)
+    at_rest(page)
+    button = page.get_by_role("button", name="One part more")
+    for count in (1, 2):
+        button.click()
+        page.wait_for_timeout(200)
+        assert page.evaluate("window.__studio.drawn.length") == count

@@ -1,0 +1,225 @@
+"""A dragged part arrives or a reason says why not; the derivatives of positions are those of central differences.
+
+The descent, its answers and its reasons are tested on models whose answers follow by hand.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki import box, cylinder, emit, flip, gaussian, limb, poisson, rotation, uniform
+from niwaki.errors import InputError
+from niwaki.gallery import entries
+from niwaki.search.source import NEAR
+
+SPACE = [one.name for one in entries() if one.target_name is not None or one.draws is not None]
+
+
+def place(positions: Any, part: int, shape: int, shares: tuple[float, float, float]) -> Any:
+    """Where a point of a shape is."""
+    frame = positions.frame(part, shape)
+    return None if frame is None else frame[0] + np.array(shares) @ frame[1:]
+
+
+@pytest.mark.parametrize("name", SPACE)
+def test_derivatives_of_positions_are_central_differences(name: str) -> None:
+    """On every model of the gallery that emits: a point of some parts, by some of the choices that move them."""
+    entry = next(one for one in entries() if one.name == name)
+    sample = next(one for one in (nw.run(entry.model, seed=s).best for s in range(20)) if one.primitives)
+    task = sample.search.task
+    choices = sample._trace.choices
+    placer, free = task.placer(sample._run), {one.address for one in choices}
+    positions = placer.positions({}, free)
+    ranges, shares = positions.ranges(), (0.3, -0.2, 0.1)
+    size = max(np.ptp([corner for shape in part.shapes for corner in shape.aabb()]) for part in sample.parts)
+    rng, looked = np.random.default_rng(1), 0
+    for part in rng.permutation(len(positions.parts))[:6].tolist():
+        slopes = positions.slopes(part, 0, shares)
+        if slopes is None:
+            continue
+        moving = np.flatnonzero(np.abs(slopes).max(axis=0) > 0)
+        for k in rng.permutation(moving)[:4].tolist():
+            h = 1e-5 * ranges[k, 3]
+            address, x = positions.movables[k][0], ranges[k, 0]
+            steps = [2 * h, h, -h, -2 * h]
+            at = [place(placer.positions({address: x + by}, free), part, 0, shares) for by in steps]
+            found = (-at[0] + 8 * at[1] - 8 * at[2] + at[3]) / (12 * h)
+            np.testing.assert_allclose(slopes[:, k], found, rtol=1e-5, atol=1e-7 * size / ranges[k, 3])
+            looked += 1
+    assert looked or all(positions.slopes(n, 0, shares) is None for n in range(len(positions.parts)))
+
+
+@nw.model
+def arm(length=2.0):
+    """A turned cylinder at the end of an arm."""
+    angle = uniform(-1.0, 1.0)
+    reach = gaussian(length, 0.5)
+    turn = rotation((0, 0, 1), angle)
+    tip = turn * nw.vec(reach, 0.0, 0.0)
+    emit(limb((0, 0, 0), tip, 0.2, 0.1), name="bone")
+    emit(cylinder(tip, 0.2, 1.0, axis=turn * nw.vec(0.0, 1.0, 0.0)), name="hand")
+
+
+def test_derivatives_of_an_arm_follow_from_its_angle_and_length() -> None:
+    sample = nw.run(arm, seed=3).best
+    angle, reach = sample.choices["angle"], sample.choices["reach"]
+    positions = sample.search.task.placer(sample._run).positions(
+        {}, {one.address for one in sample._trace.choices}
+    )
+    c, s = np.cos(angle), np.sin(angle)
+    (hand,) = [n for n, (address, _) in enumerate(positions.parts) if address == "hand"]
+    slopes = positions.slopes(hand, 0, (0.0, 0.5, 0.0))
+    # The end of the hand is at reach (c, s) + (-s, c) / 2.
+    exact = [[-reach * s - c / 2, c], [reach * c - s / 2, s], [0.0, 0.0]]
+    np.testing.assert_allclose(slopes, exact, rtol=1e-12, atol=1e-12)
+
+
+@nw.model
+def post():
+    """Two choices move the box along x, of deviations 1 and 2; one moves it along z."""
+    a = gaussian(0.0, 1.0)
+    b = gaussian(0.0, 2.0)
+    deep = uniform(0.0, 2.0)
+    emit(box((a + b, 0.5, deep), (1, 1, 1)), name="top")
+
+
+def test_the_least_change_is_shared_by_the_squares_of_deviations() -> None:
+    sample = nw.run(post, seed=1).best
+    a, b, deep = (sample.choices[name] for name in ("a", "b", "deep"))
+    drag = sample.drag("top", (a + b + 1.0, 0.5, deep))
+    after = drag.answers[0].sample.choices
+    assert drag.answers[0].kind == "least"
+    assert after["a"] - a == pytest.approx(0.2, abs=1e-3)
+    assert after["b"] - b == pytest.approx(0.8, abs=1e-3)
+    assert after["deep"] == pytest.approx(deep, abs=1e-3)
+    assert set(drag.answers[0].changed) <= {"a", "b", "deep"}
+
+
+def test_the_end_of_a_range_is_the_reason() -> None:
+    sample = nw.run(post, seed=1).best
+    drag = sample.drag("top", (0.0, 0.5, 3.0))
+    assert not drag.answers
+    assert "`deep` is at the end of its range (0 to 2)" in drag.reason
+    assert drag.nearest is not None
+    assert drag.nearest.distance == pytest.approx(1.0, abs=1e-2)
+    assert drag.nearest.sample.choices["deep"] <= 2.0
+
+
+def test_where_the_choices_cannot_go_is_the_reason() -> None:
+    sample = nw.run(post, seed=1).best
+    drag = sample.drag("top", (0.0, 0.8, 1.0))
+    assert "within a surface only" in drag.reason
+    assert drag.nearest is not None
+    assert drag.nearest.distance == pytest.approx(0.3, abs=1e-3)
+
+
+def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() -> None:
+    sample = nw.run(post, seed=1).best
+    a, b, deep = (sample.choices[name] for name in ("a", "b", "deep"))
+    for n in range(20):
+        found = sample.drag("top", (a + b + 0.1 * n, 0.5, deep), lock=["b"])
+        assert found.best is not None
+        assert found.best.sample.choices["b"] == b
+    held = sample.drag("top", (a + b + 1.0, 0.5, deep), lock=["*"])
+    assert held.best is None
+    assert (
+        held.reason
+        == "nothing that is free moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
+    )
+    # A search's own lock holds as well.
+    locked = nw.run(post, seed=1, lock={"a": 0.25}).best.drag("top", (3.0, 0.5, deep))
+    assert locked.best is not None
+    assert locked.best.sample.choices["a"] == 0.25
+
+
+def test_a_grabbed_point_turns_with_its_part() -> None:
+    sample = nw.run(arm, seed=3).best
+    angle, reach = sample.choices["angle"], sample.choices["reach"]
+    grab = (reach * np.cos(angle) / 2, reach * np.sin(angle) / 2, 0.0)
+    to = (1.2 * np.cos(0.2), 1.2 * np.sin(0.2), 0.0)
+    found = sample.drag("bone", to, grab=grab).answers[0]
+    assert found.sample.choices["angle"] == pytest.approx(0.2, abs=0.01)
+    assert found.sample.choices["reach"] == pytest.approx(2.4, abs=0.02)
+
+
+def test_depth_does_not_count_along_a_direction() -> None:
+    sample = nw.run(post, seed=1).best
+    a, b = sample.choices["a"], sample.choices["b"]
+    drag = sample.drag("top", (a + b + 0.5, 0.5, 7.0), along=(0, 0, 1))
+    assert drag.answers
+    assert drag.answers[0].sample.choices["deep"] == sample.choices["deep"]
+
+
+@nw.model
+def pile():
+    """Boxes on each other: only their number brings the last one up."""
+    count = poisson(3.0)
+    side = gaussian(0.0, 0.2)
+    for i in range(count):
+        emit(box((side, i + 0.5, 0.0), (1, 1, 1)))
+
+
+def test_structure_changes_where_that_is_the_only_way() -> None:
+    sample = next(one for one in (nw.run(pile, seed=s).best for s in range(50)) if one.choices["count"] == 3)
+    drag = sample.drag("i[2]/emit", (0.1, 3.5, 0.0))
+    assert drag.answers[0].kind == "structure"
+    assert drag.answers[0].sample.choices["count"] == 4
+    assert drag.answers[0].part == "i[3]/emit"
+    assert drag.answers[0].share <= NEAR
+    held = sample.drag("i[2]/emit", (0.1, 3.5, 0.0), lock=["count"])
+    assert not held.answers
+    assert held.best.sample.choices["count"] == 3
+    assert not sample.drag("i[2]/emit", (0.1, 3.5, 0.0), structure=False).answers
+
+
+@nw.model
+def fork():
+    """A choice that another one makes: the run has other choices on the other side of zero."""
+    x = gaussian(1.0, 1.0)
+    if x > 0:
+        z = gaussian(0.0, 1.0)
+    else:
+        z = 0.0
+    emit(box((x, 0.5, z), (1, 1, 1)))
+
+
+def test_a_branch_that_changes_under_the_move_is_run_again() -> None:
+    sample = next(one for one in (nw.run(fork, seed=s).best for s in range(20)) if "z" in one.choices)
+    drag = sample.drag("emit", (-1.0, 0.5, 0.0))
+    assert drag.best is not None
+    assert ("z" in drag.best.sample.choices) == (drag.best.sample.choices["x"] > 0)
+
+
+@nw.model
+def fixed():
+    """Nothing moves it."""
+    wide = flip(0.5)
+    emit(box((0, 0, 0), (2 if wide else 1, 1, 1)))
+
+
+def test_what_no_choice_moves_says_so() -> None:
+    drag = nw.run(fixed, seed=1).best.drag("emit", (1, 0, 0))
+    assert drag.best is None
+    assert "its place follows from the source" in drag.reason
+
+
+def test_bad_drags_are_refused() -> None:
+    sample = nw.run(post, seed=1).best
+    with pytest.raises(InputError, match="no-address"):
+        sample.drag("tpo", (0, 0, 0))
+    with pytest.raises(InputError, match="bad-setting"):
+        sample.drag("top", (0, 0, float("nan")))
+
+
+def test_a_mean_that_moves_takes_its_choice_along() -> None:
+    sample = nw.run(arm, 2.0, seed=3).best
+    positions = sample.search.task.placer(sample._run).positions({}, set(), arguments={0: 2.0})
+    assert [one[0] for one in positions.movables] == [0]
+    angle, reach = sample.choices["angle"], sample.choices["reach"]
+    np.testing.assert_allclose(
+        positions.slopes(1, 0, (0, 0, 0))[:, 0], [np.cos(angle), np.sin(angle), 0.0], atol=1e-12
+    )
+    assert list(positions.followed([2.5]).values()) == pytest.approx([reach + 0.5])

@@ -1,0 +1,137 @@
+"""A part that is dragged through the studio: it is shown as it moves; at the end there is a result or a reason."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("starlette")
+
+import numpy as np
+from niwaki import studio
+
+
+@pytest.fixture
+def connected(served):
+    with studio.connect(served.url, served.key) as one:
+        yield one
+
+
+@pytest.fixture
+def ship(connected):
+    """One spaceship, with its choices and the boxes of its parts."""
+    connected.ask("model", reference="spaceship")
+    connected.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+    connected.ask("free")
+    connected.ask("run")
+    return connected
+
+
+def described(connected):
+    return connected.ask("describe", key=connected.view["picked"])
+
+
+def middles(connected):
+    """The middle of each part of the shape that was shown last."""
+    header, payload = connected.shapes[-1]
+    n, m = header.vertices, header.triangles
+    points = np.frombuffer(payload, "<f4", 3 * n).reshape(n, 3)
+    corners = np.frombuffer(payload, "<u4", 3 * m, 12 * n + 4 * n).reshape(m, 3)
+    owners = np.frombuffer(payload, "<u4", m, 12 * n + 4 * n + 12 * m)
+    boxes = [points[corners[owners == k].ravel()] for k in range(len(header.parts))]
+    return {
+        part: (box.min(axis=0) + box.max(axis=0)) / 2 for part, box in zip(header.parts, boxes, strict=True)
+    }
+
+
+def shown(connected):
+    """The middles of the picked result."""
+    connected.shapes.clear()
+    connected.ask("show", key=connected.view["picked"])
+    while not connected.shapes:
+        connected.read(10.0)
+    return middles(connected)
+
+
+#: A drag in the plane that faces a camera.
+AIM, ALONG = np.array([0.2, 0.0, -0.1]), [0.0, 1.0, 0.0]
+
+
+def test_a_part_moves_with_the_pointer_and_its_end_is_a_result(ship):
+    before, arrived = shown(ship), 0
+    for part, middle in before.items():
+        picked = ship.view["picked"]
+        ship.shapes.clear()
+        for step in (0.3, 0.6, 1.0):
+            to = (middle + step * AIM).tolist()
+            ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="move")
+        header = ship.shapes[-1][0]
+        assert {one.what for one, _ in ship.shapes} == {"moving"}
+        left = np.linalg.norm((np.array(header.held) - middle - AIM)[[0, 2]])
+        assert (left <= 0.01 * 20) == (header.note == "")
+        told = ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="end")
+        assert told["kind"] == "dragged"
+        assert (told["share"] <= 0.01) == (told["reason"] == "")
+        assert (ship.view["picked"] != picked) == bool(told["changes"])
+        arrived += told["reason"] == ""
+        if told["changes"]:
+            ship.ask("undo")
+        assert ship.view["picked"] == picked
+    assert arrived >= 2
+
+
+def test_pinned_choices_are_equal_to_the_bit_after_twenty_drags(ship):
+    first = described(ship)["choices"]
+    held = [one["address"] for one in first][::3]
+    ship.ask("pin", parts=held)
+    values = {one["address"]: one["value"] for one in first if one["address"] in held}
+    rng = np.random.default_rng(1)
+    for _ in range(20):
+        places = shown(ship)
+        part = sorted(places)[rng.integers(len(places))]
+        to = places[part] + rng.normal(size=3) * 0.3
+        told = ship.ask("drag", part=part, to=to.tolist(), along=[0.6, 0.4, 0.7], phase="end")
+        assert told["share"] <= 0.01 or told["reason"]
+        after = {one["address"]: one["value"] for one in described(ship)["choices"]}
+        assert {address: after.get(address) for address in values} == values
+
+
+def test_the_rest_is_grown_again_around_the_part(ship):
+    for part in shown(ship):
+        middle, picked = shown(ship).get(part), ship.view["picked"]
+        if middle is None:
+            continue
+        goal = middle + np.array([0.0, 0.0, -0.15])
+        told = ship.ask("drag", part=part, to=goal.tolist(), phase="end", follow=True)
+        if told["reason"] == "" and ship.view["picked"]["run"] >= picked["run"] + 2:
+            after = shown(ship)[told["part"]]
+            assert np.linalg.norm(after - goal) <= 0.01 * 20
+            return
+    pytest.fail("no part was followed")
+
+
+def test_a_drag_that_is_cancelled_leaves_the_result(ship):
+    picked = ship.view["picked"]
+    part = described(ship)["parts"][0]["address"]
+    ship.ask("drag", part=part, to=[0, 0, 0.3], phase="move")
+    ship.ask("drag", part=part, to=[0, 0, 0.3], phase="cancel")
+    assert ship.view["picked"] == picked
+
+
+def test_a_default_that_explains_a_drag_is_written_when_accepted(connected, pile):
+    text = pile.read_text()
+    connected.ask("model", reference=str(pile))
+    connected.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+    connected.ask("ask", ask={"target": {"source": "box", "scale": [2.0, 3.0, 2.0]}})
+    connected.ask("run")
+    (part,) = [one for one in shown(connected) if "i[3]" in one]
+    middle = shown(connected)[part]
+    to = (middle + [0.0, 3.5 / 8, 0.0]).tolist()
+    told = connected.ask("drag", part=part, to=to, phase="end")
+    first = told["offers"][0]
+    assert first["says"] == "line 7: 3.0 becomes 3.5"
+    assert pile.read_text() == text
+    with pytest.raises(studio.StudioError, match="has not offered"):
+        connected.ask("rewrite", difference="---")
+    connected.ask("rewrite", difference=first["difference"])
+    assert pile.read_text() == text.replace("height: float = 3.0", "height: float = 3.5")
+    pile.write_text(text)

@@ -1,0 +1,105 @@
+"""What is asked of a scene beside its target, and where a result differs from it, sent by a script."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("starlette")
+
+import niwaki as nw
+import numpy as np
+from niwaki import _engine, studio
+from niwaki.shell import run_files
+
+
+@pytest.fixture
+def connected(served):
+    with studio.connect(served.url, served.key) as one:
+        one.ask("model", reference="spaceship")
+        one.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+        yield one
+
+
+def sample(served, key):
+    data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
+    return run_files.replayed(data, key["number"])
+
+
+def shape_of(connected, what):
+    connected.shapes.clear()
+    while not any(shape.what == what for shape, _ in connected.shapes):
+        connected.read(10)
+    return next(shape for shape, _ in connected.shapes if shape.what == what)
+
+
+def test_nothing_goes_below_the_floor_or_near_an_obstacle(served, connected):
+    obstacle = {"source": "box", "move": [5.0, -0.5, -3.0], "scale": [1.0, 2.0, 1.0], "turn": 30.0}
+    connected.ask("ask", ask={"floor": -1.5, "obstacles": [obstacle]})
+    header = shape_of(connected, "obstacle")
+    assert header.number == 0 and header.pivot == (5.0, -0.5, -3.0)
+    connected.ask("run")
+    found = sample(served, connected.view["picked"])
+    assert found.scene.bounds[0][1] >= -1.5
+    # The engine's own sketch forbids none of its parts.
+    solid = next(one.given["obstacle"] for one in found.search.score.asks if one.function == "avoid")
+    sketch = _engine.Sketch(nw.avoid(solid).specs)
+    assert not any(sketch.add(list(part.shapes)) for part in found.scene)
+    turned = np.radians(30.0)
+    reach = 0.5 * (np.cos(turned) + np.sin(turned))
+    assert np.allclose(solid.bounds, [[5 - reach, -0.5, -3 - reach], [5 + reach, 1.5, -3 + reach]])
+
+
+def test_a_change_of_the_ask_leaves_the_rest_and_a_target_ends_a_sketch(connected):
+    stroke = {"points": [[0.5, 0.5]], "width": 0.2}
+    connected.ask("ask", ask={"floor": 0.0, "target": {"source": "box"}})
+    connected.ask("ask", ask={"sketch": {"strokes": [stroke], "aspect": 1.0}})
+    ask = connected.view["ask"]
+    assert ask["floor"] == 0.0 and ask["target"] is None and ask["sketch"] is not None
+    connected.ask("ask", ask={"target": {"source": "ball"}, "floor": None})
+    ask = connected.view["ask"]
+    assert ask["floor"] is None and ask["target"]["source"] == "ball" and ask["sketch"] is None
+    connected.ask("set", settings={"count": 3})
+    assert connected.view["settings"]["seed"] == 1
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        {"obstacles": [{"source": "/etc/passwd"}]},
+        {"obstacles": [{"source": "box"}] * 17},
+        {"light": [0.0, 1.0, 0.0]},
+        {"flor": 0.0},
+    ],
+)
+def test_an_ask_that_cannot_be_is_refused(connected, ask):
+    before = connected.view["ask"]
+    with pytest.raises(studio.StudioError):
+        connected.ask("ask", ask=ask)
+    assert connected.view["ask"] == before
+
+
+def test_a_shadow_falls_on_the_floor_where_the_light_throws_it(served, connected):
+    connected.ask("model", reference="building")
+    camera = {"position": [0.0, 14.0, 30.0], "look_at": [0.0, 0.0, 0.0], "up": [0, 1, 0], "fov": 30.0}
+    stroke = {"points": [[0.6, 0.5], [0.75, 0.5]], "width": 0.1}
+    sketch = {"strokes": [stroke], "aspect": 1.2, "camera": camera, "kind": "shadow"}
+    connected.ask("ask", ask={"sketch": sketch, "light": [1.0, -1.0, 0.0]})
+    connected.ask("run")
+    found = sample(served, connected.view["picked"])
+    (view,) = found.search.score.views
+    assert view.kind == "shadow" and view.light == (1.0, -1.0, 0.0)
+    assert connected.view["results"][0]["covered"] > 0.5
+
+
+def test_the_difference_has_a_byte_for_each_cell_and_its_sums_are_those_of_the_fit(served, connected):
+    connected.ask("run")
+    key = connected.view["picked"]
+    connected.ask("difference", key=key)
+    header, payload = connected.differences[-1]
+    counts = np.bincount(np.frombuffer(payload, np.uint8), minlength=4)
+    assert len(payload) == np.prod(header.size) and not header.is_picture
+    fit = sample(served, key).fit
+    assert fit.covered == counts[1] / (counts[1] + counts[2])
+    # Beyond the grid there is more of the scene than there are cells.
+    assert fit.outside >= counts[3] / (counts[1] + counts[3]) - 1e-12
+    assert connected.view["results"][0]["covered"] == fit.covered

@@ -1,0 +1,60 @@
+"""Which results are shown: between the best and the most different."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki.studio.worker import variety
+
+
+@nw.model
+def brick():
+    """A brick somewhere on a line."""
+    nw.emit(nw.box((nw.uniform(-9.0, 9.0), 0.0, 0.0), (1.0, 1.0, 1.0)))
+
+
+def bricks(*places):
+    return [nw.run(brick, choices={"uniform": place}).best for place in places]
+
+
+def test_the_same_look_has_no_distance_and_bricks_apart_have_all():
+    away = variety.distances(bricks(0.0, 0.0, 5.0, 5.2))
+    assert away[0, 1] == 0.0 and away[0, 2] == 1.0 and 0.0 < away[2, 3] < 1.0
+    assert np.array_equal(away, away.T)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_strongest_choice_takes_the_farthest_each_time_and_the_weakest_the_best(seed):
+    away = np.random.default_rng(seed).uniform(size=(9, 9))
+    away = np.triu(away, 1) + np.triu(away, 1).T
+    assert variety.chosen(away, 4, 0.0) == [0, 1, 2, 3]
+    taken = variety.chosen(away, 4, 1.0)
+    for k in range(1, 4):
+        rest = [j for j in range(9) if j not in taken[:k]]
+        assert taken[k] == max(rest, key=lambda j: min(away[j, i] for i in taken[:k]))
+
+
+def test_variants_come_in_the_order_of_their_distance():
+    first, *others = bricks(0.0, 5.0, 0.3, 0.0, 0.6)
+    near = variety.ordered(first, others, 2, 0.0)
+    far = variety.ordered(first, others, 2, 1.0)
+    assert [one.choices["uniform"] for one in near] == [0.0, 0.3]
+    assert [one.choices["uniform"] for one in far] == [0.6, 5.0]
+
+
+def test_a_gallery_with_strength_differs_more():
+    ship = nw.Target.find("gallery:ship")
+    from niwaki.gallery.spaceship import spaceship
+
+    found = nw.grow(spaceship, ship, seed=2, diverse=variety.candidates(4, 1.0), rounds=2)
+    plain, strong = (variety.spread(found.samples, 4, strength) for strength in (0.0, 1.0))
+    assert plain[0] is strong[0] is found.best
+
+    def least(samples):
+        away = variety.distances(samples)
+        return min(away[i, j] for i, j in combinations(range(4), 2))
+
+    assert least(strong) >= least(plain)

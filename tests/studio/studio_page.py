@@ -1,0 +1,169 @@
+"""What tests do with the studio's page, and how long it takes.
+
+Times are of a software renderer, and are printed; where `NIWAKI_TIMES` is set (two quiet cores) none may be more than
+twice its limit.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+#: Where pictures and times go.
+OUT = Path("out/studio")
+
+#: Screenshots of the manual: written where `NIWAKI_PICTURES` names its folder of pictures.
+KEPT = {
+    "fill": "studio.png",
+    "shape": "studio-part.png",
+    "objects": "studio-objects.png",
+    "difference": "studio-difference.png",
+    "compare": "studio-compare.png",
+    "shadow": "studio-shadow.png",
+    "dark": "studio-dark.png",
+    "rules": "studio-coloring.png",
+    "falls": "studio-structure.png",
+}
+
+#: Seconds, from facts that were measured on people: 0.1 feels direct, 1 keeps the thought.
+LIMITS = {
+    "model": 0.3,
+    "first shape": 0.3,
+    "gallery": 3.0,
+    "part": 0.1,
+    "part, large": 0.5,
+    "pin": 0.1,
+    "re-roll": 0.5,
+    "undo": 0.1,
+    "drag": 0.2,
+    "refit": 2.0,
+    "stroke": 0.1,
+    "error": 0.5,
+    "mended": 0.5,
+    "difference": 0.1,
+    "compare": 0.1,
+    "export": 2.0,
+}
+times: dict[str, float] = {}
+
+#: The journeys, and the steps of each that are timed: what a person does, and what is then seen.
+JOURNEYS = {
+    "fill": {
+        "model": "choose a model: its name and its target",
+        "first shape": "Grow: the first shape",
+        "gallery": "the gallery, from the first shape on",
+        "difference": "X: where it differs from the target",
+    },
+    "draw": {"stroke": "let go of the pen: the silhouette is asked for"},
+    "shape by hand": {
+        "part": "click a part: its name, its choices",
+        "part, large": "the same beside a target of 1.3 million triangles",
+        "pin": "pin it",
+        "re-roll": "grow it again",
+        "undo": "undo",
+    },
+    "write": {
+        "error": "save a file with an error: the message with its line",
+        "mended": "save it mended: the message goes",
+    },
+    "finish": {"compare": "starred results side by side", "export": "export a GLB"},
+}
+
+
+def as_table() -> str:
+    """The times of the steps as a table of Markdown, with the load of the machine."""
+    load = os.getloadavg()[1]
+    lines = ["| journey | step | seconds | limit |", "| --- | --- | --- | --- |"]
+    for journey, steps in JOURNEYS.items():
+        lines += [
+            f"| {journey} | {step} | {times[name]:.2f} | {LIMITS[name]:.1f} |"
+            for name, step in steps.items()
+            if name in times
+        ]
+    lines.append(f"\nSoftware renderer, {os.cpu_count()} cores, load {load:.1f} (5 minutes).")
+    return "\n".join(lines) + "\n"
+
+
+class timed:
+    """The time of a step of a journey."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __enter__(self):
+        """Begin."""
+        self.begun = time.perf_counter()
+
+    def __exit__(self, kind, *_):
+        """End."""
+        if kind is None:
+            times[self.name] = time.perf_counter() - self.begun
+
+
+def until(page, expression):
+    """Wait until an expression of the page holds."""
+    page.wait_for_function(expression, polling=10)
+
+
+def picture(page, name):
+    """A screenshot, to be looked at."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    page.wait_for_timeout(500)
+    page.screenshot(path=OUT / f"{name}.png")
+    kept = os.environ.get("NIWAKI_PICTURES")
+    if kept is not None and name in KEPT:
+        # 256 colours are enough for a page, and take a third of the bytes.
+        place = Path(kept) / KEPT[name]
+        with Image.open(OUT / f"{name}.png") as full:
+            full.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(place, optimize=True)
+        assert place.stat().st_size < 100_000
+
+
+def choose(page, reference, count=3, seed=1):
+    """Choose a model, how many results and the seed."""
+    page.select_option("select[aria-label=Model]", reference)
+    until(page, f"window.__studio.view.model.reference == {json.dumps(reference)}")
+    until(page, "window.__studio.isGhostShown")
+    slider = page.get_by_role("slider", name="results")
+    slider.fill(str(count))
+    page.locator("input[placeholder='another each time']").fill(str(seed))
+    page.locator("input[placeholder='another each time']").blur()
+    until(
+        page,
+        f"window.__studio.view.settings.count == {count} && window.__studio.view.settings.seed == {seed}",
+    )
+
+
+def grow(page):
+    """Press Grow, and wait for its end."""
+    runs = page.evaluate("window.__studio.view.picked?.run ?? -1")
+    page.locator("button.primary").click()
+    until(page, f"!window.__studio.view.searching && (window.__studio.view.picked?.run ?? -1) != {runs}")
+
+
+def at_rest(page):
+    """Wait for the fine shape and its choices."""
+    until(page, "window.__studio.shown.detail == 'fine' && window.__studio.described")
+
+
+def click_part(page, address):
+    """Click where a part is seen."""
+    box = page.locator("main.stage").bounding_box()
+    x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
+    page.mouse.click(box["x"] + x, box["y"] + y)
+
+
+def visible(page, word):
+    """The address of a part that is seen, with this word in it."""
+    found = "window.__studio.shown.parts.find(one => one.includes(%s) && window.__studio.pointOf(one))"
+    return page.evaluate(found % json.dumps(word))
+
+
+def camera(page):
+    """Where the camera stands."""
+    return np.array(page.evaluate("window.__studio.camera"))
