@@ -14,6 +14,7 @@ import typer
 import niwaki as nw
 from niwaki import result as results
 from niwaki import shell
+from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.shell import (
     arguments,
