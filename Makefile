@@ -153,7 +153,7 @@ soak: $(STAMPS)/engine $(STAMPS)/test
 
 # Installs Ray and Dask, which take 300 MB; both listen on the loopback only.
 cluster: $(STAMPS)/engine $(STAMPS)/test $(STAMPS)/cluster
-	$(PY) -m pytest tests/niwaki/batches/test_clusters.py
+	$(PY) -m pytest tests/niwaki/batches
 
 # Builds the engine once more, with counters of what a run reaches. The fuzzers' lints are here, because they build it too.
 fuzz: $(STAMPS)/engine $(STAMPS)/test

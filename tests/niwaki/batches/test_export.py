@@ -1,0 +1,56 @@
+"""Claim: a table says what the results are, whatever varies and whatever failed; Parquet and CSV say the same."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import batched
+import niwaki as nw
+import pytest
+from niwaki import batches
+from niwaki.batches import export
+
+
+def stored(folder: Path) -> batches.Store:
+    """Searches some of which fail, labels of mixed kinds, the largest seed."""
+    possible = nw.Search(batched.bump, method=nw.smc(3))
+    perhaps = nw.Search(batched.often_impossible, method=nw.smc(1))
+    table = batches.Table([possible, perhaps], [{"size": 1, "name": "bump"}, {"size": 2.5, "name": 7}])
+    store = batches.Store(folder, table.spec([0, 1, 2, 3, 2**64 - 1]))
+    with ThreadPoolExecutor(1) as thread:
+        list(table.run(store, (1, 1), batches.Workers(thread)))
+    return store
+
+
+def test_the_table_has_what_the_results_have(tmp_path: Path) -> None:
+    store = stored(tmp_path)
+    with open(export.write_csv(tmp_path / "results.csv", store, choices=True), newline="") as file:
+        rows = list(csv.DictReader(file))
+    found = list(batches.outcomes(store))
+    assert [int(row["seed"]) for row in rows] == [one.seed for one in found]
+    for row, one in zip(rows, found, strict=True):
+        assert row["fault"] == (one.fault or "")
+        if one.fault is None:
+            assert float(row["log_score"]) == one.best.log_score and int(row["samples"]) == len(one.result)
+    assert {row["fault"] for row in rows} == {"", "everything-impossible"}
+    assert [row["name"] for row in rows[::5]] == ["bump", "7"]
+
+
+@pytest.mark.skipif(importlib.util.find_spec("pyarrow") is None, reason="pyarrow is not installed")
+def test_parquet_has_the_same(tmp_path: Path) -> None:
+    import pyarrow.parquet
+
+    store = stored(tmp_path)
+    rows = pyarrow.parquet.read_table(export.write_parquet(tmp_path / "results.parquet", store)).to_pylist()
+    wanted = [export.numbers(one) for one in batches.outcomes(store)]
+    assert [{**row, "name": str(row["name"])} for row in wanted] == rows
+    assert rows[4]["seed"] == 2**64 - 1 and rows[0]["size"] == 1.0
+
+
+@pytest.mark.skipif(importlib.util.find_spec("pyarrow") is not None, reason="pyarrow is installed")
+def test_without_the_library_there_is_a_message(tmp_path: Path) -> None:
+    with pytest.raises(nw.NiwakiError, match=r"niwaki\[parquet\]"):
+        export.write_parquet(tmp_path / "results.parquet", stored(tmp_path))
