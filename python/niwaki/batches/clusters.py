@@ -7,9 +7,11 @@ anything of the network outside of it.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from niwaki.errors.extras import optional
@@ -17,12 +19,14 @@ from niwaki.errors.extras import optional
 #: So often Ray itself starts a task again whose worker was lost.
 RETRIES = 3
 
-#: What keeps Ray silent, and closed to others; what the person has set stays.
-SETTINGS = {
-    "RAY_USAGE_STATS_ENABLED": "0",
-    "RAY_USAGE_STATS_REPORT_URL": "http://127.0.0.1:9",
-    "RAY_ENABLE_UV_RUN_RUNTIME_ENV": "0",
-}
+#: What keeps Ray from reporting anything.
+SILENT = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_USAGE_STATS_REPORT_URL": "http://127.0.0.1:9"}
+
+#: What keeps a Ray of this machine on the loopback; else it asks which address others would see.
+LOCAL = {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0"}
+
+#: Where Ray looks for the cluster's own settings, in the home folder; where it finds none it asks the cloud for them.
+SETTINGS = "ray_bootstrap_config.yaml"
 
 
 class RayExecutor(Executor):
@@ -56,15 +60,36 @@ def ray(processes: int, address: str | None = None) -> Iterator[Executor]:
     FileError
         Ray is not installed.
     """
-    for name, value in SETTINGS.items():
-        os.environ.setdefault(name, value)
-    library = optional("ray", "a batch on Ray", "cluster")
-    own = {"num_cpus": processes, "include_dashboard": False, "_node_ip_address": "127.0.0.1"}
-    library.init(address=address or "local", log_to_driver=False, **({} if address else own))
-    try:
+    with ExitStack() as stack:
+        if address is not None:
+            with _environment(SILENT):
+                library = optional("ray", "a batch on Ray", "cluster")
+                library.init(address=address, log_to_driver=False)
+        else:
+            home = stack.enter_context(TemporaryDirectory(prefix="niwaki-ray-", ignore_cleanup_errors=True))
+            Path(home, SETTINGS).write_text("{}\n")
+            with _environment({**SILENT, **LOCAL, "HOME": home}):
+                library = optional("ray", "a batch on Ray", "cluster")
+                library.init(
+                    address="local", num_cpus=processes, include_dashboard=False, log_to_driver=False
+                )
+        stack.callback(library.shutdown)
         yield RayExecutor(library)
+
+
+@contextmanager
+def _environment(values: Mapping[str, str]) -> Iterator[None]:
+    """Inside, variables of the environment have these values, for processes that are started."""
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
+    try:
+        yield
     finally:
-        library.shutdown()
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 @contextmanager
