@@ -23,6 +23,7 @@ from niwaki.errors import InputError
 from niwaki.errors.extras import optional
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.result import caption
+from niwaki.search.data import mesh_hash
 
 #: The columns that every table has, after those of what varies, with their kind.
 COLUMNS: dict[str, type] = {
@@ -146,12 +147,15 @@ def best_of(store: Store, count: int, trust: tuple[str, ...] = ()) -> list[Outco
 
 
 def write_sheet(place: Path, found: list[Outcome]) -> Path:
-    """Draw these searches side by side, each with its number in the list and its scores."""
-    target = found[0].best.target if found else None
-    same = all(one.case == found[0].case for one in found)
-    captions = [caption(one.best, number) for number, one in enumerate(found, 1)]
+    """Draw these searches side by side, each with its number in the list, its scores and its case.
+
+    The target is drawn as a ghost where it is the same for all.
+    """
+    targets = [one.best.target for one in found]
+    same = len({None if one is None else mesh_hash(one) for one in targets}) == 1
+    captions = [f"{caption(one.best, number)}   case {one.case}" for number, one in enumerate(found, 1)]
     scenes = [one.best.scene for one in found]
-    return draw.sheet.save(place, scenes, captions, target if same else None, size=(320, 240))
+    return draw.sheet.save(place, scenes, captions, targets[0] if same else None, size=(320, 240))
 
 
 def write_meshes(folder: Path, found: list[Outcome]) -> list[Path]:
