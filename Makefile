@@ -14,10 +14,12 @@
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
 #   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
+#   make bench-batch  a thousand searches, killed ten times: their bytes, and the CPU beyond the searches (2 minutes)
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make studio-pictures  the same, and its screenshots and times go into docs/pictures
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
+#   make cluster  batches on Ray and on Dask, on this machine alone (installs both)
 #   make fuzz     the fuzzers, each for MINUTES (10) by JOBS processes (1; ONLY="core_text sources": those); needs cargo-fuzz
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
 #                 rustup; skipped with a line where there is none)
@@ -53,7 +55,7 @@ PARTS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches figures-sosmc figures-hmc figures-guides soak fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -141,10 +143,17 @@ bench-drag: $(STAMPS)/engine
 bench-searches: $(STAMPS)/engine
 	$(PY) benches/board.py
 
+bench-batch: $(STAMPS)/engine
+	$(PY) benches/batch.py
+
 soak: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace -- --ignored
 	$(PY) -m pytest -m soak || { status=$$?; [ $$status -eq 5 ] && echo "no long test yet" || exit $$status; }
 	$(PY) tests/fuzz/fuzzers.py --minutes 1
+
+# Installs Ray and Dask, which take 300 MB; both listen on the loopback only.
+cluster: $(STAMPS)/engine $(STAMPS)/test $(STAMPS)/cluster
+	$(PY) -m pytest tests/niwaki/batches/test_clusters.py
 
 # Builds the engine once more, with counters of what a run reaches. The fuzzers' lints are here, because they build it too.
 fuzz: $(STAMPS)/engine $(STAMPS)/test
@@ -179,7 +188,7 @@ format: $(STAMPS)/lint
 # uv writes locks that hold on Python 3.11 and later, with hashes and without the address of an index.
 locks: $(STAMPS)/venv
 	$(PIP) install uv
-	for extra in core build studio test browser lint docs bench bench-hmc guides-oracle; do \
+	for extra in core build studio test browser lint docs bench bench-hmc cluster guides-oracle; do \
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \

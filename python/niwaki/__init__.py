@@ -14,6 +14,7 @@ Searching a model:
     smc                                         method: particles
     mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
     kernels                                     the kernels of Markov chains
+    batch                                       many searches on all processors, or on many machines
     train_guide, Guide                          a network that has learnt which choices lead where
     Checkpoint                                  where a search keeps what it needs to go on after a kill
     Search                                      what `grow` and `run` run, as a value: JSON, a hash
@@ -35,6 +36,7 @@ Everything else:
     niwaki.words      what a model may use: distributions as values, colours, vectors, polygons, soft constraints
     niwaki.methods    all methods and their settings
     niwaki.targets    what a scene should match
+    niwaki.batches    batches: their folders, and their results
     niwaki.guides     training guides, and those that come with the package
     niwaki.result     results, diagnostics, gradients
     niwaki.draw       scenes as pictures and files

@@ -1,3 +1,4 @@
+from . import batches as batches
 from . import draw as draw
 from . import errors as errors
 from . import gallery as gallery
@@ -7,6 +8,7 @@ from . import result as result
 from . import targets as targets
 from . import words as words
 from ._engine import __version__ as __version__
+from .batches import batch as batch
 from .errors import InputError as InputError
 from .errors import ModelError as ModelError
 from .errors import ModelFault as ModelFault

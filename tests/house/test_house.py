@@ -85,7 +85,7 @@ def test_import_loads_nothing_that_is_not_always_needed():
 def test_locks_pin_every_requirement_with_a_hash():
     locks = sorted((ROOT / "requirements").glob("*.txt"))
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    unlocked = {"arviz", "color", "plots", "print", "stacks"}
+    unlocked = {"arviz", "color", "parquet", "plots", "print", "stacks"}
     assert {lock.stem for lock in locks} == set(extras) - unlocked | {"core"}
     for lock in locks:
         entries = re.split(r"\n(?=\S)", lock.read_text().strip())
@@ -163,10 +163,10 @@ def test_help_names_only_what_there_is():
 
     listed = re.findall(r"^    (\w+(?:, \w+)*)(?:, \.\.\.)?  ", niwaki.__doc__, re.M)
     names = {name for line in listed for name in line.split(", ")}
-    assert len(names) == 35
+    assert len(names) == 36
     assert names <= set(niwaki.__all__)
     parts = re.findall(r"^    niwaki\.(\w+)  ", niwaki.__doc__, re.M)
-    assert len(parts) == 11 and all(importlib.util.find_spec(f"niwaki.{part}") for part in parts)
+    assert len(parts) == 12 and all(importlib.util.find_spec(f"niwaki.{part}") for part in parts)
 
 
 def test_crates_import_only_the_rooms_above_them():

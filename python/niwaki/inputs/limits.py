@@ -48,6 +48,7 @@ LIMITS = {
     "camera": Limit(1 * MB, "bytes", "a camera takes 200 bytes"),
     "guide": Limit(256 * MB, "bytes", "the largest of our guides takes 0.4 MB"),
     "checkpoint": Limit(2_000 * MB, "bytes", "a training of a million traces of twenty choices"),
+    "batch": Limit(2_000 * MB, "bytes", "a thousand cases, each with a mesh of 40,000 triangles"),
     "run": Limit(256 * MB, "bytes", "a thousand runs of ten thousand choices"),
     "preset": Limit(1 * MB, "bytes", "a model has tens of arguments"),
     "model": Limit(16 * MB, "bytes", "a program that a person writes takes some kB"),

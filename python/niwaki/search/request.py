@@ -19,7 +19,7 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from os import PathLike
 from pathlib import Path
@@ -165,6 +165,12 @@ class Search:
         """
         keeper = None if checkpoint is None else searching.keeper(self, Checkpoint.of(checkpoint))
         return searching.carried_out(self, check_threads(threads), progress, keeper)
+
+    def with_seed(self, seed: int) -> Search:
+        """The same search with another seed; both share what the engine has compiled."""
+        other = replace(self, seed=seed)
+        other.__dict__["task"] = self.task
+        return other
 
     def polished(
         self,
@@ -313,9 +319,13 @@ class Search:
     def __hash__(self) -> int:
         return int(self.hash[:15], 16)
 
+    @property
+    def host_modules(self) -> tuple[str, ...]:
+        """The modules of the host functions that the model calls."""
+        return tuple(sorted({one.__module__ for one in self.model.core().constants if callable(one)}))
+
     def __reduce__(self) -> tuple[Any, ...]:
-        trust = tuple(sorted({one.__module__ for one in self.model.core().constants if callable(one)}))
-        return Search.of_json, (self.json("inside"), trust)
+        return Search.of_json, (self.json("inside"), self.host_modules)
 
 
 @cache

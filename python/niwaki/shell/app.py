@@ -16,6 +16,7 @@ COMMANDS = {
     "models": "List the gallery: name, how to run it, target, title.",
     "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
+    "batch": "Do many searches on all processors or many machines, and go on with them.",
     "replay": "Write the best result of a search again, in any format.",
     "check": "Compile a model and report what it is made of, with advice.",
     "sample": "Sample a model by Markov chains.",

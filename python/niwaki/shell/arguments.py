@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import inspect
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any, get_type_hints
@@ -59,14 +59,10 @@ def read(model: Model[..., Any], words: Iterable[str] | None, preset: Path | Non
     FileError
         The preset cannot be read, or is no TOML.
     """
+    table = {} if preset is None else toml_of(text_of(preset, "preset", "a preset"), preset)
+    found = fitting(model, table)
     signature = inspect.signature(model.function)
     kinds = _kinds(model, signature)
-    found: dict[str, Any] = {}
-    for name, value in (
-        {} if preset is None else toml_of(text_of(preset, "preset", "a preset"), preset)
-    ).items():
-        _check_name(model, signature, name)
-        found[name] = _fitting(name, value, kinds.get(name), repr(value))
     for word in words or ():
         name, equals, text = word.partition("=")
         if not equals:
@@ -80,6 +76,21 @@ def read(model: Model[..., Any], words: Iterable[str] | None, preset: Path | Non
         _check_name(model, signature, name)
         found[name] = _fitting(name, _value(text, kinds.get(name)), kinds.get(name), repr(text))
     return found
+
+
+def fitting(model: Model[..., Any], table: Mapping[str, Any]) -> dict[str, Any]:
+    """Values by name as the model's signature has them.
+
+    Raises
+    ------
+    InputError
+        As for `read`.
+    """
+    signature = inspect.signature(model.function)
+    kinds = _kinds(model, signature)
+    for name in table:
+        _check_name(model, signature, name)
+    return {name: _fitting(name, value, kinds.get(name), repr(value)) for name, value in table.items()}
 
 
 def bound(model: Model[..., Any], given: dict[str, Any]) -> list[Any]:

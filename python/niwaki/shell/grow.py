@@ -12,11 +12,22 @@ from typing import Annotated, Any
 import typer
 
 import niwaki as nw
-from niwaki import gallery, search, shell
 from niwaki import result as results
+from niwaki import shell
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
-from niwaki.shell import arguments, controls, folders, held, picking, pictures, resuming, settings, writing
+from niwaki.shell import (
+    arguments,
+    asking,
+    controls,
+    folders,
+    held,
+    picking,
+    pictures,
+    resuming,
+    settings,
+    writing,
+)
 from niwaki.shell.app import Folder, Megabytes, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
@@ -118,43 +129,25 @@ def grow(
         pixels,
         style is not None,
     )
-    onward = settings.polish(polish, polish_kernel)
+    wish = asking.Asked(
+        chosen,
+        voxel,
+        sigma,
+        rule,
+        method,
+        guide,
+        polish,
+        polish_kernel,
+        runs,
+        seed,
+        max_steps,
+        max_memory,
+        given,
+    )
     style = style or ("ink" if chosen.is_drawing else None)
     files = writing.Files.of_flags(formats, scale, fuse, frames, size, style)
     with clock.part("target"):
-        aim = chosen.aim(found)
-        score = chosen.score(found, voxel, sigma)
-        drawing = chosen.drawing(found)
-    start: dict[str, Any] = {}
-    if drawing is not None and controls.follows(found.model):
-        start = dict(zip(("x", "y", "ahead"), drawing.place(chosen.page(found)), strict=True))
-    if voxel is None and target is None and aim is not None and found.entry is not None:
-        voxel = found.entry.voxel
-    suits = {"particles": gallery.PARTICLES} if found.entry is None else found.entry.usual
-    if score.window is not None:
-        suits = {**suits, "power": 1.0}
-    own = settings.guide(guide, found, [*_sketches(score), *(["match_volume"] if aim else [])], method, given)
-    if own is not None:
-        suits, method = {**suits, **search.GUIDED}, method or "smc"
-    with clock.part("target"):
-        if "(emit " not in found.model.core().text:
-            raise InputError("no-emit", name=found.model.name)
-        asked = search.asked(
-            found.model,
-            aim,
-            **{**start, **own_values},
-            score=score,
-            method=settings.guided(settings.method(method, given, suits), own),
-            polish=onward,
-            seed=seed,
-            lock=None if onto is None else onto.held,
-            voxel=voxel,
-            sigma=0.02 if sigma is None else sigma,
-            rule=rule,
-            runs=runs,
-            max_steps=max_steps,
-            max_memory=max_memory << 20,
-        )
+        asked = wish.search(found, own_values, None if onto is None else onto.held)
     most = runs if given.get("diverse") is None else given["diverse"]
     picking.exported(export, most)
     writes = output is not None or not as_json
@@ -235,11 +228,6 @@ def _end(
         if folder is not None:
             print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
         raise typer.Exit(130)
-
-
-def _sketches(score: nw.Score) -> list[str]:
-    """Names of the sketches of a score."""
-    return [spec.name for spec in score.specs]
 
 
 def _write(

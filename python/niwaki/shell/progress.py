@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 from rich.console import Console
 
-from niwaki import result
+from niwaki import batches, result
 
 #: Seconds between two lines where stderr is a file or a pipe: short runs say nothing, long ones show that they live.
 EVERY = 5.0
@@ -57,6 +57,30 @@ def coloring_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
     """Progress of `color`."""
     with said(f"coloring {name}", keeps=False) as show:
         yield lambda now: show(f"{now.done} proposals, best {_best(now)}")
+
+
+@contextmanager
+def batch_line(name: str) -> Iterator[Callable[[batches.Standing], None]]:
+    """Progress of `batch`, over all its workers."""
+    with said(f"batch {name}", keeps=False) as show:
+        yield lambda now: show(standing(now))
+
+
+def standing(now: batches.Standing) -> str:
+    """How far a batch is: searches, their rate, what they cost, and the time that is left."""
+    faults = f", {now.faults} failed" if now.faults else ""
+    left = "" if now.seconds_left is None else f", {duration(now.seconds_left)} left"
+    return (
+        f"{now.done:,} of {now.total:,} searches{faults}, {now.rate:.3g} a second, "
+        f"{duration(now.cpu_seconds)} of processors{left}"
+    )
+
+
+def duration(seconds: float) -> str:
+    """Seconds as people say them: 43 s, 12 min, 3.4 h."""
+    if seconds < 120.0:
+        return f"{seconds:.0f} s" if seconds >= 10.0 else f"{seconds:.1f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 7200.0 else f"{seconds / 3600.0:.1f} h"
 
 
 def _best(now: result.Progress) -> str:

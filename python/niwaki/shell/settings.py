@@ -99,9 +99,7 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
 def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
     """The option of one setting; `shown` is the default in its help text."""
     owners: list[Any] = [method for method in methods if name in {field.name for field in fields(method)}]
-    kinds = [_hints(owner)[name] for owner in owners]
-    plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in kinds)]
-    typed = plain[0] if plain else str
+    typed = _typed(name, methods)
     whose = (
         ""
         if len(owners) == len(methods)
@@ -115,6 +113,20 @@ def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> 
     option = typer.Option(*names, help=f"{whose}{described(owners[0]).get(name, '')}{usual}")
     annotation = Annotated[typed | None, option]  # type: ignore[valid-type]
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
+
+
+@cache
+def kinds() -> dict[str, Any]:
+    """The type of each setting of the methods of `niwaki grow`, as it is typed."""
+    methods = tuple(METHODS.values())
+    return {name: _typed(name, methods) | None for name in _names(methods)}
+
+
+def _typed(name: str, methods: tuple[Any, ...]) -> Any:
+    """The type of a setting, as it is typed."""
+    hints = [_hints(method)[name] for method in methods if name in {field.name for field in fields(method)}]
+    plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in hints)]
+    return plain[0] if plain else str
 
 
 @cache

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from niwaki.errors.texts.batches import BATCHES
 from niwaki.errors.texts.message import Message
 from niwaki.errors.texts.shell import SHELL
 
 SETTINGS = (
     *SHELL,
+    *BATCHES,
     Message(
         "bad-setting",
         "`{name}` cannot be {found}",

@@ -1,0 +1,15 @@
+from . import clusters as clusters
+from . import export as export
+from .body import Outcome as Outcome
+from .entry import Table as Table
+from .entry import batch as batch
+from .entry import label as label
+from .entry import outcomes as outcomes
+from .entry import stored as stored
+from .pools import Workers as Workers
+from .pools import cores as cores
+from .running import Standing as Standing
+from .spec import Seeds as Seeds
+from .spec import Spec as Spec
+from .store import Store as Store
+from .store import is_batch as is_batch

@@ -1,0 +1,185 @@
+"""A result as the bytes of a record, and back: JSON, with nothing from a clock or a machine.
+
+Two machines that do the same search write the same bytes. Reading runs nothing: a run is made again from its choices.
+A search that failed has the error's code and first line; the rest of the message names files, and is in the log.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from msgspec import Meta, Struct
+
+from niwaki import _engine
+from niwaki.errors import InputError, NiwakiError
+from niwaki.errors.schema import Unfit, fitted
+from niwaki.lang.compiled import translated
+from niwaki.once import cached_property
+from niwaki.result import Result, Sample
+from niwaki.result.info import EnumerationInfo, ImproveInfo, Info, restored_info, stored_info
+from niwaki.search import Search
+from niwaki.search.data import MALFORMED, Reader, Writer
+
+
+class Body(Struct):
+    """A stored result, or what became of it.
+
+    Attributes
+    ----------
+    samples
+        Data of the runs.
+    sizes
+        How many samples each chain has.
+    best
+        Data of the best run, where it is none of the samples.
+    info
+        The method's statistics.
+    invalid
+        As `Result.invalid`.
+    fault, message
+        The code and the first line of the error of a search that failed.
+    """
+
+    samples: list[str] = []
+    sizes: list[Annotated[int, Meta(ge=0)]] = []
+    best: str | None = None
+    info: dict[str, Any] | None = None
+    invalid: dict[str, Annotated[int, Meta(ge=0)]] = {}
+    fault: str | None = None
+    message: str = ""
+
+
+def body_of(result: Result) -> bytes:
+    """The bytes of a result."""
+    samples = [sample._run.data() for sample in result]
+    best = None if isinstance(result.info, EnumerationInfo) else result.best._run.data()
+    return _bytes(
+        {
+            "samples": samples,
+            "sizes": result.sizes,
+            "best": None if best in samples else best,
+            "info": _info(result.info),
+            "invalid": result.invalid,
+        }
+    )
+
+
+def fault_of(error: NiwakiError) -> bytes:
+    """The bytes of a search that failed."""
+    first = str(error).partition("\n")[0].removeprefix(f"error[{error.code}]: ")
+    return _bytes({"fault": error.code, "message": first})
+
+
+def _bytes(data: Mapping[str, Any]) -> bytes:
+    return json.dumps(data, sort_keys=True, separators=(",", ":")).encode()
+
+
+def _info(info: Info) -> dict[str, Any] | None:
+    """Statistics without the clock's."""
+    stored = stored_info(info)
+    if stored is None:
+        return None
+    if isinstance(info, ImproveInfo):
+        stored["fields"]["seconds"] = ()
+    if isinstance(info, EnumerationInfo):
+        write = Writer("inside")
+        stored["fields"]["table"] = [[write(value), log] for value, log in info.table]
+    return stored
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one search of a batch.
+
+    Attributes
+    ----------
+    case : int
+        The number of its case, from 0.
+    labels : dict
+        The values in which its case differs from the others.
+    seed : int
+        Its seed.
+    search : Search
+        The search, which can be run again.
+    """
+
+    case: int
+    labels: Mapping[str, Any]
+    seed: int
+    search: Search
+    _bytes: bytes
+
+    @cached_property
+    def _body(self) -> Body:
+        try:
+            body: Body = fitted(json.loads(self._bytes), Body)
+            return body
+        except (Unfit, ValueError, RecursionError) as error:
+            raise self._refused(error) from error
+
+    @property
+    def fault(self) -> str | None:
+        """The code of the error by which the search failed, such as "everything-impossible"; None where it did not."""
+        return self._body.fault
+
+    @property
+    def message(self) -> str:
+        """The first line of that error."""
+        return self._body.message
+
+    @cached_property
+    def result(self) -> Result:
+        """The result; without seconds, which are in the batch's log.
+
+        Raises
+        ------
+        InputError
+            The search failed, or what is stored is no result of it.
+        """
+        body = self._body
+        if body.fault is not None:
+            raise InputError(
+                "search-failed", name=self.search.model.name, seed=self.seed, reason=body.message
+            )
+        return Result(
+            self.search,
+            [self._sample(one) for one in body.samples],
+            self.seed,
+            info=self._statistics(body.info),
+            sizes=body.sizes,
+            invalid=body.invalid,
+        )
+
+    @cached_property
+    def best(self) -> Sample:
+        """The best run; of chains the best state that they reached."""
+        return self.result.best if self._body.best is None else self._sample(self._body.best)
+
+    def _sample(self, data: str) -> Sample:
+        try:
+            with translated(self.search.model.name):
+                return Sample(self.search.task.run_of_data(data), self.search, self.seed)
+        except (*MALFORMED, _engine.EngineFault) as error:
+            raise self._refused(error) from error
+
+    def _statistics(self, data: dict[str, Any] | None) -> Info:
+        try:
+            info = restored_info(data)
+            if isinstance(info, EnumerationInfo):
+                read = Reader()
+                table = tuple((read(value), log) for value, log in info.table)
+                return EnumerationInfo(info.log_evidence, table, info.runs)
+            return info
+        except (*MALFORMED, Unfit) as error:
+            raise self._refused(error) from error
+
+    def _refused(self, error: Exception) -> InputError:
+        where = f"the result of case {self.case}, seed {self.seed}"
+        return InputError("bad-batch", path=where, reason=str(error))
+
+    def __repr__(self) -> str:
+        named = "".join(f"{name}={value!r}, " for name, value in self.labels.items())
+        return f"<Outcome: {named}seed {self.seed}, {self.message if self.fault else repr(self.best)}>"

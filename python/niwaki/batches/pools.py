@@ -1,0 +1,116 @@
+"""Where chunks are worked on: any `concurrent.futures.Executor`; a pool of spawned processes when none is given.
+
+Our own pool is made anew when it breaks. An executor that was given belongs to whoever made it, and stays open.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
+
+from niwaki.batches.working import Chunk, Done, work
+from niwaki.errors import InputError
+from niwaki.errors.settings import bad, count, is_number
+
+#: The most processes of a pool of ours.
+MOST = 512
+
+#: Seconds of a chunk.
+TARGET = 2.0
+
+#: Chunks under way for each worker: while one is worked on, the next one is there.
+AHEAD = 2
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def local(processes: int) -> ProcessPoolExecutor:
+    """A pool of spawned processes, which end with this one, whatever ends it."""
+    context = multiprocessing.get_context("spawn")
+    return ProcessPoolExecutor(processes, mp_context=context, initializer=_begin)
+
+
+def _begin() -> None:
+    """In a worker: Ctrl-C is for the process that collects, and without that one there is nothing to do."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_follow, args=(parent.join,), daemon=True).start()
+
+
+def _follow(ended: Callable[[], None]) -> None:
+    ended()
+    os._exit(1)
+
+
+class Workers:
+    """An executor, and what is known about it.
+
+    Parameters
+    ----------
+    executor
+        An executor; a pool of our own when left out.
+    processes
+        How many workers it has; the processors of the machine when left out.
+    seconds
+        About so many seconds of searches are given to a worker at once.
+    """
+
+    def __init__(
+        self, executor: Executor | None = None, processes: int | None = None, seconds: float = TARGET
+    ) -> None:
+        if executor is not None and not isinstance(executor, Executor):
+            raise bad(
+                "executor",
+                executor,
+                "an executor of `concurrent.futures`",
+                "None, for processes of this machine",
+            )
+        if not is_number(seconds) or not 0.0 <= seconds <= 3600.0:
+            raise bad("chunk", seconds, "seconds from 0 to 3600", str(TARGET))
+        self.seconds = seconds
+        known = getattr(executor, "_max_workers", None)
+        self.count = count("processes", processes or known or cores(), most=1 << 20 if executor else MOST)
+        self._given, self._own = executor, None if executor else local(self.count)
+
+    @property
+    def depth(self) -> int:
+        """How many chunks may be under way."""
+        return self.count * AHEAD
+
+    def submit(self, chunk: Chunk) -> Future[Done]:
+        """Give a chunk to a worker."""
+        executor = self._given or self._own
+        assert executor is not None
+        return executor.submit(work, chunk)
+
+    def renew(self, reason: BaseException) -> None:
+        """Begin again after the pool broke.
+
+        Raises
+        ------
+        InputError
+            The executor is not ours.
+        """
+        if self._own is None:
+            raise InputError("executor-broken", reason=str(reason) or type(reason).__name__) from reason
+        self._own.shutdown(wait=True, cancel_futures=True)
+        self._own = local(self.count)
+
+    def close(self, at_once: bool) -> None:
+        """End our own pool; `at_once` also what is under way."""
+        if self._own is None:
+            return
+        processes = list((getattr(self._own, "_processes", None) or {}).values()) if at_once else []
+        self._own.shutdown(wait=False, cancel_futures=True)
+        for process in processes:
+            process.terminate()
+        for process in processes:
+            process.join()

@@ -1,0 +1,259 @@
+"""Claims: a batch gives the same bytes however it is computed; what is done is not done again; a fault is a result;
+what would give other results is refused.
+
+Most searches here run in a thread, which is an executor as any other; pools of processes are in `test_lost.py`.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import batched
+import niwaki as nw
+import pytest
+from niwaki import batches
+from niwaki.batches import segments, working
+from niwaki.batches.plan import MOST, shard_of
+from niwaki.batches.spec import Case
+from niwaki.errors import FileError, InputError
+from niwaki.shell.references import find
+
+
+@pytest.fixture
+def thread() -> Iterator[ThreadPoolExecutor]:
+    with ThreadPoolExecutor(1) as executor:
+        yield executor
+
+
+def logged(folder: Path) -> Counter[str]:
+    """How often the logs name each key."""
+    lines = [line for log in folder.glob("*/log-*") for line in log.read_text().splitlines()]
+    return Counter(json.loads(line)["key"] for line in lines)
+
+
+def scores(found: Any) -> list[tuple[int, int, float]]:
+    return [(one.case, one.seed, one.best.log_score) for one in found]
+
+
+def test_outcomes_are_those_of_the_searches_alone_and_in_order(thread: ThreadPoolExecutor) -> None:
+    found = list(nw.batch(batched.PILES, seeds=[7, 3], executor=thread))
+    alone = [
+        (case, seed, search.with_seed(seed).run().best)
+        for case, search in enumerate(batched.PILES)
+        for seed in (3, 7)
+    ]
+    assert scores(found) == [(case, seed, best.log_score) for case, seed, best in alone]
+    assert [one.best.choices for one in found] == [best.choices for _, _, best in alone]
+    assert [one.labels for one in found] == [{"search": 0}] * 2 + [{"search": 1}] * 2
+
+
+def test_one_worker_a_pool_and_shards_give_one_hash(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    wanted = scores(nw.batch(batched.PILES, seeds=batched.SEEDS, folder=tmp_path / "one", executor=thread))
+    pool = nw.batch(batched.PILES, seeds=batched.SEEDS, folder=tmp_path / "pool", processes=2)
+    assert scores(pool) == wanted and len(wanted) == batched.COUNT
+    parts = []
+    for part in (3, 1, 2):
+        folder = tmp_path / f"part-{part}"
+        done = nw.batch(batched.PILES, seeds=batched.SEEDS, folder=folder, shard=f"{part}/3", executor=thread)
+        parts += scores(done)
+        shutil.copytree(folder, tmp_path / "united", dirs_exist_ok=True)
+    assert sorted(parts) == wanted
+    hashes = {batched.whole(tmp_path / name) for name in ("one", "pool", "united")}
+    assert len(hashes) == 1
+    assert scores(batches.stored(tmp_path / "united")) == wanted
+
+
+def test_what_is_there_is_not_done_again(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    begun = nw.batch(batched.PILES, seeds=batched.SEEDS, folder=tmp_path, executor=thread, chunk=0.0)
+    for _ in range(20):
+        next(begun)
+    begun.close()
+    assert batched.COUNT > len(logged(tmp_path)) >= 20
+    found = list(nw.batch(batched.PILES, seeds=batched.SEEDS, folder=tmp_path, executor=thread))
+    assert len(found) == batched.COUNT and set(logged(tmp_path).values()) == {1}
+    # More seeds of the same cases go to the same folder.
+    list(nw.batch(batched.PILES, seeds=range(20, 40), folder=tmp_path, executor=thread))
+    assert len(batches.Store(tmp_path).whole) == len(batches.Store(tmp_path)) == 80
+    assert set(logged(tmp_path).values()) == {1}
+
+
+def test_a_tail_that_was_cut_costs_what_it_held(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    def all_of_it() -> str:
+        list(nw.batch(batched.PILES, seeds=batched.SEEDS, folder=tmp_path, executor=thread))
+        return batched.whole(tmp_path)
+
+    wanted = all_of_it()
+    (segment,) = tmp_path.glob("*/seg-*")
+    held = [(at, at + length) for _, at, length in segments.records(segment)]
+    cut = segment.stat().st_size - 700
+    segment.write_bytes(segment.read_bytes()[:cut])
+    lost = sum(end > cut for _, end in held)
+    assert all_of_it() == wanted
+    assert sorted(logged(tmp_path).values()) == [1] * (batched.COUNT - lost) + [2] * lost
+
+
+def test_unequal_results_of_one_search_are_an_error(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+    (first,) = tmp_path.glob("*/seg-*")
+    key = next(iter(segments.records(first)))[0]
+    # The same again is nothing; another body is an error.
+    (tmp_path / "1-of-1" / "seg-same").write_bytes(first.read_bytes())
+    assert len(batches.Store(tmp_path)) == 4
+    (tmp_path / "1-of-1" / "seg-wrong").write_bytes(segments.record(key, b"{}"))
+    with pytest.raises(InputError, match="unequal-results"):
+        batches.Store(tmp_path)
+
+
+def test_a_fault_is_the_result_of_its_search(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    search = nw.Search(batched.often_impossible, method=nw.smc(1))
+    found = list(nw.batch(search, seeds=20, folder=tmp_path, executor=thread))
+    failed = [one for one in found if one.fault is not None]
+    assert 0 < len(failed) < 20
+    assert {one.fault for one in failed} == {"everything-impossible"}
+    with pytest.raises(InputError, match="search-failed"):
+        _ = failed[0].result
+    (log,) = tmp_path.glob("*/log-*")
+    errors = [json.loads(line) for line in log.read_text().splitlines() if "error" in json.loads(line)]
+    assert len(errors) == len(failed) and "= help:" in errors[0]["error"]
+    # The stored message names no file, so that it is the same in every checkout.
+    assert __file__ not in (tmp_path / "1-of-1").joinpath(next(tmp_path.glob("*/seg-*")).name).read_text(
+        "latin-1"
+    )
+
+
+@pytest.mark.filterwarnings("ignore::niwaki.result.hmc.GradientWarning")
+@pytest.mark.parametrize(
+    "method", [nw.mh(30, chains=2), nw.nuts(5), nw.smc(5), nw.importance(4)], ids=lambda one: one.NAME
+)
+def test_results_of_every_kind_come_back(method: Any, thread: ThreadPoolExecutor) -> None:
+    search = nw.Search(batched.bump, method=method)
+    (found,) = nw.batch(search, seeds=[5], executor=thread)
+    wanted = search.with_seed(5).run()
+    assert [one.log_joint for one in found.result] == [one.log_joint for one in wanted]
+    assert found.result.sizes == wanted.sizes and found.best.choices == wanted.best.choices
+
+
+def test_a_distribution_comes_back(thread: ThreadPoolExecutor) -> None:
+    search = nw.Search(batched.often_impossible, method=nw.enumerate_all())
+    (found,) = nw.batch(search, executor=thread)
+    assert found.result.distribution() == search.run().distribution() == {1: 1.0}
+
+
+def test_settings_vary(thread: ThreadPoolExecutor) -> None:
+    found = list(
+        nw.batch(
+            batched.pile,
+            nw.targets.examples.ship(),
+            voxel=1.0,
+            vary={"particles": [5, 9], "width": [1.0, 2.0]},
+            executor=thread,
+        )
+    )
+    assert [one.labels for one in found] == [{"particles": p, "width": w} for p in (5, 9) for w in (1.0, 2.0)]
+    assert [one.search.method.particles for one in found] == [5, 5, 9, 9]
+    assert [one.search.args[1] for one in found] == [1.0, 2.0, 1.0, 2.0]
+
+
+def test_what_cannot_be_a_batch_is_refused(reviewed: Any, tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    def tried(*args: Any, **settings: Any) -> Any:
+        # At once, and not when the first result is read.
+        return lambda: nw.batch(*args, executor=thread, **settings)
+
+    target, pile = nw.targets.examples.ship(), batched.pile
+    list(nw.batch(batched.PILES, folder=tmp_path / "there", executor=thread))
+    failing = {
+        "a clock that decides": tried(pile, target, seconds=1.0),
+        "several runs": tried(pile, target, runs=2),
+        "a seed": tried(pile, target, seed=3),
+        "no seeds": tried(batched.PILES, seeds=[]),
+        "a negative seed": tried(batched.PILES, seeds=[-1]),
+        "text as seeds": tried(batched.PILES, seeds="all"),
+        "a name that is fixed and varies": tried(pile, target, width=1.0, vary={"width": [1.0]}),
+        "nothing to vary": tried(pile, target, vary={"width": []}),
+        "one value to vary": tried(pile, target, vary={"width": 2.0}),
+        "no searches": tried([]),
+        "settings beside searches": tried(batched.PILES, vary={"width": [1.0]}),
+        "a part that is none": tried(batched.PILES, shard="3 of 16"),
+        "a part beyond the last": tried(batched.PILES, shard=(4, 3)),
+        "a folder without a batch": lambda: list(batches.stored("tests/golden")),
+    }
+    reviewed(Path(__file__).with_name("refused.txt"), failing)
+    with pytest.raises(InputError, match="it has 2 cases, and this batch 1"):
+        list(nw.batch(batched.PILES[:1], folder=tmp_path / "there", executor=thread))
+    with pytest.raises(InputError, match="of case 1 its `args` differs"):
+        other = nw.Search(pile, (0.0, 2.5), method=nw.smc(20), keep="best")
+        list(nw.batch([batched.PILES[0], other], folder=tmp_path / "there", executor=thread))
+
+
+def test_another_engine_and_other_bits_are_refused(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, thread: ThreadPoolExecutor
+) -> None:
+    list(nw.batch(batched.PILES, folder=tmp_path, executor=thread))
+    for name, place in (("engine_hash", working), ("fingerprint", working._engine)):
+        with monkeypatch.context() as changed:
+            changed.setattr(place, name, lambda: "0" * 32)
+            if name == "engine_hash":
+                with pytest.raises(InputError, match="worker-differs"):
+                    list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+            else:
+                with pytest.raises(InputError, match="this machine computes other bits"):
+                    list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+    assert len(batches.Store(tmp_path)) == 2
+
+
+HOSTS = """
+from niwaki import box, emit, factor, host, model, uniform
+
+@host
+def judged(x):
+    return -x
+
+SIZE = 1.0
+BLOCK = box((0, 0, 0), (SIZE, 1, 1))
+
+@model
+def tower():
+    factor(judged(uniform(0.0, 1.0)))
+    emit(BLOCK)
+"""
+
+
+def test_whatever_decides_a_result_changes_its_key(tmp_path: Path) -> None:
+    def key(name: str, text: str, target: Any) -> bytes:
+        (tmp_path / f"{name}.py").write_text(text)
+        score = nw.match_volume(target, 1.0)
+        search = nw.Search(find(f"{tmp_path / name}.py:tower").model, score=score)
+        return batches.Spec.here([Case.of_search(search, {})], batches.Seeds.of(1)).key(0, 0)
+
+    ship, other = nw.targets.examples.ship(), nw.targets.examples.dart()
+    plain = key("keyed", HOSTS, ship)
+    assert key("keyed", "# A comment.\n" + HOSTS, ship) == plain
+    others = [
+        key("keyed", HOSTS.replace("return -x", "return -2 * x"), ship),
+        key("keyed", HOSTS.replace("SIZE = 1.0", "SIZE = 1.5"), ship),
+        key("keyed", HOSTS, other),
+    ]
+    assert len({plain, *others}) == 4
+
+
+def test_one_run_at_a_time_has_a_part_of_a_folder(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    begun = nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread)
+    next(begun)
+    with pytest.raises(FileError, match="folder-in-use"):
+        next(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+    assert len(list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, shard="1/2", executor=thread))) == 2
+    assert len(list(begun)) == 3 and len(batches.Store(tmp_path)) == 4
+
+
+def test_seeds_are_ranges() -> None:
+    assert batches.Seeds.of([5, 3, 4, 9]).ranges == [(3, 3), (9, 1)]
+    assert list(batches.Seeds.of(range(2, 5))) == [2, 3, 4]
+    assert batches.Seeds.of(10).united(batches.Seeds.of(range(5, 20))).ranges == [(0, 20)]
+    assert [batches.Seeds.of([1, 5])[n] for n in (0, 1)] == [1, 5]
+    assert shard_of("3/16") == (3, 16) and MOST > 1

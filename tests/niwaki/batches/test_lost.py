@@ -1,0 +1,158 @@
+"""Claim: whoever is killed at any moment, a worker or the process that collects, the batch goes on with what is missing
+and has the bytes of one that was left alone; and nothing stays behind that runs.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import batched
+import niwaki as nw
+import pytest
+from niwaki import batches
+from niwaki.batches.pools import local
+from niwaki.errors import InputError
+
+UNIX = pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
+
+#: Host functions are known by their module, so it is imported, and not run as a program.
+PROGRAM = "import batched, sys; batched.main(*sys.argv[1:])"
+
+
+def wanted(folder: Path, seeds: int) -> str:
+    """The hash of a batch that is left alone, in a thread."""
+    with ThreadPoolExecutor(1) as thread:
+        list(nw.batch(batched.WAITING, seeds=seeds, folder=folder, executor=thread))
+    return batched.whole(folder)
+
+
+def notes(folder: Path) -> Iterator[dict[str, object]]:
+    for log in folder.glob("*/log-*"):
+        # A line that a kill cut off is none.
+        for line in log.read_text().splitlines(keepends=True):
+            if line.endswith("\n"):
+                yield json.loads(line)
+
+
+def started(folder: Path, seeds: int, slow: float) -> subprocess.Popen[str]:
+    environment = {**os.environ, "SLOW": str(slow), "PYTHONPATH": os.pathsep.join(sys.path)}
+    words = [sys.executable, "-c", PROGRAM, str(folder), str(seeds)]
+    return subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def until_some(folder: Path, child: subprocess.Popen[str], least: int) -> None:
+    """Wait until the logs have so many lines."""
+    end = time.monotonic() + 60.0
+    while sum(1 for _ in notes(folder)) < least and child.poll() is None:
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def ended(processes: set[int], seconds: float = 10.0) -> bool:
+    """Whether processes are gone, after at most so many seconds."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if not any(Path(f"/proc/{one}/cmdline").exists() for one in processes):
+            return True
+        time.sleep(0.05)
+    return False
+
+
+@UNIX
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_a_batch_goes_on_after_its_end(number: signal.Signals, tmp_path: Path) -> None:
+    with started(tmp_path / "kill", 60, 20.0) as child:
+        until_some(tmp_path / "kill", child, 15)
+        child.send_signal(number)
+        child.communicate(timeout=60)
+    assert child.returncode != 0
+    begun = list(notes(tmp_path / "kill"))
+    there = len(batches.Store(tmp_path / "kill"))
+    assert 15 <= there < 60
+    if sys.platform == "linux":
+        assert ended({int(str(one["process"])) for one in begun})
+    with started(tmp_path / "kill", 60, 0.0) as child:
+        said, error = child.communicate(timeout=60)
+    assert child.returncode == 0, error
+    assert said.split() == ["60", wanted(tmp_path / "alone", 60)]
+    # What had a record was not done again; of a chunk that was being written, a line may be missing.
+    assert 60 - there <= sum(1 for _ in notes(tmp_path / "kill")) - len(begun) <= 60 - there + 1
+
+
+@UNIX
+def test_a_batch_goes_on_without_a_worker(tmp_path: Path) -> None:
+    with started(tmp_path / "kill", 60, 20.0) as child:
+        until_some(tmp_path / "kill", child, 15)
+        os.kill(int(str(next(notes(tmp_path / "kill"))["process"])), signal.SIGKILL)
+        said, error = child.communicate(timeout=60)
+    assert child.returncode == 0, error
+    assert said.split() == ["60", wanted(tmp_path / "alone", 60)]
+    assert {one["attempt"] for one in notes(tmp_path / "kill")} == {1}
+
+
+def test_what_ends_its_worker_is_given_up_alone(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    search = nw.Search(batched.dangerous, method=nw.importance(1))
+    values = [search.with_seed(seed).run().best.choices["x"] for seed in range(3)]
+    monkeypatch.setenv("DEADLY", "1")
+    found = []
+    with pytest.raises(InputError, match="searches-lost") as error:
+        for one in nw.batch(search, seeds=3, folder=tmp_path, processes=1):
+            found.append(one.seed)
+    assert 0 < len(found) < 3 and found == [seed for seed in range(3) if values[seed] <= batched.LIMIT]
+    assert f"{3 - len(found)} of 3 searches" in str(error.value)
+    assert len(batches.Store(tmp_path)) == len(found)
+
+
+def test_an_executor_that_is_not_ours_is_not_replaced(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("DEADLY", "1")
+    search = nw.Search(batched.dangerous, method=nw.importance(1))
+    with local(1) as executor, pytest.raises(InputError, match="executor-broken"):
+        list(nw.batch(search, seeds=12, folder=tmp_path, executor=executor))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="switches of the GNU C library")
+def test_a_process_that_computes_other_bits_is_refused(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2,-AVX2_Usable,-FMA_Usable")
+    with local(1) as executor:
+        own = executor.submit(nw._engine.fingerprint).result()
+        if own == nw._engine.fingerprint():
+            pytest.skip("this C library has no other functions")
+        with pytest.raises(InputError, match="worker-differs"):
+            list(nw.batch(batched.PILES, folder=tmp_path, executor=executor))
+    assert not batches.is_batch(tmp_path) or not len(batches.Store(tmp_path))
+
+
+@pytest.mark.soak
+@UNIX
+def test_ten_kills_at_random(tmp_path: Path) -> None:
+    seed = random.randrange(10**6)
+    print(f"seed {seed}")
+    chance, kills = random.Random(seed), 0
+    while True:
+        with started(tmp_path / "kill", 1000, 15.0) as child:
+            end = time.monotonic() + 120.0
+            try:
+                said, error = child.communicate(timeout=chance.uniform(0.5, 4.0) if kills < 10 else 120)
+            except subprocess.TimeoutExpired:
+                assert time.monotonic() < end
+                child.send_signal(signal.SIGKILL)
+                child.communicate()
+                kills += 1
+                continue
+        assert child.returncode == 0, error
+        break
+    assert kills == 10
+    assert said.split() == ["1000", wanted(tmp_path / "alone", 1000)]
