@@ -42,7 +42,7 @@ pub fn hull(points: &[Vec3]) -> Option<Topology> {
             }
         }
     }
-    Some(Topology::from_faces(points.len(), merged(&faces, points, close)))
+    Some(Topology::from_faces(points.len(), merged(&faces, points, close)?))
 }
 
 /// Four points far from each other, as outward triangles.
@@ -62,8 +62,9 @@ fn first_tetrahedron(points: &[Vec3], close: f64) -> Option<[[u32; 3]; 4]> {
     Some([[a, b, c], [a, d, b], [b, d, c], [c, d, a]])
 }
 
-/// Joins triangles of one plane into one face: what is left of their sides after opposite ones cancel.
-fn merged(triangles: &[Triangle], points: &[Vec3], close: f64) -> Vec<Vec<u32>> {
+/// Joins triangles of one plane into one face: what is left of their sides after opposite ones cancel. `None` where too few
+/// are left, because points lie as close as rounding.
+fn merged(triangles: &[Triangle], points: &[Vec3], close: f64) -> Option<Vec<Vec<u32>>> {
     let mut faces = Vec::new();
     let mut done = vec![false; triangles.len()];
     for first in 0..triangles.len() {
@@ -85,6 +86,9 @@ fn merged(triangles: &[Triangle], points: &[Vec3], close: f64) -> Vec<Vec<u32>> 
         }
         let rim: Vec<(u32, u32)> =
             sides.iter().copied().filter(|(a, b)| !sides.contains(&(*b, *a))).collect();
+        if rim.len() < 3 {
+            return None;
+        }
         let mut face = vec![rim[0].0];
         let mut at = rim[0].1;
         while at != face[0] && face.len() < rim.len() {
@@ -96,7 +100,7 @@ fn merged(triangles: &[Triangle], points: &[Vec3], close: f64) -> Vec<Vec<u32>> 
         }
         faces.push(face);
     }
-    faces
+    Some(faces)
 }
 
 #[cfg(test)]
@@ -124,5 +128,17 @@ mod tests {
     fn points_of_a_plane_have_no_hull() {
         let points: Vec<Vec3> = (0..9).map(|i| vec3((i % 3) as f64, 1.0, (i / 3) as f64)).collect();
         assert!(hull(&points).is_none());
+    }
+
+    #[test]
+    fn points_that_are_too_far_for_their_size_have_a_whole_hull_or_none() {
+        for k in 0..40 {
+            let far = vec3(0.3, 0.7, 0.5) * 2.0_f64.powi(k);
+            let ring = (0..7).map(|i| f64::from(i) * 0.9).map(|x| vec3(x.sin(), 0.0, x.cos()));
+            let points: Vec<Vec3> = ring.chain([vec3(0.0, 1.0, 0.0)]).map(|p| p + far).collect();
+            let found = hull(&points);
+            assert!(found.as_ref().is_none_or(|hull| hull.faces.iter().all(|face| face.len() > 2)), "{k}");
+            assert!(found.is_some() || k > 15, "{k}");
+        }
     }
 }

@@ -37,6 +37,15 @@ pub(super) fn log_normal_log_density<S: Scalar>(mean: S, sd: S, x: S) -> S {
     gaussian_log_density(mean, sd, log) - log
 }
 
+/// Whether draws can be scored. Those beyond the numbers of 64 bits become the largest or the smallest of them, which for a
+/// `mean` that is far beyond, too, has no score.
+#[inline]
+pub(super) fn log_normal_has_scores<S: Scalar>(mean: S, sd: S) -> bool {
+    const WITHIN: f64 = 700.0;
+    let far = (mean.abs() + S::from_f64(2.0 * WITHIN)) / sd;
+    mean.abs() <= S::from_f64(WITHIN) || (far * far).is_finite()
+}
+
 /// e to a Gaussian.
 #[inline]
 pub(super) fn log_normal_sample(mean: f64, sd: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
@@ -47,7 +56,7 @@ pub(super) fn log_normal_sample(mean: f64, sd: f64, rng: &mut (impl RngCore + ?S
 mod tests {
     //! Densities integrate to one, and draws have the distribution function of the integral.
     use super::super::testing::*;
-    use crate::{Draw, Family};
+    use crate::{Dist, Draw, Family, Param};
 
     #[test]
     fn draws_follow_the_density() {
@@ -65,5 +74,15 @@ mod tests {
             assert!(wide.log_density(&x).is_finite());
         }
         assert_eq!(wide.log_density(&Draw::Real(f64::INFINITY)), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn a_mean_whose_draws_have_no_score_is_refused() {
+        let new = |mean, sd| Dist::new(Family::LogNormal, &[Param::Real(mean), Param::Real(sd)]);
+        assert!(new(1e277, 2.4).is_err() && Dist::of_reals(Family::LogNormal, -1e277, 2.4).is_none());
+        for (mean, sd) in [(700.0, 1e-300), (1e100, 1.0), (-1e150, 1.0), (-700.0, 1e-10)] {
+            let far = new(mean, sd).unwrap();
+            assert!(far.log_density(&far.sample(&mut stream(1))).is_finite(), "{mean} {sd}");
+        }
     }
 }

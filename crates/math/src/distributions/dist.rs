@@ -23,7 +23,9 @@ impl<S: Scalar> Dist<S> {
         let positive = |x: S| x > S::from_f64(0.0) && x.is_finite();
         let dist = match family {
             Family::Gaussian if a.is_finite() && positive(b) => Dist::Gaussian { mean: a, sd: b },
-            Family::LogNormal if a.is_finite() && positive(b) => Dist::LogNormal { mean: a, sd: b },
+            Family::LogNormal if a.is_finite() && positive(b) && bell::log_normal_has_scores(a, b) => {
+                Dist::LogNormal { mean: a, sd: b }
+            }
             Family::Uniform if a.is_finite() && b.is_finite() && a < b && (b - a).is_finite() => {
                 Dist::Uniform { lo: a, hi: b }
             }
@@ -86,7 +88,13 @@ impl<S: Scalar> Dist<S> {
                 Dist::Uniform { lo, hi }
             }
             Family::Gaussian => Dist::Gaussian { mean: r.finite(0)?, sd: r.positive(1)? },
-            Family::LogNormal => Dist::LogNormal { mean: r.finite(0)?, sd: r.positive(1)? },
+            Family::LogNormal => {
+                let (mean, sd) = (r.finite(0)?, r.positive(1)?);
+                if !bell::log_normal_has_scores(mean, sd) {
+                    return r.refuse(0, "a number to which e can be raised: e^700 is about the largest");
+                }
+                Dist::LogNormal { mean, sd }
+            }
             Family::Gamma => Dist::Gamma { shape: r.positive(0)?, scale: r.positive(1)? },
             Family::InverseGamma => Dist::InverseGamma { shape: r.positive(0)?, scale: r.positive(1)? },
             Family::Beta => Dist::Beta { a: r.positive(0)?, b: r.positive(1)? },
