@@ -109,7 +109,9 @@ impl Interval {
             (Some(lo), Some(hi)) => {
                 // With a = x - lo and b = hi - x, the quotient a / b is multiplied by e^z.
                 let (a, b, grown) = (x - lo, hi - x, z.exp());
-                let new = if grown.is_finite() { lo + (hi - lo) * (a * grown / (a * grown + b)) } else { hi };
+                let share = if grown.is_finite() { a * grown / (a * grown + b) } else { 1.0 };
+                // Rounding may pass the end.
+                let new = (lo + (hi - lo) * share).clamp(lo, hi);
                 let log = |x: f64| -((x - lo) * (hi - x)).ln();
                 (new, log(new), log(x))
             }

@@ -91,7 +91,7 @@ impl<S: Scalar> Dist<S> {
             Family::LogNormal => {
                 let (mean, sd) = (r.finite(0)?, r.positive(1)?);
                 if !bell::log_normal_has_scores(mean, sd) {
-                    return r.refuse(0, "a number to which e can be raised: e^700 is about the largest");
+                    return r.refuse(0, "a number at most 1e150 `sd` from 0, and `sd` above 1e-147");
                 }
                 Dist::LogNormal { mean, sd }
             }
@@ -112,6 +112,12 @@ impl<S: Scalar> Dist<S> {
             Family::TruncatedGaussian => {
                 let (mean, sd) = (r.finite(0)?, r.positive(1)?);
                 let (lo, hi) = interval(&r, 2)?;
+                if !truncated::is_in_reach(mean, sd, lo, hi) {
+                    return r.refuse(
+                        1,
+                        "a number that is no less than 1e-307 times the distance to `lo` and `hi`",
+                    );
+                }
                 Dist::TruncatedGaussian { mean, sd, lo, hi }
             }
             Family::Dirichlet => {

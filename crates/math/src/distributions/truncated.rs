@@ -18,6 +18,12 @@ use crate::streams::{RngCore, open_unit};
 use rand_distr::{Distribution, Exp1, StandardNormal};
 use std::f64::consts::FRAC_1_SQRT_2;
 
+/// Whether the bounds, in standard units, and twice their size are numbers.
+pub(super) fn is_in_reach<S: Scalar>(mean: S, sd: S, lo: S, hi: S) -> bool {
+    let is_near = |bound: S| ((bound - mean) / sd).abs() <= S::from_f64(1e307);
+    is_near(lo) && is_near(hi)
+}
+
 /// Log density at `x`; the parameters are finite, `sd > 0`, `lo < hi`.
 #[inline(never)]
 pub(super) fn log_density<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
@@ -113,7 +119,7 @@ fn offset(a: f64, width: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
 mod tests {
     //! Densities integrate to one and draws follow them, at the peak, beside it and far out.
     use super::super::testing::*;
-    use crate::{Dist, Draw, Family};
+    use crate::{Dist, Draw, Family, Param};
 
     fn truncated(mean: f64, sd: f64, lo: f64, hi: f64) -> Dist {
         dist(Family::TruncatedGaussian, &[mean, sd, lo, hi])
@@ -171,5 +177,16 @@ mod tests {
             let (right, left) = (truncated(0.0, 1.0, lo, hi), truncated(0.0, 1.0, -hi, -lo));
             assert_eq!(right.log_density(&Draw::Real(x)), left.log_density(&Draw::Real(-x)));
         }
+    }
+
+    #[test]
+    fn bounds_beyond_all_numbers_are_refused_and_those_far_out_are_drawn() {
+        let new = |sd: f64| Dist::new(Family::TruncatedGaussian, &[0.5, sd, 1.0, 2.0].map(Param::Real));
+        assert!(new(1e-307).is_err());
+        let far = new(1e-299).unwrap();
+        let draw = far.sample(&mut stream(1));
+        assert!(draw == Draw::Real(1.0) && far.log_density(&draw).is_finite());
+        let (moved, there, back) = far.support().moved(&draw, || 0.3).unwrap();
+        assert!(moved == draw && !there.is_nan() && !back.is_nan());
     }
 }
