@@ -283,6 +283,15 @@ def m():
     xs = [infer(lambda: gaussian(p, 1.0), importance(RUNS)) for i in range(3)]
     return one, best, deep, xs, infer(inner, enumerate_all(), 0.25)
 """,
+    "inference in what an inferred function defines": """
+def m():
+    n = categorical([1, 2, 3])
+    def near(x, n=n + 1):
+        return gaussian(x, 1) + n
+    def outer(x):
+        return infer(lambda y: near(y) + gaussian(0, 1), importance(3), x)
+    return infer(outer, importance(3), 0.5)
+""",
 }
 
 

@@ -9,7 +9,7 @@ around makes the same closure as the engine has, from the values of the Python f
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from types import FunctionType
 from typing import Any
 
@@ -141,13 +141,23 @@ def _look(unit: Unit, scope: Scope, function: FunctionType, needed: Variable, se
     if needed.name in cells and unit.scopes.find(needed.name, scope.parent) is needed:
         return cells[needed.name]
     seen.add(scope)
-    for used in scope.uses:
+    for used in _used(scope, scope, set()):
         inner = cells.get(used.name)
         if used not in seen and isinstance(inner, FunctionType) and used.parent is not None:
             found = _look(unit, used, inner, needed, seen)
             if found is not _NOT_HERE:
                 return found
     return _NOT_HERE
+
+
+def _used(within: Scope, scope: Scope, seen: set[Scope]) -> Iterator[Scope]:
+    """The functions that a scope uses, and those that functions which are defined inside of it use."""
+    for used in scope.uses:
+        if used not in seen:
+            seen.add(used)
+            yield used
+            if used.inside(within):
+                yield from _used(within, used, seen)
 
 
 def _default(scope: Scope, function: FunctionType, name: str) -> Any:
