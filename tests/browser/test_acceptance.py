@@ -242,6 +242,7 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     until(page, "window.__studio.view.model.reference == 'spaceship'")
     tab_to("one.title == 'Add an object'")
     page.keyboard.press("Enter")
+    until(page, "document.querySelector('[role=menuitem]')")
     tab_to("one.getAttribute('role') == 'menuitem'")
     page.keyboard.press("Enter")
     until(page, "window.__studio.view.ask.floor !== null")
