@@ -75,7 +75,7 @@ def facts(run: Run | nw.Sample) -> dict[str, Any]:
 
 def engine(model: Any, **settings: Any) -> dict[str, Any] | NiwakiError:
     try:
-        return facts(nw.run(model, max_steps=200_000, **settings).best)
+        return facts(nw.run(model, max_steps=2_000_000, **settings).best)
     except NiwakiError as error:
         return error
 
