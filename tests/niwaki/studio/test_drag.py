@@ -11,12 +11,6 @@ from niwaki import studio
 
 
 @pytest.fixture
-def connected(served):
-    with studio.connect(served.url, served.key) as one:
-        yield one
-
-
-@pytest.fixture
 def ship(connected):
     """One spaceship, with its choices and the boxes of its parts."""
     connected.ask("model", reference="spaceship")

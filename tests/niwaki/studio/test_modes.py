@@ -6,7 +6,6 @@ import io
 import json
 import tomllib
 import urllib.error
-import urllib.request
 
 import pytest
 
@@ -20,19 +19,7 @@ from niwaki.color.drawing import OWN
 from niwaki.shell import run_files
 from niwaki.studio.messages import Picture, Regions
 from PIL import Image
-from studio_process import serving
-
-
-@pytest.fixture
-def connected(served):
-    with studio.connect(served.url, served.key) as one:
-        yield one
-
-
-def fetch(served, path, body=None):
-    request = urllib.request.Request(served.url + path, body, {"Authorization": f"Bearer {served.key}"})
-    with urllib.request.urlopen(request, timeout=60) as answer:
-        return answer.read()
+from studio_process import fetch, serving
 
 
 def colored(connected, drawing="drawing:house", count=2, seed=1, **more):

@@ -6,7 +6,6 @@ import json
 import subprocess
 import sys
 import time
-import urllib.request
 from pathlib import Path
 
 import pytest
@@ -21,20 +20,9 @@ from niwaki.shell import run_files
 from niwaki.studio.frames import opened
 from niwaki.studio.messages import Shape
 from niwaki.studio.types import typescript
+from studio_process import fetch
 
 REPOSITORY = Path(__file__).parents[3]
-
-
-@pytest.fixture
-def connected(served):
-    with studio.connect(served.url, served.key) as one:
-        yield one
-
-
-def fetch(served, path, body=None):
-    request = urllib.request.Request(served.url + path, body, {"Authorization": f"Bearer {served.key}"})
-    with urllib.request.urlopen(request, timeout=60) as answer:
-        return answer.read()
 
 
 def grown(connected, model="spaceship", count=3, seed=1):

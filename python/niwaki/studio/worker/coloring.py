@@ -22,6 +22,7 @@ from niwaki.color.drawing import OWN
 from niwaki.color.rules import CHAINS
 from niwaki.color.search import default_method
 from niwaki.errors import InputError
+from niwaki.errors.files import ensure_folder
 from niwaki.result import Progress, Result
 from niwaki.shell import run_files
 from niwaki.shell.references import ModelReference
@@ -170,8 +171,7 @@ def show(job: ShowRun, send: Any) -> Answer:
 def write(job: WriteFile) -> Answer:
     """Write a colouring as a picture, as an SVG, or its rules with the pinned colours."""
     one = stored(job.source, job.number)
-    folder = Path(job.folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = ensure_folder(Path(job.folder))
     if job.format == "png":
         path, data = folder / "colouring.png", _bytes(one.image(FILE))
     elif job.format == "toml":

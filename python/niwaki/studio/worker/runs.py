@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import niwaki as nw
-from niwaki.errors.files import write_whole
+from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.result import Result, Sample
 from niwaki.search.data import Reader, Writer
 from niwaki.shell import run_files
@@ -147,8 +147,7 @@ def is_flat(one: Sample) -> bool:
 
 def write(job: WriteFile) -> Answer:
     """Write a result as a file; its recipe is the file of its run, with this result as the best."""
-    folder = Path(job.folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = ensure_folder(Path(job.folder))
     data: dict[str, Any] = run_files.load(job.source)
     data["best"] = job.number
     if job.format == "json":

@@ -20,6 +20,7 @@ import niwaki as nw
 from niwaki import stacks
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
+from niwaki.errors.files import ensure_folder
 from niwaki.methods import explore
 from niwaki.result import Progress, Result, Sample
 from niwaki.studio.messages import (
@@ -126,8 +127,7 @@ def write(job: WriteFile) -> Answer:
     """Boards with the pieces to cut (DXF, SVG), or a drawing of how they are put together; else as any scene."""
     if job.format not in ("dxf", "svg", "assembly"):
         return runs.write(job)
-    folder = Path(job.folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = ensure_folder(Path(job.folder))
     structure = stacks.Structure.of(runs.sample(job.source, job.number))
     if job.format == "assembly":
         return Answer(path=str(stacks.assembly(structure).save(folder / "assembly.svg")[0]))
