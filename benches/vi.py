@@ -64,7 +64,9 @@ def main() -> int:
             continue
     report.note(**machine(), load=os.getloadavg()[0], quick=given.quick, **found)
     missing = [name for name in NAMES if name not in found]
-    report.console.print(f"load average {os.getloadavg()[0]:.1f}; {found}; not installed: {missing or 'none'}")
+    report.console.print(
+        f"load average {os.getloadavg()[0]:.1f}; {found}; not installed: {missing or 'none'}"
+    )
     models = [model for model in given.models.split(",") if not (given.quick and model == "stack")]
     repeats = 1 if given.quick else 3
     table = report.table(
@@ -106,10 +108,11 @@ def measure(
     for name, peer in systems:
         report.note(model=model, family=family, system=name, **peer)
         reached = peer["bound"] >= bound - NEAR
+        rate = peer.get("rate")
         table.add_row(
             model,
             family,
-            f"{name}{'' if peer.get('rate') is None else f', rate {peer["rate"]}'}",
+            name if rate is None else f"{name}, rate {rate}",
             f"{peer['bound']:.2f}",
             str(peer["steps"]),
             short(peer["seconds"]) if reached else f"not in {short(peer['seconds'])}",
@@ -120,7 +123,9 @@ def measure(
             (peer["seconds"] + peer["compile_seconds"]) / whole,
             least=FASTER,
         )
-        report.ask(f"{model}, {family}: times faster than {name}, without", peer["seconds"] / seconds, least=1.0)
+        report.ask(
+            f"{model}, {family}: times faster than {name}, without", peer["seconds"] / seconds, least=1.0
+        )
         report.ask(f"{model}, {family}: bound above {name}'s, nats", bound - peer["bound"], least=-NEAR)
 
 

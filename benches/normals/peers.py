@@ -1,6 +1,7 @@
 """NumPyro's automatic guides and BlackJAX's Pathfinder, over the densities of `hmc/densities.py`."""
 
 import time
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ SAMPLES = 16
 LONGEST = 60.0
 
 
+@cache
 def log_density(name: str) -> Any:
     """A density over JAX arrays."""
     import jax.numpy as jnp
@@ -21,12 +23,18 @@ def log_density(name: str) -> Any:
     return densities.density(jnp, name)
 
 
-def bound_of(name: str, draws: Any, log_q: Any) -> float:
-    """The bound of a normal, by draws from it."""
+@cache
+def _of_each(name: str) -> Any:
+    """The log densities of many points, compiled."""
     import jax
 
-    log_p = jax.jit(jax.lax.map, static_argnums=0)(log_density(name), draws)
-    return float(np.mean(np.asarray(log_p) - np.asarray(log_q)))
+    log = log_density(name)
+    return jax.jit(lambda draws: jax.lax.map(log, draws))
+
+
+def bound_of(name: str, draws: Any, log_q: Any) -> float:
+    """The bound of a normal, by draws from it."""
+    return float(np.mean(np.asarray(_of_each(name)(draws)) - np.asarray(log_q)))
 
 
 def autoguide(
@@ -70,9 +78,7 @@ def guide_at(
     guide = kind(model, init_loc_fn=init_to_value(values={"x": jnp.asarray(start)}))
     svi = SVI(model, guide, Adam(rate), Trace_ELBO(num_particles=SAMPLES))
     state = svi.init(jax.random.key(0))
-    steps = jax.jit(
-        lambda state, count: jax.lax.fori_loop(0, count, lambda _, s: svi.update(s)[0], state)
-    )
+    steps = jax.jit(lambda state, count: jax.lax.fori_loop(0, count, lambda _, s: svi.update(s)[0], state))
     clock = time.perf_counter()
     jax.block_until_ready(steps(state, 1))
     compiled = time.perf_counter() - clock

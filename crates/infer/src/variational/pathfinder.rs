@@ -207,6 +207,26 @@ mod tests {
     }
 
     #[test]
+    fn the_best_normal_is_met_on_the_way() {
+        // Two scales: a wide normal with most of the mass, and on it a narrow peak where the ascent ends.
+        let mut target = By(2, |x: &[f64], g: &mut [f64]| {
+            let square = x[0] * x[0] + x[1] * x[1];
+            let peak = 6.0 * (-0.5 * square / 1e-4).exp();
+            for (g, x) in g.iter_mut().zip(x) {
+                *g = -x - peak * x / 1e-4;
+            }
+            Ok(-0.5 * square + peak)
+        });
+        let mut nothing = Nothing;
+        let path = pathfinder(&mut Batch::new(&mut target, &mut nothing), &[3.0, -2.0], 4, 0, &|_| true);
+        let path = path.expect("a path");
+        let (best, last) = (path.bounds[path.best], path.bounds[path.bounds.len() - 1]);
+        assert!(path.bounds.iter().all(|bound| *bound <= best));
+        // The bound of the wide normal is `log 2 pi`.
+        assert!((best - 1.838).abs() < 0.3 && last < best - 0.5, "{best} {last} {:?}", path.bounds);
+    }
+
+    #[test]
     fn a_bad_start_and_a_draw_elsewhere_are_errors_and_a_stop_keeps_the_best() {
         let stop = Stop { cause: Cause::Impossible, place: 0 };
         let mut nowhere = By(1, |_: &[f64], _: &mut [f64]| Err(stop));
