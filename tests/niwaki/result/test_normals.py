@@ -1,4 +1,4 @@
-"""Claim: a result of `vi` says what it found, how far it can be trusted and what went wrong, and outlives its process."""
+"""Claim: a result of `vi` says what it found, how far to trust it and what went wrong, and outlives its process."""
 
 from __future__ import annotations
 
