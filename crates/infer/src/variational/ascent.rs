@@ -171,7 +171,7 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
     Whole,
-    /// A step had too few draws with a finite density.
+    /// A step had too few draws with a finite density, or the bound left the range of numbers.
     Refused,
     Interrupted,
 }
@@ -269,6 +269,10 @@ impl Ascent<'_> {
         center.iter_mut().for_each(|c| *c /= count);
         let mean = taken.iter().sum::<f64>() / count;
         let variance = taken.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / count;
+        // A bound that grows without end leaves the range of numbers.
+        if end == End::Whole && !variance.is_finite() {
+            end = End::Refused;
+        }
         Ok(Block { center, mean, noise: (variance / count).sqrt(), end })
     }
 
