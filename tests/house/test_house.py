@@ -85,7 +85,7 @@ def test_import_loads_nothing_that_is_not_always_needed():
 def test_locks_pin_every_requirement_with_a_hash():
     locks = sorted((ROOT / "requirements").glob("*.txt"))
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    unlocked = {"arviz", "color", "parquet", "plots", "print", "stacks"}
+    unlocked = {"arviz", "color", "parquet", "print", "stacks"}
     assert {lock.stem for lock in locks} == set(extras) - unlocked | {"core"}
     for lock in locks:
         entries = re.split(r"\n(?=\S)", lock.read_text().strip())
@@ -125,11 +125,12 @@ def test_every_python_file_opens_with_what_it_is_for():
     assert not [path.relative_to(ROOT).as_posix() for path in bare]
 
 
-#: Imports inside functions: ArviZ is an extra, and warns while it is imported; `resource` is not on every system.
-OPTIONAL = {("errors/memory.py", "resource"), ("result/diagnostics.py", "arviz")}
-#: Who imports modules by a name of their own: extras, the gallery's folder, the shell's commands, the host functions of
-#: a search that was read.
+#: Imports inside functions: `resource` is not on every system.
+OPTIONAL = {("errors/memory.py", "resource")}
+#: Who imports modules by a name of their own: a look at parts that may be broken, extras, the gallery's folder, the
+#: shell's commands, the host functions of a search that was read.
 BY_NAME = {
+    "checkup/looking.py",
     "errors/extras.py",
     "gallery/__init__.py",
     "inputs/child.py",
@@ -163,7 +164,7 @@ def test_help_names_only_what_there_is():
 
     listed = re.findall(r"^    (\w+(?:, \w+)*)(?:, \.\.\.)?  ", niwaki.__doc__, re.M)
     names = {name for line in listed for name in line.split(", ")}
-    assert len(names) == 36
+    assert len(names) == 37
     assert names <= set(niwaki.__all__)
     parts = re.findall(r"^    niwaki\.(\w+)  ", niwaki.__doc__, re.M)
     assert len(parts) == 12 and all(importlib.util.find_spec(f"niwaki.{part}") for part in parts)
