@@ -184,7 +184,10 @@ def test_crates_import_only_the_rooms_above_them():
 def pages() -> list[Path]:
     """The pages for readers."""
     return [
-        *(ROOT / name for name in ("README.md", "ARCHITECTURE.md", "SECURITY.md")),
+        *(
+            ROOT / f"{name}.md"
+            for name in ("README", "ARCHITECTURE", "CHANGELOG", "CONTRIBUTING", "SECURITY")
+        ),
         *sorted((ROOT / "docs").rglob("*.md")),
     ]
 
@@ -209,6 +212,12 @@ def test_the_pages_link_to_files_that_exist():
 def test_the_programs_on_a_page_are_python(page: Path):
     for program in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S):
         ast.parse(program)
+
+
+def test_the_files_that_contributing_names_exist():
+    named = re.findall(r"`([\w.-]+/[\w./-]+|[A-Z][\w-]+\.\w+)`", (ROOT / "CONTRIBUTING.md").read_text())
+    assert len(named) > 30
+    assert [name for name in named if not (ROOT / name).exists()] == []
 
 
 def test_what_is_promised_is_tested():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -13,12 +14,13 @@ BARE = {"PYTHONNOUSERSITE": "1", "PYTHONSAFEPATH": "1", "RAYON_NUM_THREADS": "2"
 
 
 def pythons() -> dict[str, str]:
-    """A path for each version from 3.11 on: `NIWAKI_PYTHONS`, or those on the path and of pyenv."""
+    """A path for each version from 3.11 on: `NIWAKI_PYTHONS`, or those on the path, of pyenv, and this one."""
     named = os.environ.get("NIWAKI_PYTHONS", "").split()
     home = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv"))
     places = named or [
         *filter(None, (shutil.which(f"python3.{minor}") for minor in range(11, 30))),
         *map(str, sorted(home.glob("versions/3.*/bin/python"))),
+        sys.executable,
     ]
     found: dict[str, str] = {}
     program = "import sys, venv, ensurepip; print(*sys.version_info[:2], sep='.')"

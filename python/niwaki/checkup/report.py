@@ -59,8 +59,8 @@ class Checkup:
         What must work.
     machine : mapping
         `processors`; `free_memory`, bytes, None where the system does not say; and where the engine loads `threads`, as
-        many as a search takes; `vectors`, the instructions for gradients; `machine_code`, whether gradients are compiled;
-        `bits`, a fingerprint of the numbers that the machine computes.
+        many as a search takes; `vectors`, the instructions for gradients; `machine_code`, whether gradients are
+        compiled; `bits`, a fingerprint of the numbers that the machine computes.
     extras : tuple of Extra
         What may be installed beside the core.
     """
