@@ -47,9 +47,11 @@ def optional(module: str, task: str, extra: str, instead: str = "") -> Any:
     try:
         return import_module(module)
     except (ImportError, OSError) as error:
+        lacks = (error.name or "").partition(".")[0] if isinstance(error, ModuleNotFoundError) else ""
+        if lacks == "niwaki":
+            raise
         # Python's own modules are not on every system.
-        missing = error.name if isinstance(error, ModuleNotFoundError) and error.name else "sys"
-        if missing.partition(".")[0] not in sys.stdlib_module_names:
+        if lacks and lacks not in sys.stdlib_module_names:
             cure = f"install it with `{install(extra)}`" + (f", or {instead}" if instead else "")
             raise FileError("missing-extra", task=task, extra=extra, cure=cure) from None
         reason = " ".join(str(error).split()) or type(error).__name__
