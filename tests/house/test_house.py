@@ -92,7 +92,7 @@ def test_locks_pin_every_requirement_with_a_hash():
         assert all("==" in entry and "--hash=sha256:" in entry for entry in entries), lock.name
 
 
-@pytest.mark.parametrize("python", ["3.11", "3.12", "3.13"])
+@pytest.mark.parametrize("python", ["3.11", "3.12", "3.13", "3.14"])
 def test_locks_agree_with_one_another(python: str):
     # They are installed side by side; one may need a package only where another Python makes others unnecessary.
     machine = {"python_version": python, "python_full_version": f"{python}.0"}
