@@ -52,9 +52,11 @@ __all__ = [
     "matches",
     "nearest",
     "parameter_names",
+    "population",
     "render",
     "support",
     "unique_models",
+    "united",
 ]
 
 __version__: str
