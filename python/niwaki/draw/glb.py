@@ -97,7 +97,7 @@ def glb(scene: Scene, about: About | None = None) -> bytes:
     noted = [] if about is None else [(address, plain(value)) for address, value in about.choices.items()]
     roots, others = hierarchy(nodes, noted)
     listed = [{"address": address, "value": value} for address, value in others]
-    extras = {} if about is None else {"extras": {"model": about.model, "choices": listed}}
+    extras = {} if about is None else {"extras": {"niwaki": {"model": about.model, "choices": listed}}}
     for node in nodes[: len(parts)]:
         written[node["mesh"]]["name"] = written[node["mesh"]]["name"] or node["name"]
     names = materials_named(materials)

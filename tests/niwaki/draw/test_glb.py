@@ -125,7 +125,7 @@ def test_each_choice_is_an_extra_of_its_call() -> None:
         "wing[0]/tip/emit": ["wing[0]/tip/bend", "wing[0]/tip/flap/angle"],
         "body/hull/emit": ["body/size", "body/hull/plates"],
     }
-    extras = found["scenes"][0]["extras"]
+    extras = found["scenes"][0]["extras"]["niwaki"]
     assert extras["model"] == "ship" and [one["address"] for one in extras["choices"]] == [
         "count",
         "nothing/here",
@@ -139,8 +139,8 @@ def test_a_sample_s_file_has_all_its_choices(tmp_path: Path) -> None:
     assert entry is not None
     sample = nw.run(entry.model, seed=3).best
     found = document(sample.export(tmp_path / "best.glb").read_bytes())
-    holders = [*found["nodes"], *found["scenes"]]
-    noted = [one for holder in holders for one in holder.get("extras", {}).get("choices", [])]
+    holders = [*(node.get("extras", {}) for node in found["nodes"]), found["scenes"][0]["extras"]["niwaki"]]
+    noted = [one for holder in holders for one in holder.get("choices", [])]
     assert len({one["address"] for one in noted}) == len(noted)
     assert {one["address"]: one["value"] for one in noted} == {
         address: list(value) if isinstance(value, tuple) else value
