@@ -383,25 +383,27 @@ def test_the_manual_s_picture(scene: bpy.types.Scene) -> None:
     bpy.ops.mesh.primitive_plane_add(size=400.0, location=((low + high)[0] / 2, (low + high)[1] / 2, low[2]))
     ground = bpy.data.materials.new("ground")
     ground.use_nodes = True
-    ground.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.55, 0.55, 0.53, 1)
+    ground.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.42, 0.42, 0.4, 1)
     bpy.context.object.data.materials.append(ground)
     sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
-    sun.data.energy, sun.data.angle, sun.rotation_euler = 3.0, 0.1, (0.7, 0.2, 0.6)
+    sun.data.energy, sun.data.angle, sun.rotation_euler = 4.0, 0.05, (0.9, 0.0, -0.5)
     scene.collection.objects.link(sun)
     scene.world = bpy.data.worlds.new("world")
     scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.75, 0.8, 0.9, 1)
+    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.75, 0.8, 0.9, 1)
+    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.3
     camera.rotation_euler = (0.85, 0.0, 0.6)
     bpy.context.view_layer.update()
     flat = [value for point in clouds[::7] for value in point]
     camera.location, _ = camera.camera_fit_coords(bpy.context.evaluated_depsgraph_get(), flat)
-    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, False
-    scene.render.resolution_x, scene.render.resolution_y = 960, 600
+    scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 16, True
+    scene.render.resolution_x, scene.render.resolution_y = 880, 550
     scene.view_settings.view_transform = "AgX"
     place = Path(PICTURES) / "blender.png"
     scene.render.filepath = str(place)
     bpy.ops.render.render(write_still=True)
     with Image.open(place) as picture:
-        small = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+        small = picture.convert("RGB").resize((720, 450), Image.Resampling.LANCZOS)
+    small = small.quantize(128, dither=Image.Dither.NONE)
     small.save(place, optimize=True)
     assert place.stat().st_size < 150_000
