@@ -109,7 +109,7 @@ blender: $(STAMPS)/engine $(STAMPS)/build
 
 # Blender as a module, in an environment of its own: Niwaki is only in the zip.
 BLENDER := $(VENV)/blender
-$(STAMPS)/blender: requirements/blender.txt $(STAMPS)/venv
+$(STAMPS)/blender: integrations/blender/requirements.txt $(STAMPS)/venv
 	python3.11 -m venv $(BLENDER)
 	$(BLENDER)/bin/python -m pip --disable-pip-version-check --quiet install --require-hashes -r $<
 	$(BLENDER)/bin/python -c "import bpy"
@@ -222,8 +222,8 @@ locks: $(STAMPS)/venv
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \
 	done
-	$(VENV)/bin/uv pip compile requirements/blender.in --upgrade --python-version 3.11 --generate-hashes \
-	  --no-emit-index-url --no-header --no-annotate --quiet -o requirements/blender.txt
+	$(VENV)/bin/uv pip compile integrations/blender/requirements.in --upgrade --python-version 3.11 --generate-hashes \
+	  --no-emit-index-url --no-header --no-annotate --quiet -o integrations/blender/requirements.txt
 
 clean:
 	rm -rf $(VENV) target out docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
