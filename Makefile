@@ -19,7 +19,8 @@
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make studio-pictures  the same, and its screenshots and times go into docs/pictures
 #   make blender  the extension for Blender, into out/blender (BLENDER_PYTHON=3.13: for Blender 5.1 and later)
-#   make test-blender  the extension in Blender 4.2 as a module, without a window (400 MB; needs Python 3.11)
+#   make test-blender  the extension in Blender as a module, without a window (400 MB): 4.2 on Python 3.11, or 5.2 on
+#                 Python 3.13 with BLENDER_PYTHON=3.13
 #   make blender-pictures  the same, and its picture goes into docs/pictures
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
 #   make cluster  batches on Ray and on Dask, on this machine alone (installs both)
@@ -108,20 +109,20 @@ blender: $(STAMPS)/engine $(STAMPS)/build
 	$(PY) integrations/blender/build_extension.py --wheel out/blender/wheel/*.whl --python $(BLENDER_PYTHON) --out out/blender
 
 # Blender as a module, in an environment of its own: Niwaki is only in the zip.
-BLENDER := $(VENV)/blender
-$(STAMPS)/blender: integrations/blender/requirements.txt $(STAMPS)/venv
-	python3.11 -m venv $(BLENDER)
-	$(BLENDER)/bin/python -m pip --disable-pip-version-check --quiet install --require-hashes -r $<
-	$(BLENDER)/bin/python -c "import bpy"
+IN_BLENDER := $(VENV)/blender-$(BLENDER_PYTHON)
+$(STAMPS)/blender-%: integrations/blender/requirements-%.txt $(STAMPS)/venv
+	python$* -m venv $(VENV)/blender-$*
+	$(VENV)/blender-$*/bin/python -m pip --disable-pip-version-check --quiet install --require-hashes -r $<
+	$(VENV)/blender-$*/bin/python -c "import bpy"
 	@touch $@
 
 test-blender:
-	@if command -v python3.11 >/dev/null && $(MAKE) --no-print-directory $(STAMPS)/blender; then \
+	@if command -v python$(BLENDER_PYTHON) >/dev/null && $(MAKE) --no-print-directory $(STAMPS)/blender-$(BLENDER_PYTHON); then \
 	  $(MAKE) --no-print-directory blender && rm -rf out/blender/home && mkdir -p out/blender/home && \
-	  BLENDER_USER_RESOURCES=$(CURDIR)/out/blender/home NIWAKI_ZIP=$$(ls out/blender/*-blender4.2-*.zip) \
-	    $(BLENDER)/bin/python -m pytest -q -c /dev/null --rootdir tests/integrations/blender -p no:cacheprovider \
+	  BLENDER_USER_RESOURCES=$(CURDIR)/out/blender/home NIWAKI_ZIP=$$(ls -t out/blender/*.zip | head -n 1) \
+	    $(IN_BLENDER)/bin/python -m pytest -q -c /dev/null --rootdir tests/integrations/blender -p no:cacheprovider \
 	    --confcutdir tests/integrations/blender --import-mode importlib tests/integrations/blender/inside_blender.py; \
-	else echo "Blender 4.2 cannot be had as a module here (it needs Python 3.11, and libraries of X): not tested in it"; fi
+	else echo "no Blender as a module here (Python $(BLENDER_PYTHON), 400 MB, libraries of X): the extension is not tested in it"; fi
 
 blender-pictures:
 	NIWAKI_PICTURES=$(CURDIR)/docs/pictures $(MAKE) --no-print-directory test-blender
@@ -222,8 +223,11 @@ locks: $(STAMPS)/venv
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \
 	done
-	$(VENV)/bin/uv pip compile integrations/blender/requirements.in --upgrade --python-version 3.11 --generate-hashes \
-	  --no-emit-index-url --no-header --no-annotate --quiet -o integrations/blender/requirements.txt
+	for python in 3.11 3.13; do \
+	  $(VENV)/bin/uv pip compile integrations/blender/requirements.in --upgrade --python-version $$python \
+	    --generate-hashes --no-emit-index-url --no-header --no-annotate --quiet \
+	    -o integrations/blender/requirements-$$python.txt; \
+	done
 
 clean:
 	rm -rf $(VENV) target out docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts

@@ -162,7 +162,7 @@ def test_results_are_collections_with_named_parts(scene: bpy.types.Scene) -> Non
     found = parts(result)
     assert len(found) > 3
     for address, thing in found.items():
-        assert thing.type == "MESH" and all(slot.material.use_nodes for slot in thing.material_slots)
+        assert thing.type == "MESH" and all(slot.material.node_tree for slot in thing.material_slots)
         assert address.split("/")[0] in {parent.name.split(".")[0] for parent in ancestors(thing)}
     # Each choice of a call is a property of its object.
     noted = [dict(one) for thing in result.objects for one in thing.get("choices", [])]
