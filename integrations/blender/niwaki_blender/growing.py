@@ -17,8 +17,12 @@ from pathlib import Path
 from typing import Any
 
 import niwaki
-from niwaki.studio.messages import Answer, GrowAgain, GrowValues, Hold, Outcome, Progressed, WriteFile
+import numpy as np
+from niwaki.studio.messages import Answer, GrowAgain, GrowValues, Hold, Outcome, Progressed, Shape, WriteFile
 from niwaki.studio.process import Worker
+
+from . import axes
+from .asking import Mesh
 
 #: Seconds between two tries to stop a search.
 LOOK = 0.05
@@ -83,6 +87,8 @@ class Growing:
     ----------
     progress : Progressed or None
         The newest report.
+    best : asking.Mesh or None
+        The shape of the best so far, from the model's origin.
     grown : Grown or None
         What was found, when it has ended.
     problem, code : str
@@ -91,6 +97,7 @@ class Growing:
 
     def __init__(self, job: GrowValues | Again, words: Sequence[str] = ()) -> None:
         self.progress: Progressed | None = None
+        self.best: Mesh | None = None
         self.grown: Grown | None = None
         self.problem = self.code = ""
         self._folder = Path(tempfile.mkdtemp(prefix="niwaki-"))
@@ -186,6 +193,8 @@ class Growing:
     def _report(self, report: Any, payload: bytes) -> None:
         if isinstance(report, Progressed):
             self.progress = report
+        elif isinstance(report, Shape) and report.what == "best":
+            self.best = _mesh(report, payload)
 
 
 class _Failed(Exception):
@@ -194,6 +203,13 @@ class _Failed(Exception):
     def __init__(self, text: str, code: str = "") -> None:
         super().__init__(text)
         self.code = code
+
+
+def _mesh(shape: Shape, payload: bytes) -> Mesh:
+    """The light mesh of a worker: places, colours, corners, numbers of parts (`niwaki.studio.worker.shapes`)."""
+    points = np.frombuffer(payload, "<f4", 3 * shape.vertices).reshape(-1, 3)
+    faces = np.frombuffer(payload, "<u4", 3 * shape.triangles, 16 * shape.vertices).reshape(-1, 3)
+    return Mesh("best so far", axes.to_blender(points), faces.astype(np.int64))
 
 
 def environment() -> dict[str, str]:

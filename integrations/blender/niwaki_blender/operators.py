@@ -4,6 +4,7 @@ An operator that is called by a button grows in the background; one that is call
 """
 
 import random
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,10 @@ class _Grows:
         """Place what it found."""
         raise NotImplementedError
 
+    def place(self) -> Sequence[float]:
+        """Where the model's origin stands."""
+        raise NotImplementedError
+
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Called by a script: wait for the end."""
         if not self._begun(context):
@@ -63,6 +68,7 @@ class _Grows:
         if not self._begun(context):
             return {"CANCELLED"}
         _running.append(self._growing)
+        self._shown = None
         manager = context.window_manager
         self._timer = manager.event_timer_add(LOOK, window=context.window)
         manager.modal_handler_add(self)
@@ -79,7 +85,12 @@ class _Grows:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
         if not self._growing.has_ended:
+            best = self._growing.best
+            if best is not self._shown:
+                self._shown = best
+                placing.show_best(context, best, self.place())
             return {"PASS_THROUGH"}
+        placing.hide_best()
         context.window_manager.event_timer_remove(self._timer)
         _running.clear()
         return self._ended(context)
@@ -126,6 +137,10 @@ class NIWAKI_OT_grow(_Grows, bpy.types.Operator):
         self._origin = order.ask.origin
         return growing.Growing(order.job(), naming.words())
 
+    def place(self) -> Sequence[float]:
+        """Where the target's origin stands."""
+        return self._origin
+
     def end(self, context: bpy.types.Context, grown: growing.Grown) -> None:
         """Place the results: the first where the target stands."""
         placing.place(context, grown, _name(grown), at=self._origin)
@@ -148,12 +163,17 @@ class _Repeats(_Grows):
         self._result = keeping.result_of(context.object)
         return growing.Growing(self.stored(context), naming.words())
 
-    def run(self) -> str:
-        """The run.json of the active result."""
+    def run(self) -> bpy.types.Collection:
+        """The collection of the active result's run."""
         run = keeping.run_of(self._result)
         if run is None:
             raise ValueError(f"{self._result.name} is outside of the collection that has its search")
-        return str(run[keeping.RUN])
+        return run
+
+    def place(self) -> Sequence[float]:
+        """Where the active result stands."""
+        handle = placing.handle_of(self._result)
+        return self.run()[keeping.ORIGIN] if handle is None else handle.location
 
 
 class NIWAKI_OT_reroll(_Repeats, bpy.types.Operator):
@@ -169,14 +189,11 @@ class NIWAKI_OT_reroll(_Repeats, bpy.types.Operator):
         seed = self.seed if self.seed >= 0 else random.randrange(2**31)
         self._held = keeping.held(self._result)
         number = self._result[keeping.NUMBER]
-        return growing.Again(self.run(), number, seed, 1, self._held)
+        return growing.Again(self.run()[keeping.RUN], number, seed, 1, self._held)
 
     def end(self, context: bpy.types.Context, grown: growing.Grown) -> None:
         """Place it where the old one stands."""
-        old = placing.handle_of(self._result)
-        run = placing.place(
-            context, grown, _name(grown), self._held, old.location if old else (0.0, 0.0, 0.0)
-        )
+        run = placing.place(context, grown, _name(grown), self._held, self.place())
         self._result.hide_viewport = self._result.hide_render = True
         context.view_layer.objects.active = placing.handle_of(run.children[0])
 
@@ -189,11 +206,15 @@ class NIWAKI_OT_again(_Repeats, bpy.types.Operator):
 
     def stored(self, context: bpy.types.Context) -> growing.Again:
         """Its search as it was."""
-        return growing.Again(self.run())
+        return growing.Again(self.run()[keeping.RUN])
+
+    def place(self) -> Sequence[float]:
+        """Where the first result was grown."""
+        return self.run()[keeping.ORIGIN]
 
     def end(self, context: bpy.types.Context, grown: growing.Grown) -> None:
-        """Place the results beside the old ones."""
-        placing.place(context, grown, _name(grown), at=keeping.run_of(self._result)[keeping.ORIGIN])
+        """Place the results where the old ones were placed."""
+        placing.place(context, grown, _name(grown), at=self.place())
 
 
 class NIWAKI_OT_hold(bpy.types.Operator):

@@ -9,7 +9,11 @@ import bpy
 import numpy as np
 
 from . import grid, keeping
+from .asking import Mesh
 from .growing import Grown
+
+#: What the best so far is called.
+BEST = "niwaki: best so far"
 
 
 def place(
@@ -42,6 +46,25 @@ def place(
         handle.location = (at[0] + x, at[1] + y, at[2])
     context.view_layer.update()
     return run
+
+
+def show_best(context: bpy.types.Context, best: Mesh, at: Sequence[float]) -> None:
+    """Show the best so far as one object; it is in the way of nothing, and is removed when the search has ended."""
+    hide_best()
+    data = bpy.data.meshes.new(BEST)
+    data.from_pydata(best.vertices.tolist(), [], best.faces.tolist())
+    thing = bpy.data.objects.new(BEST, data)
+    thing.location, thing.hide_select, thing.hide_render = at, True, True
+    context.scene.collection.objects.link(thing)
+
+
+def hide_best() -> None:
+    """Remove the best so far."""
+    data = bpy.data.meshes.get(BEST)
+    if data is not None:
+        for thing in [one for one in bpy.data.objects if one.data == data]:
+            bpy.data.objects.remove(thing)
+        bpy.data.meshes.remove(data)
 
 
 def handle_of(result: bpy.types.Collection) -> bpy.types.Object | None:

@@ -14,6 +14,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -269,9 +270,66 @@ def test_a_search_is_cancelled(scene: bpy.types.Scene) -> None:
     one.stop()
     one.wait(20)
     assert one.grown is not None and one.grown.interrupted, one.problem
-    inside().placing.place(bpy.context, one.grown, "tree")
+    placing, before = inside().placing, len(bpy.data.objects)
+    for _ in range(2):
+        placing.show_best(bpy.context, one.best, (1, 2, 3))
+    preview = bpy.data.objects[placing.BEST]
+    bpy.context.view_layer.update()
+    assert points(preview)[:, 2].min() > 2 and len(bpy.data.objects) == before + 1
+    placing.hide_best()
+    assert len(bpy.data.objects) == before
+    placing.place(bpy.context, one.grown, "tree")
     one.clear()
     assert len(parts(results()[0])) > 3
+
+
+@pytest.mark.parametrize("key", ["TIMER", "ESC"])
+def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key: str) -> None:
+    # What Blender would call, without the window that it needs for it.
+    extension = inside()
+    stopped: list[str] = []
+    manager = SimpleNamespace(
+        event_timer_add=lambda seconds, window: "timer",
+        event_timer_remove=stopped.append,
+        modal_handler_add=lambda operator: None,
+    )
+    window = SimpleNamespace(screen=SimpleNamespace(areas=[]))
+    context = SimpleNamespace(
+        window_manager=manager, window=window, scene=scene, view_layer=bpy.context.view_layer
+    )
+
+    class Button(extension.operators._Grows):
+        reports: list[str] = []
+
+        def begin(self, context: Any) -> Any:
+            order = scene.niwaki_settings.order(bpy.context)
+            return extension.growing.Growing(order.job())
+
+        def place(self) -> tuple[float, ...]:
+            return (0.0, 0.0, 0.0)
+
+        def end(self, context: Any, grown: Any) -> None:
+            extension.placing.place(context, grown, "tree")
+
+        def report(self, kind: set[str], text: str) -> None:
+            self.reports.append(text)
+
+    scene.niwaki_settings.model = "gnarly-tree"
+    scene.niwaki_settings.effort = 64.0 if key == "ESC" else 0.5
+    button = Button()
+    assert button.invoke(context, None) == {"RUNNING_MODAL"}
+    assert not bpy.ops.niwaki.grow.poll() and extension.operators.running() is button._growing
+    assert button.modal(context, SimpleNamespace(type="MOUSEMOVE")) == {"PASS_THROUGH"}
+    shown = False
+    while (found := button.modal(context, SimpleNamespace(type="TIMER"))) == {"PASS_THROUGH"}:
+        shown = shown or extension.placing.BEST in bpy.data.objects
+        if key == "ESC" and shown:
+            assert button.modal(context, SimpleNamespace(type="ESC")) == {"RUNNING_MODAL"}
+        button._growing.wait(0.05)
+    assert found == {"FINISHED"} and shown and stopped == ["timer"]
+    assert extension.placing.BEST not in bpy.data.objects and len(results()) == 1
+    assert extension.operators.running() is None and bpy.ops.niwaki.grow.poll()
+    assert button.reports == (["Cancelled: the best until then"] if key == "ESC" else [])
 
 
 def test_messages_say_what_is_missing(scene: bpy.types.Scene) -> None:

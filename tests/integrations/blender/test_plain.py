@@ -149,6 +149,9 @@ def test_a_cancelled_search_keeps_the_best_until_then() -> None:
     one.wait(20)
     assert one.has_ended and one.grown is not None, one.problem
     assert one.grown.interrupted and len(one.grown.files) == 1
+    # The tree stands upright in Blender, and the preview is a mesh of it.
+    low, high = one.best.vertices.min(axis=0), one.best.vertices.max(axis=0)
+    assert low[2] > -1 and (high - low).argmax() == 2 and one.best.faces.max() == len(one.best.vertices) - 1
     one = growing.Growing(asking.Order("gnarly-tree", effort=64.0).job())
     one.stop()
     one.wait(20)
