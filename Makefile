@@ -109,10 +109,8 @@ studio-pictures:
 
 # A zip with the wheel and what it needs; pip downloads the latter, at the hashes of requirements/core.txt.
 BLENDER_PYTHON := 3.11
-blender: $(STAMPS)/engine $(STAMPS)/build
-	rm -rf out/blender/wheel
-	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(VENV)/bin/maturin build $(CARGO_FLAGS) --out out/blender/wheel
-	$(PY) integrations/blender/build_extension.py --wheel out/blender/wheel/*.whl --python $(BLENDER_PYTHON) --out out/blender
+blender: $(STAMPS)/engine wheel
+	$(PY) integrations/blender/build_extension.py --wheel dist/niwaki-*.whl --python $(BLENDER_PYTHON) --out out/blender
 
 # Blender as a module, in an environment of its own: Niwaki is only in the zip.
 IN_BLENDER := $(VENV)/blender-$(BLENDER_PYTHON)
