@@ -41,6 +41,8 @@ from niwaki.studio.worker import jobs, models, runs, shapes, variety
 
 #: Chains for each result: those are kept that stand most surely.
 CHAINS = 2
+#: The call whose choices are the forces between blocks (`niwaki.stacks`).
+FORCES = "balance"
 #: A force below this share of a block's mean weight is not shown.
 SMALL = 1e-3
 
@@ -109,11 +111,15 @@ ghost = jobs.ghost
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
-    """Grow a part again so that the whole balances: chains over its choices, with all others held."""
+    """Grow a part again so that the whole balances: chains over its choices and the forces, with all others held."""
     found, one = models.reference(job.question.model), runs.sample(job.source, job.number)
     choices = one.held()
     own = {address for address in choices if address == job.part or address.startswith(f"{job.part}/")}
-    held = {address: value for address, value in choices.items() if address not in own}
+    held = {
+        address: value
+        for address, value in choices.items()
+        if address not in own and FORCES not in address.split("/")
+    }
     lock = {**held, **runs.given(job.question.lock)}
     if own <= set(lock):
         raise Refused("no-other-form", f"`{job.part}` has no choices of its own that are free")
