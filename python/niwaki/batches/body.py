@@ -153,6 +153,11 @@ class Outcome:
             invalid=body.invalid,
         )
 
+    @property
+    def runs(self) -> list[str]:
+        """Data of the runs."""
+        return self._body.samples
+
     @cached_property
     def best(self) -> Sample:
         """The best run; of chains the best state that they reached."""

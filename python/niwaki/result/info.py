@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any, NamedTuple
 
 from niwaki.lang.blame import Blame
@@ -102,6 +102,9 @@ class PopulationInfo(Info):
 
     Attributes
     ----------
+    log_normaliser : float or None
+        Log of the final law's normalising constant, nats: with scores raised to `power`, so that it is
+        `log_evidence` at power 1. None for absolute weights, and where the search was stopped.
     plan : tuple of int
         Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
     barriers : int
@@ -122,6 +125,7 @@ class PopulationInfo(Info):
         Particles that became impossible while others lived.
     """
 
+    log_normaliser: float | None = None
     plan: tuple[int, ...] = ()
     barriers: int = 0
     steps: int = 0
@@ -257,6 +261,13 @@ INFOS: dict[str, type[Info]] = {
     "pimh": SweepInfo,
     "improve": ImproveInfo,
 }
+
+
+def without_evidence(info: Info) -> Info:
+    """The statistics of one of several runs, which have no constant in common."""
+    if isinstance(info, PopulationInfo):
+        return replace(info, log_evidence=None, log_normaliser=None)
+    return replace(info, log_evidence=None)
 
 
 def stored_info(info: Info) -> dict[str, Any] | None:
