@@ -77,7 +77,7 @@ class Judge:
                 sys.executable,
                 "-m",
                 "pytest",
-                "-v",
+                "-vv",
                 "-p",
                 "no:cacheprovider",
                 f"tests/niwaki/{self.target}.py",

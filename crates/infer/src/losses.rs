@@ -1,10 +1,13 @@
 //! Partial runs that became impossible while others of their population lived: how many, by what, and by which parts.
 
 use crate::Task;
-use crate::blame::{Blame, Dead, RUNS, blame};
+use crate::blame::{Blame, Dead, blame};
 use crate::record::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Most runs that are looked at: a search that has a result shall not wait for more of them.
+const LOOKED_AT: usize = 50;
 
 /// What is kept of runs that became impossible: all are counted, and of some the choices are kept, evenly over the time.
 #[derive(Clone, Debug, Default)]
@@ -44,7 +47,7 @@ impl Losses {
     }
 
     fn keep(&mut self, dead: Dead) {
-        if self.kept.len() == RUNS {
+        if self.kept.len() == LOOKED_AT {
             let mut number = 0;
             self.kept.retain(|_| {
                 number += 1;

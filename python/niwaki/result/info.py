@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -32,8 +34,24 @@ class Losses(NamedTuple):
     blame: tuple[Blame, ...] = ()
     looked_at: int = 0
 
+    @classmethod
+    def of_several(cls, losses: Iterable[Losses]) -> Losses:
+        """Those of several populations together."""
+        causes: Counter[str] = Counter()
+        blame: dict[Any, Blame] = {}
+        looked_at = 0
+        for one in losses:
+            causes.update(dict(one.causes))
+            looked_at += one.looked_at
+            for own in one.blame:
+                key = own.constraint, own.part[1:], own.other and own.other[1:]
+                known = blame.get(key)
+                blame[key] = own if known is None else known._replace(runs=known.runs + own.runs)
+        ranked = sorted(blame.values(), key=lambda own: -own.runs)
+        return cls(tuple(causes.most_common()), tuple(ranked), looked_at)
+
     @property
-    def count(self) -> int:
+    def total(self) -> int:
         """How many partial runs were lost."""
         return sum(count for _, count in self.causes)
 
@@ -42,8 +60,8 @@ class Losses(NamedTuple):
         if not self.causes:
             return ""
         by = ", ".join(f"{cause} ({count:,})" for cause, count in self.causes)
-        said = [f"lost on the way: {self.count:,} partial run{'' if self.count == 1 else 's'}, by {by}"]
-        of = "" if self.looked_at == self.count else " that were looked at"
+        said = [f"lost on the way: {self.total:,} partial run{'' if self.total == 1 else 's'}, by {by}"]
+        of = "" if self.looked_at == self.total else " that were looked at"
         said += [f"{one} in {one.runs} of {self.looked_at}{of}" for one in self.blame[:1]]
         return "; ".join(said)
 

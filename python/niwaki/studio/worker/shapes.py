@@ -73,8 +73,9 @@ def _packed(parts: list[str], pieces: list[Piece], **header: Any) -> tuple[Shape
     finishes = _tiled([(paint.metalness, paint.roughness) for _, paint, *_ in pieces], counts, 2)
     owners = np.repeat([p for p, *_ in pieces], [len(f) for *_, f in pieces]).astype("<u4")
     arrays = [points, colors, faces, owners, finishes]
-    if pieces and pieces[0][3] is not None:
-        arrays.insert(1, _joined([normals for _, _, _, normals, _ in pieces], 3, "<f4"))
+    normals = [one for _, _, _, one, _ in pieces if one is not None]
+    if normals:
+        arrays.insert(1, _joined(normals, 3, "<f4"))
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(3), np.zeros(3))
     described = Shape(
         vertices=len(points),
