@@ -10,6 +10,7 @@ use crate::hamiltonian::{self, Shape};
 use crate::importance::importance;
 use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
+use crate::losses::Lost;
 use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
     populations, within,
@@ -201,8 +202,8 @@ pub enum Info {
     },
     /// Of enumeration, whose runs are not kept.
     Enumeration(crate::enumeration::Enumerated),
-    /// Of populations; its particles are the runs.
-    Populations(particles::Result),
+    /// Of populations, and of what became impossible in them; their particles are the runs.
+    Populations(particles::Result, Lost),
     /// Of a chain of whole runs; its states are the runs.
     Chain(particles::Chain),
     /// Of a search for the best.
@@ -289,7 +290,8 @@ impl Method {
                     None => populations(task, &settings, &own.plan(), &mut progress)?,
                 };
                 let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
-                Ok(bare(runs.collect(), result.interrupted, Info::Populations(result)))
+                let (runs, lost) = (runs.collect(), std::mem::take(&mut result.losses).explained(task));
+                Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
             }
             Method::ParticleGibbs(own) => {
                 let settings = own.settings(given)?;
