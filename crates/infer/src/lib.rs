@@ -18,7 +18,8 @@
 //! * [`nested`]: inference inside a model;
 //! * [`improve`]: a search for the best, by all of these;
 //! * [`gradient`]: a task as a log density over its continuous choices, and chains that follow its slope;
-//! * [`hamiltonian`]: such chains over any log density of real coordinates.
+//! * [`hamiltonian`]: such chains over any log density of real coordinates;
+//! * [`variational`]: normals near such a density.
 //!
 //! Not here: opcodes, shapes, Python.
 
@@ -49,6 +50,7 @@ pub mod resampling;
 pub mod run;
 mod streams;
 pub mod task;
+pub mod variational;
 mod weights;
 
 pub use failure::Failure;

@@ -151,6 +151,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return InputError("machine-limit", found=fault.message)
     if fault.code == "no-continuous-choices":
         return InputError(fault.code)
+    if fault.code == "no-normal-fits":
+        return InputError(fault.code, name=name, found=fault.message)
     if fault.code == "no-address":
         return InputError("no-address", pattern=fault.subject, name=name, nearest=fault.help or "none")
     if fault.code in ("no-part", "many-parts"):
