@@ -48,12 +48,15 @@ __all__ = [
     "guide_slope",
     "guide_steps",
     "log_density",
+    "machine",
     "matches",
     "nearest",
     "parameter_names",
+    "population",
     "render",
     "support",
     "unique_models",
+    "united",
 ]
 
 __version__: str
@@ -69,7 +72,8 @@ _End = tuple[list[float], float]
 _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
-_Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Corner]
+_Surface = tuple[float, float, float, float]
+_Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Surface]
 
 @final
 class Shape:
@@ -82,6 +86,8 @@ class Shape:
         taper_axis: str = "z",
         bevel: float | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def cylinder(
@@ -93,6 +99,8 @@ class Shape:
         rotation: _Rows | None = None,
         bevel: float | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def limb(
@@ -103,6 +111,8 @@ class Shape:
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def segment(
@@ -111,6 +121,8 @@ class Shape:
         end: _Frame,
         onto: _Bark | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def mesh(
@@ -120,6 +132,8 @@ class Shape:
         rotation: _Rows | None = None,
         scale: float = 1.0,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def stroke(
@@ -142,6 +156,10 @@ class Shape:
     def kind(self) -> str: ...
     @property
     def color(self) -> list[float] | None: ...
+    @property
+    def metalness(self) -> float | None: ...
+    @property
+    def roughness(self) -> float | None: ...
     def aabb(self) -> tuple[list[float], list[float]]: ...
     def flat(self) -> tuple[_End, _End] | tuple[list[float], float, float, float] | None: ...
     def vertices(self) -> NDArray[np.float64]: ...
@@ -165,6 +183,7 @@ class Target:
     def vertices(self) -> NDArray[np.float64]: ...
     def faces(self) -> NDArray[np.int64]: ...
     def cells(self) -> NDArray[np.bool_]: ...
+    def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
 
 @final
 class SketchSpec:
@@ -245,6 +264,9 @@ class BadParameter(ValueError):
 #: Function, path, (line, column, end line, end column).
 _Place = tuple[str, str, tuple[int, int, int, int]]
 
+#: Address, function, path, (line, column, end line, end column).
+_Emitted = tuple[str, str, str, tuple[int, int, int, int]]
+
 class EngineFault(RuntimeError):
     kind: Literal["run", "setting", "impossible", "no-start", "compile"]
     code: str
@@ -258,7 +280,7 @@ class EngineFault(RuntimeError):
     barrier: int
     tries: int
     causes: list[tuple[str, int]]
-    blame: list[tuple[str, _Place, _Place | None, int]]
+    blame: list[tuple[str, _Emitted, _Emitted | None, int]]
     looked_at: int
     attempts: list[tuple[str, int, int | None]]
 
@@ -335,6 +357,7 @@ def agreement(
 def matches(pattern: str, address: str) -> bool: ...
 def nearest(pattern: str, addresses: Sequence[str]) -> list[str]: ...
 def fingerprint() -> str: ...
+def machine() -> tuple[int, str, bool]: ...
 def population(seed: int, number: int, count: int, max_memory: int) -> tuple[int, int]: ...
 def united(
     lived: Sequence[tuple[int, float | None, Sequence[float]]], total: int

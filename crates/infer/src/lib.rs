@@ -11,6 +11,7 @@
 //! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values; parts of a run grown again by particles;
 //! * [`checkpoint`]: what a search needs to go on after it was killed;
+//! * [`blame`], [`losses`]: which parts made runs impossible;
 //! * [`hold`]: a task with choices held;
 //! * [`proposal`]: a user's proposals for a run that begins;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
@@ -36,6 +37,7 @@ pub mod hold;
 pub mod importance;
 pub mod improve;
 pub mod log;
+pub mod losses;
 pub mod method;
 pub mod nested;
 mod particle;

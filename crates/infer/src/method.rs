@@ -3,7 +3,7 @@
 //! The fields are those of Python's classes of the same names, which describe them.
 
 use crate::chain::form::{Attached, Form};
-use crate::enumeration::enumerate;
+use crate::enumeration::{Visit, visit};
 use crate::forward::forward;
 use crate::gradient::approximate;
 use crate::hamiltonian::chains::Length;
@@ -11,6 +11,7 @@ use crate::hamiltonian::{self, Metric, Shape};
 use crate::importance::importance;
 use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
+use crate::losses::Lost;
 use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
     populations, within,
@@ -37,7 +38,7 @@ const KEPT: u64 = 1000;
 #[expect(missing_docs, reason = "the settings are described where people read them: in Python's classes")]
 pub enum Method {
     Forward { n: u64 },
-    EnumerateAll { max_runs: usize },
+    EnumerateAll { max_runs: usize, likely: bool, rest: f64 },
     Rejection { n: usize, bound: f64, max_tries: u64 },
     Importance { n: usize, proposal: Option<Form> },
     Smc(Smc),
@@ -261,8 +262,8 @@ pub enum Info {
     },
     /// Of enumeration, whose runs are not kept.
     Enumeration(crate::enumeration::Enumerated),
-    /// Of populations; its particles are the runs.
-    Populations(particles::Result),
+    /// Of populations, and of what became impossible in them; their particles are the runs.
+    Populations(particles::Result, Lost),
     /// Of a chain of whole runs; its states are the runs.
     Chain(particles::Chain),
     /// Of a search for the best.
@@ -330,8 +331,13 @@ impl Method {
                     rejection(task, *n, *bound, *max_tries, seed, &mut |tries| watch(tries, 0, none))?;
                 Ok(bare(result.runs, result.interrupted, Info::Rejection { tries: result.tries }))
             }
-            Method::EnumerateAll { max_runs } => {
-                let result = enumerate(task, *max_runs, &mut |runs| watch(runs as u64, 0, none))?;
+            Method::EnumerateAll { max_runs, likely, rest } => {
+                let what = if *likely {
+                    Visit::Likely { runs: *max_runs, rest: *rest }
+                } else {
+                    Visit::All(*max_runs)
+                };
+                let result = visit(task, what, &mut |runs| watch(runs as u64, 0, none))?;
                 Ok(bare(vec![], false, Info::Enumeration(result)))
             }
             Method::Smc(own) => {
@@ -344,7 +350,8 @@ impl Method {
                     None => populations(task, &settings, &own.plan(), &mut progress)?,
                 };
                 let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
-                Ok(bare(runs.collect(), result.interrupted, Info::Populations(result)))
+                let (runs, lost) = (runs.collect(), std::mem::take(&mut result.losses).explained(task));
+                Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
             }
             Method::ParticleGibbs(own) => {
                 let settings = own.settings(given)?;
@@ -424,6 +431,9 @@ impl Method {
             Method::Smc(own) if own.diverse.is_some() => refused("diverse", "`infer` gives one value"),
             Method::Mh(own) if own.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
             Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
+            Method::EnumerateAll { likely: true, .. } => {
+                refused("likely", "a part of the runs is no distribution")
+            }
             Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
             Method::Improve(_) => refused("improve", "a search for the best is no sample"),
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),

@@ -192,11 +192,8 @@ def _lost(error: InputError | ModelFault) -> str:
     """What made a run impossible, where, and what helps."""
     if not isinstance(error, InputError):
         return f": {error.message}"
-    said = [
-        f"line {span.line} {label}" if n == 0 else f"({label}: line {span.line})"
-        for n, (span, label) in enumerate(error.places)
-    ] or [str(error.values.get("constraint", ""))]
-    return f": {' '.join(said)}; {error.values.get('cure', '')}"
+    said = error.values.get("often") or error.values.get("constraint", "")
+    return f": {said}; {error.values.get('cure', '')}"
 
 
 def _check_guide(search: Search, guide: Guide) -> None:

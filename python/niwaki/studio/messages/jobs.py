@@ -7,7 +7,7 @@ from typing import Any, Literal
 from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
-from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Problem, Shape
+from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Offered, Problem, Shape
 from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
@@ -57,6 +57,42 @@ class Grow(Job, tag="grow"):
     file: str
 
 
+class GrowValues(Job, tag="grow-values"):
+    """Search for what is asked by values, from another program; results are written to `file`.
+
+    Attributes
+    ----------
+    target, score
+        As `niwaki.search.data.Writer` and `Score.data` write them; with neither, what is usual for the gallery's model.
+    """
+
+    model: str
+    arguments: dict[str, Any]
+    target: dict[str, Any] | None
+    score: list[Any]
+    settings: Settings
+    run: int
+    seed: int
+    file: str
+
+
+class GrowAgain(Job, tag="grow-again"):
+    """Carry out the search of a stored run again; results are written to `file`.
+
+    Attributes
+    ----------
+    seed, lock, count
+        Another seed, other held choices, another number of results that differ; as they were where they are None.
+    """
+
+    source: str
+    run: int
+    file: str
+    seed: int | None = None
+    lock: Choices | None = None
+    count: int | None = None
+
+
 class Regrow(Job, tag="regrow"):
     """Grow a part of one result again; results are written to `file`."""
 
@@ -97,8 +133,14 @@ class DragPart(Job, tag="drag"):
     file: str = ""
 
 
+class ProposeDefaults(Job, tag="propose"):
+    """The change of the model's file that makes its arguments its defaults."""
+
+    question: Question
+
+
 class RewriteFile(Job, tag="rewrite"):
-    """Write a change that the last drag has offered."""
+    """Write a change that was offered last."""
 
     difference: str
 
@@ -163,9 +205,12 @@ AnyJob = (
     | Load
     | Ghost
     | Grow
+    | GrowValues
+    | GrowAgain
     | Regrow
     | Change
     | DragPart
+    | ProposeDefaults
     | RewriteFile
     | Hold
     | DescribeRun
@@ -187,7 +232,7 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     pins: list[Pin] = []
     path: str = ""
     interrupted: bool = False
-    #: What windows see as `View.note`.
+    #: What windows see as `View.note`; of a search, as `View.losses`.
     note: str = ""
 
 
@@ -201,5 +246,15 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
 
 
 AnyReport = (
-    Answer | Progressed | Shape | Described | Difference | Dragged | Palette | Judged | Picture | Regions
+    Answer
+    | Progressed
+    | Shape
+    | Described
+    | Difference
+    | Dragged
+    | Offered
+    | Palette
+    | Judged
+    | Picture
+    | Regions
 )
