@@ -423,17 +423,27 @@ mod tests {
 
     #[test]
     fn a_target_that_stops_being_a_number_keeps_the_best_and_says_where() {
+        // The bound grows with the normal's width, until most draws lie where there is no number.
         let mut target = By(1, |x: &[f64], g: &mut [f64]| {
-            g[0] = 3.0;
-            if x[0] > 2.0 { Ok(f64::NAN) } else { Ok(3.0 * x[0]) }
+            g[0] = 2.0 * x[0];
+            if x[0].abs() > 5.0 { Ok(f64::NAN) } else { Ok(x[0] * x[0]) }
         });
         let (mut nothing, start) = (Nothing, Normal::diagonal(vec![0.0], vec![0.1]));
         let mut batch = Batch::new(&mut target, &mut nothing);
         let longer = Settings { steps: 20_000, ..settings(Family::MeanField) };
         let fit = ascend(&mut batch, &start, &longer, 1, 0, &|_| true).expect("one structure");
-        let broke = fit.broke.expect("the ascent runs against a wall");
-        assert!(broke.x.is_some_and(|x| x[0] > 2.0) && broke.step > 0);
+        let broke = fit.broke.expect("the ascent leaves the numbers");
+        assert!(broke.x.is_some_and(|x| x[0].abs() > 5.0) && broke.step > 0);
         assert!(fit.normal.mean[0].is_finite() && !fit.converged);
+        // A bound that leaves the range of numbers.
+        let mut target = By(1, |x: &[f64], g: &mut [f64]| {
+            g[0] = 4.0 * x[0].powi(3);
+            Ok(x[0].powi(4))
+        });
+        let mut batch = Batch::new(&mut target, &mut nothing);
+        let longer = Settings { steps: 200_000, ..settings(Family::MeanField) };
+        let fit = ascend(&mut batch, &start, &longer, 1, 0, &|_| true).expect("one structure");
+        assert!(fit.broke.is_some() && fit.normal.log_det.is_finite());
         let stop = Stop { cause: Cause::Guard, place: 0 };
         let mut elsewhere = By(1, |_: &[f64], _: &mut [f64]| Err(stop));
         let mut batch = Batch::new(&mut elsewhere, &mut nothing);
