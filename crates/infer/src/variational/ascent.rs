@@ -4,8 +4,8 @@
 //! In rounds. In a round the steps have one length, until the bound of a block of steps is no longer above that of the
 //! block before by more than its noise. The iterates then move around an optimum, and their mean over the block is
 //! nearer to it than the last (Dhaka et al. 2020, section 3). Means of two rounds are compared by the same draws. The ascent
-//! ends when a round gains less than the tolerance, its error counted; else the next round takes shorter steps. The
-//! result is the best of the means and the start.
+//! ends when a round gains less than the tolerance, its error counted. The next round takes shorter steps where a round
+//! gained nothing that its error lets one see. The result is the best of the means and the start.
 //!
 //! Where half of a step's draws have no finite density, or a block falls far below the best, the ascent goes back to the
 //! best and takes shorter steps; after some such returns it ends there.
@@ -25,8 +25,9 @@ const FIRST: f64 = 0.1;
 const FINER: f64 = 0.4;
 /// A round with steps this short is the last.
 const LAST: f64 = 1e-4;
-/// Steps of a block in the first round; each round adds as many.
+/// Steps of a block in the first round; each round adds as many, up to so many times.
 const BLOCK: u32 = 40;
+const LONGEST: u32 = 8;
 /// Draws by which means of rounds are compared.
 const CHECKS: usize = 256;
 /// Returns to the best after which an ascent ends.
@@ -120,7 +121,7 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
     };
     let mut before: Option<Block> = None;
     loop {
-        let block = ascent.block(batch, rate, BLOCK * round, watch)?;
+        let block = ascent.block(batch, rate, BLOCK * round.min(LONGEST), watch)?;
         let fell = block.mean < best.1.mean - FALL * (1.0 + 0.1 * start.dim() as f64)
             && before.as_ref().is_some_and(|before| block.mean < before.mean);
         match block.end {
@@ -154,16 +155,18 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
         if is_better {
             best = (ascent.member.clone(), check);
         }
-        if gain + 2.0 * error < settings.tolerance && settled && round > 1 || rate < LAST {
-            return Ok(fit(&mut ascent, &best, settled, None, false));
-        }
-        if is_last {
-            return Ok(fit(&mut ascent, &best, false, None, false));
+        let has_ended = settled && gain + 2.0 * error < settings.tolerance;
+        if has_ended && rate < FIRST || rate < LAST || is_last {
+            return Ok(fit(&mut ascent, &best, has_ended, None, false));
         }
         if !is_better {
             ascent.member.parameters = last;
         }
-        (rate, round, before) = (rate * FINER, round + 1, None);
+        // Steps are not too long while a round gains by them.
+        if gain < settings.tolerance.max(2.0 * error) {
+            rate *= FINER;
+        }
+        (round, before) = (round + 1, None);
     }
 }
 
