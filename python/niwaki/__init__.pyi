@@ -19,6 +19,7 @@ from .lang.models import Model as Model
 from .lang.models import model as model
 from .lang.plain import run_python as run_python
 from .lang.residuals import residuals as residuals
+from .notebook import view as view
 from .methods import Guide as Guide
 from .methods import enumerate_all as enumerate_all
 from .methods import explore as explore
