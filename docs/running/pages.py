@@ -1,7 +1,7 @@
 """Run every snippet of the manual: the pages stay plain Markdown, and what they save is their pictures.
 
-    python docs/running/pages.py docs/_made            # all pages, each in a folder of its own, on all processors
-    python docs/running/pages.py docs/_made tutorials  # the pages with `tutorials` in their names
+    python docs/running/pages.py docs/made            # all pages, each in a folder of its own, on all processors
+    python docs/running/pages.py docs/made tutorials  # the pages with `tutorials` in their names
 
 A page is a program that is read from the top, in a process and a folder of its own (Sybil finds its blocks):
 
@@ -14,7 +14,7 @@ A page is a program that is read from the top, in a process and a folder of its 
 - `<!--- invisible-code-block: python` and `console` hold what a page needs and a reader does not;
 - `<!--- skip: next "why" -->` leaves out the next block. The reason is listed.
 
-A page that saves `tower.png` shows it as `../_made/PAGE/tower.png`.
+A page that saves `tower.png` shows it as `../made/PAGE/tower.png`.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def pages() -> list[Path]:
     return sorted(
         path
         for path in DOCS.rglob("*.md")
-        if not path.relative_to(DOCS).parts[0].startswith("_") and path.parent.name != "errors"
+        if path.relative_to(DOCS).parts[0] not in ("_build", "made", "errors")
     )
 
 
