@@ -24,7 +24,8 @@
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
 #                 rustup; skipped with a line where there is none)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
-#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
+#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc; runs every snippet of the
+#                 manual first (ONLY="files chains": those pages; minutes)
 #   make format   format the sources
 #   make locks    pin the newest versions of the packages in pyproject.toml
 #   make clean    remove everything that these targets created
@@ -49,7 +50,7 @@ LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/li
 FUZZERS := --manifest-path fuzz/Cargo.toml --target-dir fuzz/target/lint
 
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
-PYTHON_SOURCES := python tests benches docs/conf.py
+PYTHON_SOURCES := python tests benches docs/conf.py docs/running
 
 PARTS :=
 MINUTES := 10
@@ -173,7 +174,10 @@ sanitize: $(STAMPS)/venv
 mutants: $(STAMPS)/venv
 	$(PY) tests/mutants/mutants.py $(ONLY)
 
-docs: $(STAMPS)/engine $(STAMPS)/docs
+# The test extra has the libraries that pages about printing, colours and structures need.
+docs: $(STAMPS)/engine $(STAMPS)/docs $(STAMPS)/test
+	$(PY) docs/running/snippets.py docs/made $(ONLY)
+	$(PY) docs/running/reference.py docs/made
 	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --workspace --exclude niwaki-py --no-deps
 	@echo "the manual: docs/_build/html/index.html; the engine: target/doc/niwaki_vm/index.html"
@@ -195,5 +199,5 @@ locks: $(STAMPS)/venv
 	done
 
 clean:
-	rm -rf $(VENV) target out docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf $(VENV) target out docs/_build docs/made benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
 	find python tests benches \( -name __pycache__ -o -name '*.so' \) -prune -exec rm -rf {} +

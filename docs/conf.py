@@ -1,7 +1,7 @@
 """How Sphinx builds the manual; `make docs` treats its warnings as errors.
 
-Before it, `docs/running/pages.py` runs the snippets of the pages and `docs/running/reference.py` writes pages from the
-package, both into `docs/made`.
+Before it, `docs/running/snippets.py` runs the snippets of the pages and `docs/running/reference.py` writes pages from
+the package, both into `docs/made`.
 """
 
 from importlib.metadata import version as installed_version

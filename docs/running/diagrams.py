@@ -15,7 +15,9 @@ class Drawing:
         self.size = width, height
         self.parts: list[str] = []
 
-    def box(self, x: float, y: float, width: float, height: float, text: str = "", fill: str = "white") -> None:
+    def box(
+        self, x: float, y: float, width: float, height: float, text: str = "", fill: str = "white"
+    ) -> None:
         """A box with words in its middle; each line of the text is one."""
         self.parts.append(
             f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="5" fill="{fill}" stroke="{INK}"/>'
@@ -27,7 +29,9 @@ class Drawing:
 
     def text(self, x: float, y: float, words: str, color: str = INK, anchor: str = "middle") -> None:
         """A line of words."""
-        self.parts.append(f'<text x="{x}" y="{y}" fill="{color}" text-anchor="{anchor}">{escape(words)}</text>')
+        self.parts.append(
+            f'<text x="{x}" y="{y}" fill="{color}" text-anchor="{anchor}">{escape(words)}</text>'
+        )
 
     def arrow(self, x: float, y: float, u: float, v: float, words: str = "", color: str = INK) -> None:
         """From (x, y) to (u, v), with words beside its middle."""

@@ -14,7 +14,6 @@ import os
 import sys
 import warnings
 from pathlib import Path
-from typing import Any
 
 import niwaki as nw
 from niwaki import draw
@@ -61,12 +60,17 @@ def reference(folder: Path) -> None:
     The pages are in no table of contents: five hundred entries beside each page would take longer than the pages.
     """
     seen: set[int] = set()
-    lines = ["# Every name\n", "Each name has a page: what it does, its settings with their units, what it raises.\n"]
+    lines = [
+        "# Every name\n",
+        "Each name has a page: what it does, its settings with their units, what it raises.\n",
+    ]
     (folder / "names").mkdir(exist_ok=True)
     for package, title in PACKAGES.items():
         module = nw.kernels if package == "niwaki.kernels" else importlib.import_module(package)
         lines.append(f"## {title}: `{module.__name__}`\n")
-        for name in sorted(getattr(module, "__all__", None) or [one for one in vars(module) if one[0] != "_"]):
+        for name in sorted(
+            getattr(module, "__all__", None) or [one for one in vars(module) if one[0] != "_"]
+        ):
             value = getattr(module, name)
             ours = getattr(value, "__module__", None) or ""
             if id(value) in seen or not callable(value) or not ours.startswith("niwaki"):
@@ -91,23 +95,32 @@ def gallery(folder: Path) -> None:
     for name, text in texts.items():
         (place / f"{name}.md").write_text(text, encoding="utf-8")
     toc = "\n".join(sorted(texts))
-    index = f"# Models, grown today\n\nEach page is made when the manual is built.\n\n```{{toctree}}\n:maxdepth: 1\n\n{toc}\n```\n"
-    (place / "index.md").write_text(index, encoding="utf-8")
+    head = "# Models, grown today\n\nEach page is made when the manual is built."
+    text = f"{head}\n\n```{{toctree}}\n:maxdepth: 1\n\n{toc}\n```\n"
+    (place / "index.md").write_text(text, encoding="utf-8")
 
 
 def page(entry: Entry, folder: Path) -> str:
     """The page of a model; its picture is drawn into the folder."""
     source = Path(inspect.getsourcefile(sys.modules[entry_module(entry)]) or "")
     path = os.path.relpath(source, folder)
-    command = f"niwaki grow {entry.name}" if entry.target_name or entry.drawing_name else f"niwaki sample {entry.name}"
+    command = (
+        f"niwaki grow {entry.name}"
+        if entry.target_name or entry.drawing_name
+        else f"niwaki sample {entry.name}"
+    )
     text = f"# {entry.name}\n\n{entry.title[0].upper()}{entry.title[1:]}.\n\n"
     result = grown(entry)
     if result is not None and result.best.primitives:
         style = {} if entry.draws is None else {"style": entry.draws}
         result.best.save(folder / f"{entry.name}.png", size=(720, 480), samples=4, **style)
-        text += f"![{entry.title}]({entry.name}.png)\n\n{draw.card.card('The picture', result.best.numbers)}\n\n"
+        text += (
+            f"![{entry.title}]({entry.name}.png)\n\n{draw.card.card('The picture', result.best.numbers)}\n\n"
+        )
     elif result is not None:
-        text += f"{draw.card.card('One run', {'value': str(result.best.value)[:200]} | result.best.numbers)}\n\n"
+        text += (
+            f"{draw.card.card('One run', {'value': str(result.best.value)[:200]} | result.best.numbers)}\n\n"
+        )
     return text + f"```console\n{command}\n```\n\n```{{literalinclude}} {path}\n:language: python\n```\n"
 
 

@@ -19,7 +19,6 @@ from .lang.models import Model as Model
 from .lang.models import model as model
 from .lang.plain import run_python as run_python
 from .lang.residuals import residuals as residuals
-from .notebook import view as view
 from .methods import Guide as Guide
 from .methods import enumerate_all as enumerate_all
 from .methods import explore as explore
@@ -34,6 +33,7 @@ from .methods import particle_gibbs as particle_gibbs
 from .methods import pimh as pimh
 from .methods import rejection as rejection
 from .methods import smc as smc
+from .notebook import view as view
 from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics

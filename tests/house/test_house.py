@@ -201,7 +201,9 @@ def test_the_pages_name_only_commands_that_exist():
 def test_the_pages_link_to_files_that_exist():
     for page in pages():
         for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
-            assert (page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}"
+            # What is below `made` is made when the manual is built; Sphinx refuses what is missing there.
+            if not link.startswith("../made/"):
+                assert (page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}"
 
 
 @pytest.mark.parametrize("page", pages(), ids=lambda page: page.stem)

@@ -68,7 +68,9 @@ class Coloring:
 
     def _repr_html_(self) -> str:
         rules = {str(k): one for k, one in enumerate(self.kept, 1)}
-        return draw.card.card("Coloring", {"log score": self.log_score, **rules}, draw.picture.png(self.image(360)))
+        return draw.card.card(
+            "Coloring", {"log score": self.log_score, **rules}, draw.picture.png(self.image(360))
+        )
 
     @cached_property
     def residuals(self) -> Residuals:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 from html import escape
+from typing import Any
 
 #: The settings of a picture that is drawn in about a tenth of a second.
-QUICK = {"size": (480, 360), "samples": 4}
+QUICK: dict[str, Any] = {"size": (480, 360), "samples": 4}
 
+LEFT = 'style="text-align:left"'
 STYLE = "display:flex;gap:1.5em;flex-wrap:wrap;align-items:center"
 
 
@@ -29,7 +31,7 @@ def card(title: str, rows: Mapping[str, object], png: bytes | None = None) -> st
         data = base64.b64encode(png).decode()
         image = f'<img alt="{escape(title)}" src="data:image/png;base64,{data}" style="max-width:100%">'
     cells = "".join(
-        f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(_text(value))}</td></tr>"
+        f"<tr><th {LEFT}>{escape(name)}</th><td {LEFT}>{escape(_text(value))}</td></tr>"
         for name, value in rows.items()
         if value is not None
     )

@@ -71,7 +71,12 @@ class Entry:
         return int(self.usual["particles"])
 
     def _repr_html_(self) -> str:
-        rows = {"name": self.name, "target": self.target_name, "voxel": self.voxel, "particles": self.particles}
+        rows = {
+            "name": self.name,
+            "target": self.target_name,
+            "voxel": self.voxel,
+            "particles": self.particles,
+        }
         return draw.card.card(self.title, {**rows, "drawing": self.drawing_name})
 
     def target(self) -> nw.Target | None:

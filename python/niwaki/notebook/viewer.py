@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import base64
 import json
+import zlib
 from collections.abc import Iterable
 from functools import cache
 from html import escape
@@ -51,7 +52,7 @@ def view(
     target
         Drawn as a ghost: that of the first sample, another one, or none where it is False.
     most
-        How many at most. Each is as large as its GLB, some 100 kB.
+        How many at most. A ship of 20 parts takes 0.2 MB.
 
     Returns
     -------
@@ -64,9 +65,12 @@ def view(
         There is nothing to show.
     """
     at_least_one("most", most)
-    listed = [shown] if isinstance(shown, Sample | Scene) else list(shown)
+    listed: list[Sample | Scene]
     if isinstance(shown, Result):
-        listed = sorted(listed, key=lambda one: -one.log_score) if len(listed) else [shown.best]
+        ranked = sorted(shown.samples, key=lambda one: -one.log_score)
+        listed = [*ranked] if ranked else [shown.best]
+    else:
+        listed = [shown] if isinstance(shown, Sample | Scene) else list(shown)
     if not listed:
         raise bad("shown", shown, "at least one sample or scene", "the result of a search")
     chosen = [_frame(one) for one in listed[:most]]
@@ -89,7 +93,7 @@ class View:
 
     def html(self) -> str:
         """The page, whole."""
-        data = json.dumps([base64.b64encode(one).decode() for one in self.frames])
+        data = json.dumps([base64.b64encode(zlib.compress(one)).decode() for one in self.frames])
         return (
             '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Niwaki</title>'
             f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'

@@ -348,7 +348,7 @@ class Result(Sequence[Sample]):
         """Draw the best scene into an image file."""
         return self.best.save(path, **settings)
 
-    def sheet(self, most: int | None = None, **settings: Any) -> Any:
+    def sheet(self, *, most: int | None = None, **settings: Any) -> Any:
         """All samples side by side, or the best so many; best first, each with its number, from 1, and its scores.
 
         Where an image or a shadow is matched and no volume, they are seen from its camera.
@@ -372,7 +372,11 @@ class Result(Sequence[Sample]):
         if self.samples or isinstance(self.info, MhInfo):
             rows |= {f"best {name}": value for name, value in self.best.numbers.items() if name != "seed"}
             png = self.best._repr_png_()
-        if png is not None and len(self) > 1 and (self.method.NAME == "improve" or len(self) == self.search.runs):
+        if (
+            png is not None
+            and len(self) > 1
+            and (self.method.NAME == "improve" or len(self) == self.search.runs)
+        ):
             png = draw.picture.png(self.sheet(most=6, size=(240, 180), samples=1))
         rows |= {"log evidence": self.log_evidence, "seed": self.seed, "seconds": f"{self.seconds:.2f}"}
         rows |= {"invalid": sum(self.invalid.values()) or None, "interrupted": self.interrupted or None}

@@ -91,9 +91,15 @@ function show(element: HTMLElement, frames: DataView[]): () => void {
   };
 }
 
-/** The frames of a page that is one file: text of base64, one for each. */
-function decoded(texts: string[]): DataView[] {
-  return texts.map((text) => new DataView(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer));
+/** The frames of a page that is one file: text of base64 for each, deflated. */
+function decoded(texts: string[]): Promise<DataView[]> {
+  return Promise.all(
+    texts.map(async (text) => {
+      const packed = new Blob([Uint8Array.from(atob(text), (one) => one.charCodeAt(0))]);
+      const stream = packed.stream().pipeThrough(new DecompressionStream("deflate"));
+      return new DataView(await new Response(stream).arrayBuffer());
+    }),
+  );
 }
 
 export default {
@@ -108,4 +114,7 @@ export default {
 };
 
 const page = document.getElementById("niwaki-frames");
-if (page !== null) show(document.querySelector("div")!, decoded(JSON.parse(page.textContent!) as string[]));
+if (page !== null) {
+  const frames = await decoded(JSON.parse(page.textContent!) as string[]);
+  show(document.querySelector("div")!, frames);
+}

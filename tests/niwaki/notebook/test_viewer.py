@@ -11,6 +11,7 @@ import importlib.util
 import json
 import re
 import time
+import zlib
 from html.parser import HTMLParser
 
 import niwaki as nw
@@ -92,7 +93,7 @@ def test_a_view_is_one_page_that_asks_for_nothing(ships, tmp_path):
     assert Page(text).loads == []
     assert "default-src 'none'" in text
     held = re.search(r'id="niwaki-frames">(.*?)</script>', text)[1]
-    assert [base64.b64decode(one) for one in json.loads(held)] == nw.view(ships).frames
+    assert [zlib.decompress(base64.b64decode(one)) for one in json.loads(held)] == nw.view(ships).frames
     frame = nw.view(ships)._repr_html_()
     assert html.unescape(re.search(r'srcdoc="([^"]*)"', frame)[1]) == text
 

@@ -1,13 +1,13 @@
 """Run every snippet of the manual: the pages stay plain Markdown, and what they save is their pictures.
 
-    python docs/running/pages.py docs/made            # all pages, each in a folder of its own, on all processors
-    python docs/running/pages.py docs/made tutorials  # the pages with `tutorials` in their names
+    python docs/running/snippets.py docs/made            # all pages, each in a folder of its own, on all processors
+    python docs/running/snippets.py docs/made tutorials  # the pages with `tutorials` in their names
 
 A page is a program that is read from the top, in a process and a folder of its own (Sybil finds its blocks):
 
 - a `python` block is run, in the names of the blocks before it;
-- a line of a `console` block is run where it starts with `niwaki` or `python`. Of `pip install 'niwaki[extra]'` the extras
-  must be there, and of `make target` the target;
+- a line of a `console` block is run where it starts with `niwaki` or `python`. Of `pip install 'niwaki[extra]'` the
+  extras must be there, and of `make target` the target;
 - `<!--- file: NAME -->` before a block of any language writes the block into that file;
 - `<!--- less: 250 => 5 -->` before a block: it is run with these words replaced, so that a page takes seconds
   (`<!--- less: words => -->`: without them);
@@ -216,7 +216,9 @@ def run_apart(page: Path, out: Path) -> Report:
     try:
         done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=SECONDS)
     except subprocess.TimeoutExpired:
-        return Report(name(page), failed=[f"{page.relative_to(ROOT)}: more than {SECONDS} s"], seconds=SECONDS)
+        return Report(
+            name(page), failed=[f"{page.relative_to(ROOT)}: more than {SECONDS} s"], seconds=SECONDS
+        )
     printed, _, last = done.stdout.rpartition("\x1e")
     if done.returncode or not last.strip():
         return Report(name(page), failed=[f"{page.relative_to(ROOT)}\n{done.stdout}{done.stderr}"])
@@ -232,7 +234,9 @@ def main(out: Path, words: list[str]) -> int:
     for report in reports:
         seconds, line = report.slowest
         most = f", {seconds:.1f} s of them in line {line}" if seconds > 5.0 else ""
-        print(f"{report.seconds:6.1f} s  {report.ran:3} blocks  {len(report.skipped):2} skipped  {report.page}{most}")
+        print(
+            f"{report.seconds:6.1f} s  {report.ran:3} blocks  {len(report.skipped):2} skipped  {report.page}{most}"
+        )
     for line in (line for report in reports for line in report.skipped):
         print("skipped", line)
     for failed in (failed for report in reports for failed in report.failed):
