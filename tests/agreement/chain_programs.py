@@ -68,6 +68,20 @@ class ChainMaker(Maker):
                 if not loop
                 else [f"f = f + {self.sampled()}"]
             ),
+            # Captures that have a value on one path only, which is a choice.
+            lambda: (
+                [
+                    f"{i} = flip(0.5)",
+                    f"if {i}:",
+                    f"    {v} = {self.sampled()}",
+                    f"def {w}(u, k):",
+                    f"    u = u + ({v} if {i} else gaussian(0, 1))",
+                    f"    return {w}(u, k - 1) if k > 0 else {self.pick('u', f'(lambda u: u + {v} if {i} else u)(u)')}",
+                    f"f = f + {w}(x, {self.pick('0', '2', 'poisson(1)')})",
+                ]
+                if not loop
+                else [f"f = f + {self.sampled()}"]
+            ),
             # Branches that hold different choices at the same places.
             lambda: [
                 f"if flip({self.random.choice(['0.3', '0.5', 'clip(abs(x) / 4, 0.1, 0.9)'])}):",

@@ -64,6 +64,25 @@ def m():
         return x + gaussian(0, 1)
     return infer(high, importance(3), x)
 """,
+    "functions that capture what a branch may not have assigned": """
+def m():
+    c = flip(0.5)
+    if c:
+        z = uniform(0, 1)
+        def g(x, n=uniform(0, 1)):
+            return x + n
+    def h(x, deep):
+        def k(y):
+            return y + z
+        if deep > 0:
+            return h(x + uniform(0, 1), deep - 1)
+        return g(k(x)) if c else x
+    fs = [lambda x: h(x, 1), lambda x: x + z]
+    s = infer(lambda f: f(1.0), importance(4), fs[0]) + force(future(h, 1.0, 2))
+    for i in range(2):
+        s = s + fs[0](s) + gaussian(0, 1)
+    return s + fs[1](2) if c else s
+""",
     "two functions of one name": """
 def make(k):
     def part(x):
@@ -131,6 +150,24 @@ FAULTS = {
     "observe(Gaussian(0, -1), 1.0)": "bad-parameter",
     'observe(Gaussian(0, -1), "a")': "bad-parameter",
 }
+
+
+UNASSIGNED = {
+    "a variable that a function reads": "z = 1\n    def h(): return z",
+    "a default of a function that is called": "def g(n=uniform(0, 1)): return n\n    def h(): return g(2)",
+    "a default of a function as a value": "def g(n=uniform(0, 1)): return n\n    def h(): return [g]",
+    "a variable in an inner model": "z = 1\n    def h(): return infer(lambda: z, forward())",
+}
+
+
+@pytest.mark.parametrize("name", UNASSIGNED)
+def test_what_has_no_value_is_a_fault_where_it_is_read(name: str) -> None:
+    """In the function that captures it, not where that function is defined or called."""
+    text = f"def m():\n    if flip(0.0):\n        {UNASSIGNED[name]}\n    return"
+    for end, code in (("h()", "unassigned-variable"), ("len([h])", None)):
+        model = load(f"{HEADER}@model\n{text} {end}\n")
+        for found in (plain(model, seed=1), engine(model, seed=1)):
+            assert getattr(found, "code", None) == code, found
 
 
 @pytest.mark.parametrize("line", FAULTS)

@@ -25,9 +25,10 @@ impl PyRun {
         PyRun { run, classes }
     }
 
-    /// The run of what [`PyRun::data`] gave, without what the model returned.
-    pub fn of_data(data: &str, classes: Arc<Classes>) -> PyResult<PyRun> {
-        let run: Run = serde_json::from_str(data).map_err(unreadable)?;
+    /// The run of what [`PyRun::data`] gave, without what the model returned, and with `shift` added to its log weight.
+    pub fn of_data(data: &str, shift: f64, classes: Arc<Classes>) -> PyResult<PyRun> {
+        let mut run: Run = serde_json::from_str(data).map_err(unreadable)?;
+        run.log_weight += shift;
         Ok(PyRun::new(Arc::new(run), classes))
     }
 

@@ -26,10 +26,12 @@ use niwaki_infer::hold::hold;
 use niwaki_infer::improve::{Round, Seen};
 use niwaki_infer::method::{self, Given, Info, Method};
 use niwaki_infer::nested::Inner;
+use niwaki_infer::particles::{self, Share};
 use niwaki_infer::record::Record;
 use niwaki_infer::replay::{Missing, Source, Trace, replay};
 use niwaki_infer::run::Shown;
 use niwaki_infer::{Failure, Task};
+use niwaki_math::log_sums::log_sum_exp;
 use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
@@ -302,9 +304,10 @@ impl PyTask {
         Ok(run.scores().0 - trace.sums.1.value() - empty)
     }
 
-    /// The run of what ``Run.data`` gave, without what the model returned.
-    fn run_of_data(&self, data: &str) -> PyResult<PyRun> {
-        PyRun::of_data(data, self.model.get().classes.clone())
+    /// The run of what ``Run.data`` gave, without what the model returned; ``shift`` is added to its log weight.
+    #[pyo3(signature = (data, shift=0.0))]
+    fn run_of_data(&self, data: &str, shift: f64) -> PyResult<PyRun> {
+        PyRun::of_data(data, shift, self.model.get().classes.clone())
     }
 
     /// Runs with the choices of ``choices``, by readable address. Others are drawn from ``seed`` where there is one;
@@ -421,9 +424,12 @@ impl PyTask {
                 dict.set_item("table", PyTuple::new(py, table)?)?;
                 dict.set_item("log_evidence", result.log_evidence)?;
                 dict.set_item("runs", result.runs)?;
+                dict.set_item("unseen", result.unseen)?;
+                dict.set_item("log_unseen", Some(result.log_unseen).filter(|log| log.is_finite()))?;
             }
             Info::Populations(result) => {
                 dict.set_item("log_evidence", result.log_evidence)?;
+                dict.set_item("log_normaliser", result.log_normaliser)?;
                 dict.set_item("barriers", result.barriers)?;
                 dict.set_item("steps", result.steps)?;
                 dict.set_item("resampled", result.resampled)?;
@@ -485,10 +491,33 @@ fn fingerprint() -> String {
     format!("{:032x}", niwaki_math::fingerprint::fingerprint())
 }
 
+/// The seed of one of several populations, and the share of `max_memory` (bytes) that is its own of `count`.
+#[pyfunction]
+fn population(seed: u64, number: usize, count: usize, max_memory: usize) -> (u64, usize) {
+    (particles::population_seed(seed, number), max_memory / count.clamp(1, particles::AT_ONCE))
+}
+
+/// Populations that lived as one of `total` particles. Each is its size, its own normalising constant (nats) and the log
+/// weights of its particles. The constant of all, and what is added to the log weights of each.
+#[pyfunction]
+fn united(lived: Vec<(usize, Option<f64>, Vec<f64>)>, total: usize) -> (Option<f64>, Vec<f64>) {
+    let shares: Vec<Share> = lived
+        .into_iter()
+        .map(|(size, log_normaliser, logs)| Share {
+            size,
+            log_normaliser,
+            log_sum: log_sum_exp(logs.into_iter()),
+        })
+        .collect();
+    particles::united(&shares, total)
+}
+
 /// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(check_inside, module)?)?;
     module.add_function(wrap_pyfunction!(fingerprint, module)?)?;
+    module.add_function(wrap_pyfunction!(population, module)?)?;
+    module.add_function(wrap_pyfunction!(united, module)?)?;
     module.add_function(wrap_pyfunction!(matches, module)?)?;
     module.add_function(wrap_pyfunction!(nearest, module)?)?;
     module.add_class::<PyTask>()

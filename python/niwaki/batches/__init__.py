@@ -1,6 +1,7 @@
 """Many searches: each case by each seed, on many processors or machines, into one folder that goes on.
 
 entry      `batch`, which searches and gives the results in order; `stored`, which reads them
+islands    `spread`, the populations of one search on many workers
 spec       what is searched: cases, which are searches without a seed, and seeds
 body       a result as bytes, and back
 segments   files of records that only grow

@@ -6,6 +6,7 @@ from .entry import batch as batch
 from .entry import label as label
 from .entry import outcomes as outcomes
 from .entry import stored as stored
+from .islands import spread as spread
 from .pools import Workers as Workers
 from .pools import cores as cores
 from .running import Standing as Standing

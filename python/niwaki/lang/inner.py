@@ -14,7 +14,6 @@ from types import FunctionType
 from typing import Any
 
 from niwaki import _engine
-from niwaki.errors import ModelFault
 from niwaki.lang.core import Expr, Form, literal, write_tree
 from niwaki.lang.deep import deep
 from niwaki.lang.futures import parts_of
@@ -30,6 +29,9 @@ ROOT, NUMBER = "__nw_root__", "__nw_number__"
 
 #: The function that is added.
 NAME = "infer"
+
+#: A variable that it never assigns.
+UNASSIGNED = "$%0"
 
 
 class Around:
@@ -106,8 +108,12 @@ class _Given:
             return Form("closure", [literal(self.program.unit(function).name)])
         unit = self.program.unit(root)
         scope = list(functions(unit.scopes))[getattr(function, NUMBER)]
-        captured = [self.value(_captured(unit, scope, function, needed, set())) for needed in scope.needed]
+        captured = [self.captured(_look(unit, scope, function, needed, set())) for needed in scope.needed]
         return Form("closure", [literal(unit.names[scope]), *captured])
+
+    def captured(self, value: Any) -> Expr:
+        """What a closure has of a variable; one without a value is a name that the added function does not assign."""
+        return UNASSIGNED if value is _NOT_HERE else self.value(value)
 
 
 def _holds_function(value: Any) -> bool:
@@ -119,15 +125,8 @@ def _holds_function(value: Any) -> bool:
 _NOT_HERE = object()
 
 
-def _captured(unit: Unit, scope: Scope, function: FunctionType, needed: Variable, seen: set[Scope]) -> Any:
-    """The value of a variable that a function, or one that it calls, has captured."""
-    found = _look(unit, scope, function, needed, seen)
-    if found is _NOT_HERE:
-        raise ModelFault("unassigned-variable", f"the variable `{needed.name}` has no value yet")
-    return found
-
-
 def _look(unit: Unit, scope: Scope, function: FunctionType, needed: Variable, seen: set[Scope]) -> Any:
+    """The value of a variable that a function, or one that it calls, has captured."""
     for name, default in scope.defaults.items():
         if default is needed:
             return _default(scope, function, name)

@@ -169,6 +169,14 @@ class Smc(Method):
                 "rejuvenate", self.rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`"
             )
 
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        """How many particles each of its populations has, where they are not told by seconds."""
+        if not isinstance(self.particles, int):
+            return tuple(self.particles)
+        different = None if self.draws is not None else self.diverse
+        return (self.particles,) * (self.populations or different or 1)
+
 
 @dataclass(frozen=True)
 class ParticleGibbs(Method):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from math import exp, inf
 from typing import Any, NamedTuple
 
 
@@ -36,11 +37,33 @@ class EnumerationInfo(Info):
     table : sequence of (value, float)
         Each value of the model with the log of its probability, nats, not normalised.
     runs : int
-        How many complete runs there are.
+        How many complete runs were visited.
+    unseen : float
+        The prior probability of the runs that were not, by `likely`.
+    log_unseen : float or None
+        Log of the most that they add to the evidence, nats, if the rest of a run adds at most `rest` to its score. None
+        where nothing is left.
     """
 
     table: tuple[tuple[Any, float], ...] = ()
     runs: int = 0
+    unseen: float = 0.0
+    log_unseen: float | None = None
+
+    def bounds(self, value: Any) -> tuple[float, float]:
+        """The probability of a value lies between these; both are the same where all runs were visited.
+
+        Parameters
+        ----------
+        value
+            A value of the model.
+        """
+        unseen = -inf if self.log_unseen is None else self.log_unseen
+        most = max([unseen, *(log for _, log in self.table)])
+        seen = sum(exp(log - most) for _, log in self.table)
+        own = sum(exp(log - most) for found, log in self.table if found == value)
+        left = exp(unseen - most)
+        return own / (seen + left), (own + left) / (seen + left)
 
 
 @dataclass(frozen=True)
@@ -62,6 +85,9 @@ class PopulationInfo(Info):
 
     Attributes
     ----------
+    log_normaliser : float or None
+        Log of the final law's normalising constant, nats: with scores raised to `power`, so that it is
+        `log_evidence` at power 1. None for absolute weights, and where the search was stopped.
     plan : tuple of int
         Sizes of the populations; `smc(particles=plan)` with the same seed repeats a search by `seconds`.
     barriers : int
@@ -80,6 +106,7 @@ class PopulationInfo(Info):
         Proposals of rejuvenation: of particles that still ran, and of those that had ended.
     """
 
+    log_normaliser: float | None = None
     plan: tuple[int, ...] = ()
     barriers: int = 0
     steps: int = 0
@@ -209,6 +236,13 @@ INFOS: dict[str, type[Info]] = {
     "pimh": SweepInfo,
     "improve": ImproveInfo,
 }
+
+
+def without_evidence(info: Info) -> Info:
+    """The statistics of one of several runs, which have no constant in common."""
+    if isinstance(info, PopulationInfo):
+        return replace(info, log_evidence=None, log_normaliser=None)
+    return replace(info, log_evidence=None)
 
 
 def stored_info(info: Info) -> dict[str, Any] | None:

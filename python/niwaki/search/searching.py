@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import exp
 from typing import TYPE_CHECKING
@@ -21,7 +21,15 @@ from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.hmc import Drawn, HmcInfo
-from niwaki.result.info import INFOS, ImproveInfo, Info, PopulationInfo, restored_info, stored_info
+from niwaki.result.info import (
+    INFOS,
+    ImproveInfo,
+    Info,
+    PopulationInfo,
+    restored_info,
+    stored_info,
+    without_evidence,
+)
 from niwaki.result.progress import EngineWatch, Watch, watcher
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads
@@ -45,9 +53,13 @@ def keeper(search: Search, checkpoint: Checkpoint) -> Keeper:
 
 
 def carried_out(
-    search: Search, threads: int | None, progress: Watch | None, keeper: Keeper | None = None
+    search: Search,
+    threads: int | None,
+    progress: Watch | None,
+    keeper: Keeper | None = None,
+    once: Callable[[Search, int, int | None, EngineWatch, Stage | None], Result] | None = None,
 ) -> Result:
-    """Run a search, run by run.
+    """Run a search, run by run, each by `once`: on the engine here, when it is left out.
 
     With a `keeper` it goes on from its checkpoint, which has a stage for each run and each polishing, and what a run
     gave that is done.
@@ -56,6 +68,7 @@ def carried_out(
     """
     if search.choices is not None and not starts(search.method):
         return given(search)
+    once = once or searched
     guides = [one for one in search.method.text()[1] if isinstance(one, Guide)]
     for guide in guides:
         _check_guide(search, guide)
@@ -93,7 +106,7 @@ def carried_out(
             break
         # Several runs share the statistics of the last one, without evidence; runs of chains have none.
         if not isinstance(one.info, MhInfo | HmcInfo):
-            info = replace(one.info, log_evidence=None)
+            info = without_evidence(one.info)
         interrupted = one.interrupted
         invalid.update(one.invalid)
         if interrupted and found and not any(sample.has_ended for sample in one):
@@ -238,7 +251,7 @@ def _start(search: Search, seed: int) -> _engine.Run | None:
         return search.task.replay(dict(search.choices), seed).run
 
 
-def once(
+def searched(
     search: Search, seed: int, threads: int | None, watch: EngineWatch, stage: Stage | None = None
 ) -> Result:
     """One run of a search, with one seed."""
@@ -265,7 +278,7 @@ def once(
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
     if diverse is not None:
-        runs = _different(runs, diverse, info)
+        runs = different(runs, diverse, info)
     seconds = clock.read()
     if stage is not None:
         stage.collect()
@@ -294,7 +307,7 @@ class Clock:
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def _different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine.Run]:
+def different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine.Run]:
     """The best of those that differ; runs that did not end or are impossible are none."""
     ended = [one for one in runs if one.has_ended and one.cause is None]
     ranked = sorted(ended, key=lambda one: -one.log_score)

@@ -66,7 +66,7 @@ const SHARE: f64 = 0.3;
 const LEAST: usize = 16;
 
 /// The seed of the `number`-th population; of the first, the seed itself.
-fn population_seed(seed: u64, number: usize) -> u64 {
+pub fn population_seed(seed: u64, number: usize) -> u64 {
     if number == 0 { seed } else { Reserved::Population.stream(seed, number as u128, 0).next_u64() }
 }
 
@@ -93,8 +93,8 @@ pub fn populations(
     combine(plan, results, stopped)
 }
 
-/// Of more populations than this, not all are in memory at once.
-const AT_ONCE: usize = 64;
+/// Of more populations than this, not all are in memory at once: so many share it.
+pub const AT_ONCE: usize = 64;
 
 /// Whether so many searches share the threads: where there are fewer, they run one by one, each on all threads.
 fn is_shared(count: usize) -> bool {
@@ -216,18 +216,48 @@ fn without_evidence(result: Result) -> Result {
     Result { log_normaliser: None, log_evidence: None, ..result }
 }
 
+/// A population that lived, among several.
+#[derive(Clone, Copy, Debug)]
+pub struct Share {
+    /// How many particles it has.
+    pub size: usize,
+    /// Its own estimate, as [`Result::log_normaliser`], nats.
+    pub log_normaliser: Option<f64>,
+    /// Log of the sum of its particles' weights.
+    pub log_sum: f64,
+}
+
+impl Share {
+    fn of(size: usize, result: &Result) -> Share {
+        let log_sum = log_sum_exp(result.particles.iter().map(|p| p.log_weight));
+        Share { size, log_normaliser: result.log_normaliser, log_sum }
+    }
+}
+
+/// The populations that lived as one, of `total` particles with those that died: the log of their common estimate, and what
+/// is added to the log weights of each population.
+pub fn united(lived: &[Share], total: usize) -> (Option<f64>, Vec<f64>) {
+    let part = |one: &Share| one.log_normaliser.map(|own| own + (one.size as f64 / total as f64).ln());
+    let all = lived.iter().map(part).collect::<Option<Vec<f64>>>().map(|logs| log_sum_exp(logs.into_iter()));
+    let shift = |one: &Share| match (one.log_normaliser, all) {
+        (Some(own), Some(all)) => own - all + (one.size as f64).ln() - one.log_sum,
+        _ => 0.0,
+    };
+    (all, lived.iter().map(shift).collect())
+}
+
 /// The populations as one.
 fn combine(
     plan: &[usize],
     results: Vec<std::result::Result<Result, Failure>>,
     interrupted: bool,
 ) -> std::result::Result<Result, Failure> {
-    let mut lived: Vec<(f64, Result)> = Vec::new();
+    let mut lived: Vec<(usize, Result)> = Vec::new();
     let mut died = None;
     let mut deaths = 0;
     for (one, size) in results.into_iter().zip(plan) {
         match one {
-            Ok(result) => lived.push((*size as f64, result)),
+            Ok(result) => lived.push((*size, result)),
             // The first death is reported where all died.
             Err(failure) if failure.is_impossible() => {
                 deaths += 1;
@@ -236,17 +266,14 @@ fn combine(
             Err(other) => return Err(other),
         }
     }
-    let total: f64 = plan.iter().map(|n| *n as f64).sum();
+    let total = plan.iter().sum();
     if plan.len() == 1 || lived.is_empty() {
         let no_plan =
             || Fault::new("no-particles", "the number of populations is 0").with_help("use at least one");
         return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(|| no_plan().into()));
     }
-    let log_normaliser = lived
-        .iter()
-        .map(|(n, one)| one.log_normaliser.map(|z| z + (n / total).ln()))
-        .collect::<Option<Vec<f64>>>()
-        .map(|logs| log_sum_exp(logs.into_iter()));
+    let shares: Vec<Share> = lived.iter().map(|(size, one)| Share::of(*size, one)).collect();
+    let (log_normaliser, shifts) = united(&shares, total);
     let mut whole = Result {
         particles: Vec::new(),
         log_normaliser,
@@ -261,12 +288,8 @@ fn combine(
         moved: MoveCounts::default(),
         powers: std::mem::take(&mut lived[0].1.powers),
     };
-    for (n, mut one) in lived {
-        if let (Some(own), Some(all)) = (one.log_normaliser, log_normaliser) {
-            let sum = log_sum_exp(one.particles.iter().map(|p| p.log_weight));
-            let scale = own - all + n.ln() - sum;
-            one.particles.iter_mut().for_each(|p: &mut Outcome| p.log_weight += scale);
-        }
+    for ((_, mut one), shift) in lived.into_iter().zip(shifts) {
+        one.particles.iter_mut().for_each(|p: &mut Outcome| p.log_weight += shift);
         whole.particles.append(&mut one.particles);
         whole.barriers = whole.barriers.max(one.barriers);
         whole.steps += one.steps;

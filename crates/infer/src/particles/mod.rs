@@ -52,7 +52,7 @@ pub use crate::resampling::Resampling;
 pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
 pub(crate) use many::side_by_side;
-pub use many::{Watch, populations, within};
+pub use many::{AT_ONCE, Share, Watch, population_seed, populations, united, within};
 pub use pimh::pimh;
 pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
 pub use settings::{Anneal, Order, Settings, Weights, When};

@@ -71,6 +71,13 @@ pub struct Function {
     pub body: Vec<Stmt>,
 }
 
+impl Function {
+    /// Whether a captured variable holds the value of a default.
+    pub fn is_default(&self, captured: &Name) -> bool {
+        self.defaults.iter().any(|default| matches!(&default.kind, ExprKind::Var(x) if x == captured))
+    }
+}
+
 /// A statement and its place.
 #[derive(Clone, Debug)]
 pub struct Stmt {

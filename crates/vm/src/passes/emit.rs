@@ -116,9 +116,14 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         b.span = f.span;
         let inputs: Vec<(&Name, Operand)> =
             f.params.iter().chain(&f.captures).map(|x| Ok((x, b.register()?))).collect::<Result<_>>()?;
-        // What is captured was assigned before the call.
+        // What is captured was assigned before the call, or never.
         let (params, captures) = inputs.split_at(f.params.len());
-        captures.iter().chain(params).for_each(|(x, at)| b.assign(x, *at));
+        let id = b.function_id(&f.name)?;
+        for (i, (x, at)) in captures.iter().enumerate() {
+            let maybe_unset = b.unit.unassigned.contains(&(id, i));
+            b.assign_maybe(x, *at, maybe_unset);
+        }
+        params.iter().for_each(|(x, at)| b.assign(x, *at));
         let defaults = f.defaults.iter().map(|e| b.default(f, e)).collect::<Result<Vec<_>>>()?;
         if b.block(&f.body)? {
             let none = b.literal(&Literal::None);
@@ -251,6 +256,11 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     pub fn assign_maybe(&mut self, x: &Name, at: Operand, maybe_unset: bool) {
         self.moment += 1;
         self.env.insert(x.clone(), Binding { at, maybe_unset, moment: self.moment });
+    }
+
+    /// Whether every path has given a variable a value.
+    pub fn is_set(&self, x: &Name) -> bool {
+        self.env.get(x).is_some_and(|binding| !binding.maybe_unset)
     }
 
     /// A fresh register, virtual until [`place`] decides.

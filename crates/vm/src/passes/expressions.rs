@@ -3,7 +3,7 @@
 use super::CompileError;
 use super::emit::{Builder, Result};
 use crate::builtins::{builtin_id, make_dist};
-use crate::code::{Binary, Op, Operand, Place};
+use crate::code::{Binary, FunctionId, Op, Operand, Place};
 use crate::core::{Expr, ExprKind, Name};
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -75,7 +75,10 @@ impl<S: Scalar> Builder<'_, '_, S> {
     /// Expressions that compute a value from their arguments, in order.
     fn construct(&mut self, e: &Expr) -> Result<Operand> {
         use ExprKind::*;
-        let mut operands = e.parts().into_iter().map(|p| self.expr(p)).collect::<Result<Vec<_>>>()?;
+        let mut operands = match &e.kind {
+            Closure(name, captures) => self.captured(self.function_id(name)?, captures)?,
+            _ => e.parts().into_iter().map(|p| self.expr(p)).collect::<Result<Vec<_>>>()?,
+        };
         if let Method(_, name, _) = &e.kind {
             let name = self.literal(&crate::core::Literal::Str(name.to_string()));
             operands.insert(1, name);
@@ -96,13 +99,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 crate::code::Op::Builtin { to, id, args }
             }
             Host(k, _) => crate::code::Op::Host { to, constant: self.sixteen(*k)?, args },
-            Closure(name, captures) => {
+            Closure(name, _) => {
                 let id = self.function_id(name)?;
-                if captures.len() != self.definition(id).captures.len() {
-                    return Err(CompileError(format!(
-                        "a closure of `{name}` with the wrong number of captures"
-                    )));
-                }
                 crate::code::Op::Closure { to, function: self.sixteen(id.0 as usize)?, args }
             }
             Dist(name, _) => crate::code::Op::Dist { to, family: super::sites::family(name)?, args },
@@ -193,9 +191,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     fn pure_call(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {
-        let id = self.function_id(name)?;
-        self.check_arity(name, items.len())?;
-        let operands = self.exprs(items)?;
+        let (id, operands) = self.called(name, items)?;
         let args = self.args(&operands);
         let to = self.register()?;
         let function = self.sixteen(id.0 as usize)?;
@@ -203,16 +199,40 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// A direct call passes the parameters and then the captures.
-    pub fn check_arity(&self, name: &Name, given: usize) -> Result<()> {
-        let f = self.definition(self.function_id(name)?);
-        let needed = f.params.len() + f.captures.len();
-        if needed != given {
+    /// A direct call: the function, its parameters and then its captures.
+    pub fn called(&mut self, name: &Name, items: &[Expr]) -> Result<(FunctionId, Vec<Operand>)> {
+        let id = self.function_id(name)?;
+        let f = self.definition(id);
+        let (params, needed) = (f.params.len(), f.params.len() + f.captures.len());
+        if needed != items.len() {
             return Err(CompileError(format!(
-                "`{name}` takes {needed} arguments and captures, {given} given"
+                "`{name}` takes {needed} arguments and captures, {} given",
+                items.len()
             )));
         }
-        Ok(())
+        let mut operands = self.exprs(&items[..params])?;
+        operands.extend(self.captured(id, &items[params..])?);
+        Ok((id, operands))
+    }
+
+    /// What a function captures, here. A variable without a value is passed on: the function may not read it. One that
+    /// holds a default of the function says that its definition did not run.
+    fn captured(&mut self, id: FunctionId, items: &[Expr]) -> Result<Vec<Operand>> {
+        let f = self.definition(id);
+        if f.captures.len() != items.len() {
+            return Err(CompileError(format!("a closure of `{}` with the wrong number of captures", f.name)));
+        }
+        let mut operands = Vec::with_capacity(items.len());
+        for (i, (own, item)) in f.captures.iter().zip(items).enumerate() {
+            operands.push(match &item.kind {
+                ExprKind::Var(x) if !f.is_default(own) && !self.is_set(x) => {
+                    self.unit.unassigned.insert((id, i));
+                    self.current(x)
+                }
+                _ => self.expr(item)?,
+            });
+        }
+        Ok(operands)
     }
 
     /// `and`, `or`: the value that decides, else the last.

@@ -31,7 +31,7 @@ use collections::Collections;
 use effects::Effects;
 use emit::Builder;
 use niwaki_math::Scalar;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 pub use scope::Kept;
@@ -63,6 +63,8 @@ pub(crate) struct Unit<'m, S: Scalar> {
     pub data: Vec<Value<S>>,
     /// The variables to keep for choices.
     pub kept: Kept<'m>,
+    /// Captures that may have no value where the function is called or made into a value: the function, and which one.
+    pub unassigned: HashSet<(FunctionId, usize)>,
     /// Functions so far; the module's own come first, lifted loops after them.
     pub functions: Vec<Option<Function<S>>>,
 }
@@ -99,8 +101,16 @@ fn compile_here<S: Scalar>(
     check_records(module)?;
     let effects = Effects::of(module);
     let collections = Collections::of(module, &effects);
-    let mut unit =
-        Unit { module, effects, collections, ids: HashMap::new(), data, kept, functions: Vec::new() };
+    let mut unit = Unit {
+        module,
+        effects,
+        collections,
+        ids: HashMap::new(),
+        data,
+        kept,
+        unassigned: HashSet::new(),
+        functions: vec![],
+    };
     // The table has no gaps that nothing can fill.
     let most = unit.data.len() + module.constants.len();
     for (k, literal) in &module.constants {
@@ -118,11 +128,11 @@ fn compile_here<S: Scalar>(
             return Err(CompileError(format!("the function `{}` is defined twice", f.name)));
         }
     }
-    unit.functions.resize_with(module.functions.len(), || None);
-    for (i, f) in module.functions.iter().enumerate() {
-        let mode = if unit.effects.function(&f.name) { Mode::Node } else { Mode::Pure };
-        let compiled = Builder::function(&mut unit, f, mode)?;
-        unit.functions[i] = Some(compiled);
+    // Again while a call is found that leaves a capture unassigned, which the function must then check.
+    let mut known = None;
+    while known != Some(unit.unassigned.len()) {
+        known = Some(unit.unassigned.len());
+        lower_all(&mut unit)?;
     }
     let entry = *unit
         .ids
@@ -142,6 +152,19 @@ fn compile_here<S: Scalar>(
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
     Ok(program)
+}
+
+/// Lowers every function of the module.
+fn lower_all<S: Scalar>(unit: &mut Unit<'_, S>) -> Result<(), CompileError> {
+    let module = unit.module;
+    unit.functions.clear();
+    unit.functions.resize_with(module.functions.len(), || None);
+    for (i, f) in module.functions.iter().enumerate() {
+        let mode = if unit.effects.function(&f.name) { Mode::Node } else { Mode::Pure };
+        let compiled = Builder::function(unit, f, mode)?;
+        unit.functions[i] = Some(compiled);
+    }
+    Ok(())
 }
 
 /// Every record is of a known class and has all of its fields.

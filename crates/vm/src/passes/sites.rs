@@ -34,9 +34,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let fixed = |s: &str| Name::from(s);
         Ok(Some(match &e.kind {
             Call(f, args) if self.is_effectful(f) => {
-                self.check_arity(f, args.len())?;
-                let operands = self.exprs(args)?;
-                let function = self.function_id(f)?;
+                let (function, operands) = self.called(f, args)?;
                 self.add_site(SiteKind::Call { function }, f, (&e.label, short(f).into()), &operands)?
             }
             Apply(f, args) => {
@@ -46,11 +44,9 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 self.add_site(SiteKind::Apply, &fixed("apply"), (&e.label, label), &operands)?
             }
             Future(f, args) => {
-                let (def, function) = (f.clone(), self.function_id(f)?);
-                self.check_arity(f, args.len())?;
-                let operands = self.exprs(args)?;
+                let (function, operands) = self.called(f, args)?;
                 let label = (&e.label, short(f).into());
-                self.add_site(SiteKind::Future { function, detached: false }, &def, label, &operands)?
+                self.add_site(SiteKind::Future { function, detached: false }, f, label, &operands)?
             }
             FutureApply(f, args) => {
                 let mut operands = vec![self.expr(f)?];

@@ -114,7 +114,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     /// Where a variable is now, assigned or not.
-    fn current(&mut self, x: &Name) -> Operand {
+    pub fn current(&mut self, x: &Name) -> Operand {
         match self.env.get(x) {
             Some(b) => b.at,
             None => self.unset(),
@@ -282,8 +282,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     fn handed_on(&self, s: &Stmt, assigned: &Names) -> Vec<Name> {
         let live = self.heads.at(s);
         // Choices cannot read what some path has left unassigned, but for the place to look from.
-        let is_set = |x: &Name| **x == *LOOK || self.env.get(x).is_some_and(|binding| !binding.maybe_unset);
-        let kept = |x: &Name| self.keeping.has(x) && is_set(x);
+        let kept = |x: &Name| self.keeping.has(x) && (**x == *LOOK || self.is_set(x));
         assigned.iter().filter(|x| live.contains(*x) || kept(x)).cloned().collect()
     }
 

@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 from pathlib import Path
 
+from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.studio import messages as m
 from niwaki.studio.session.state import Session
 from niwaki.studio.window import Window
@@ -28,9 +29,8 @@ async def export(session: Session, window: Window, command: m.Export) -> m.Answe
     if answer.problem is None:
         data = await asyncio.to_thread(Path(answer.path).read_bytes)
         name = hashlib.sha256(data).hexdigest()
-        place = files / name
-        if not place.is_dir():
-            place.mkdir()
-            (place / Path(answer.path).name).write_bytes(data)
+        kept = files / name / Path(answer.path).name
+        if not kept.is_file():
+            await asyncio.to_thread(lambda: write_whole(ensure_folder(kept.parent) / kept.name, data))
         window.tell(m.File(command.id, name, Path(answer.path).name))
     return answer

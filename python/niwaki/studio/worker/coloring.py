@@ -22,7 +22,7 @@ from niwaki.color.drawing import OWN
 from niwaki.color.rules import CHAINS
 from niwaki.color.search import default_method
 from niwaki.errors import InputError
-from niwaki.errors.files import ensure_folder
+from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.result import Progress, Result
 from niwaki.shell import run_files
 from niwaki.shell.references import ModelReference
@@ -185,7 +185,7 @@ def write(job: WriteFile) -> Answer:
         raise InputError(
             "bad-setting", name="format", found=job.format, expected=f"one of {formats}", suggestion="png"
         )
-    path.write_bytes(data)
+    write_whole(path, data)
     return Answer(path=str(path))
 
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.targets.examples import images
 from niwaki.targets.examples.obstacles import emblem, funnel, gem, ledges
 from niwaki.targets.examples.ships import dart, ship
@@ -72,17 +73,14 @@ def image(name: str) -> Image.Image:
 
 def write_all(folder: str | PathLike[str]) -> list[Path]:
     """Write every target into a folder, solids as OBJ and images as PNG files, and return their paths."""
-    place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
+    place = ensure_folder(Path(folder))
     written = []
     for name, make in TARGETS.items():
         target = make()
         lines = [f"# niwaki target: {name}", f"o {name}"]
         lines += ["v " + " ".join(f"{c:.6f}" for c in vertex) for vertex in target.vertices]
         lines += ["f " + " ".join(str(i + 1) for i in face) for face in target.faces]
-        path = place / f"{name}.obj"
-        path.write_text("\n".join(lines) + "\n", encoding="ascii")
-        written.append(path)
+        written.append(write_whole(place / f"{name}.obj", ("\n".join(lines) + "\n").encode("ascii")))
     for name in IMAGES:
         written.append(place / f"{name}.png")
         image(name).save(written[-1])
