@@ -11,6 +11,7 @@
 #   make figures-guides  the figures and the numbers of chapter 6, into docs/pictures/guides (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
+#   make bench-vi  evidence bounds and seconds of variational inference, beside NumPyro and BlackJAX (QUICK=1: two models)
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
 #   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
@@ -66,7 +67,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-vi bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -171,6 +172,9 @@ bench-c3: $(STAMPS)/engine $(STAMPS)/bench
 bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
 	$(PY) -m pytest tests/niwaki/result/test_with_peers.py
 	$(PY) benches/gradients.py
+
+bench-vi: $(STAMPS)/engine $(STAMPS)/bench-hmc
+	$(PY) benches/vi.py
 
 bench-wait: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/wait.py

@@ -11,7 +11,7 @@ import typer
 import niwaki as nw
 from niwaki import draw, targets
 from niwaki.search import collisions
-from niwaki.words.shapes import painted
+from niwaki.words.shapes import worn
 
 Quick = Annotated[
     bool,
@@ -38,7 +38,10 @@ def impossible(search: nw.Search, folder: Path, quick: bool) -> str:
     parts = [
         (
             one.address,
-            [painted(shape, RED if one.address in broken else GREY, over=True) for shape in one.shapes],
+            [
+                worn(shape, {"color": RED if one.address in broken else GREY}, over=True)
+                for shape in one.shapes
+            ],
         )
         for one in scene.parts
     ]
