@@ -18,6 +18,10 @@
 #   make studio-page  bundle the studio's page again, into python/niwaki/studio/page (needs node and npm)
 #   make test-studio  the studio in a browser: its journeys, their times, screenshots in out/studio (needs Chromium)
 #   make studio-pictures  the same, and its screenshots and times go into docs/pictures
+#   make blender  the extension for Blender, into out/blender (BLENDER_PYTHON=3.13: for Blender 5.1 and later)
+#   make test-blender  the extension in Blender as a module, without a window (400 MB): 4.2 on Python 3.11, or 5.2 on
+#                 Python 3.13 with BLENDER_PYTHON=3.13
+#   make blender-pictures  the same, and its picture goes into docs/pictures
 #   make soak     the long tests, with fresh printed seeds (NIWAKI_FUZZ_SECONDS: how long finite programs are tried)
 #   make cluster  batches on Ray and on Dask, on this machine alone (installs both)
 #   make fuzz     the fuzzers, each for MINUTES (10) by JOBS processes (1; ONLY="core_text sources": those); needs cargo-fuzz
@@ -54,14 +58,14 @@ LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/li
 FUZZERS := --manifest-path fuzz/Cargo.toml --target-dir fuzz/target/lint
 
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
-PYTHON_SOURCES := python tests benches docs/conf.py
+PYTHON_SOURCES := python tests benches integrations docs/conf.py
 
 PARTS :=
 PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -102,6 +106,30 @@ test-studio: $(STAMPS)/engine $(STAMPS)/test
 
 studio-pictures:
 	NIWAKI_PICTURES=docs/pictures $(MAKE) --no-print-directory test-studio
+
+# A zip with the wheel and what it needs; pip downloads the latter, at the hashes of requirements/core.txt.
+BLENDER_PYTHON := 3.11
+blender: $(STAMPS)/engine wheel
+	$(PY) integrations/blender/build_extension.py --wheel dist/niwaki-*.whl --python $(BLENDER_PYTHON) --out out/blender
+
+# Blender as a module, in an environment of its own: Niwaki is only in the zip.
+IN_BLENDER := $(VENV)/blender-$(BLENDER_PYTHON)
+$(STAMPS)/blender-%: integrations/blender/requirements-%.txt $(STAMPS)/venv
+	python$* -m venv $(VENV)/blender-$*
+	$(VENV)/blender-$*/bin/python -m pip --disable-pip-version-check --quiet install --require-hashes -r $<
+	$(VENV)/blender-$*/bin/python -c "import bpy"
+	@touch $@
+
+test-blender:
+	@if command -v python$(BLENDER_PYTHON) >/dev/null && $(MAKE) --no-print-directory $(STAMPS)/blender-$(BLENDER_PYTHON); then \
+	  $(MAKE) --no-print-directory blender && rm -rf out/blender/home && mkdir -p out/blender/home && \
+	  BLENDER_USER_RESOURCES=$(CURDIR)/out/blender/home NIWAKI_ZIP=$$(ls -t out/blender/*.zip | head -n 1) \
+	    $(IN_BLENDER)/bin/python -m pytest -q -c /dev/null --rootdir tests/integrations/blender -p no:cacheprovider \
+	    --confcutdir tests/integrations/blender --import-mode importlib tests/integrations/blender/inside_blender.py; \
+	else echo "no Blender as a module here (Python $(BLENDER_PYTHON), 400 MB, libraries of X): the extension is not tested in it"; fi
+
+blender-pictures:
+	NIWAKI_PICTURES=$(CURDIR)/docs/pictures $(MAKE) --no-print-directory test-blender
 
 lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --all --check
@@ -217,6 +245,11 @@ locks: $(STAMPS)/venv
 	  $(VENV)/bin/uv pip compile pyproject.toml $$([ $$extra = core ] || echo --extra $$extra -c requirements/core.txt) \
 	    --upgrade --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header --no-annotate \
 	    --quiet -o requirements/$$extra.txt; \
+	done
+	for python in 3.11 3.13; do \
+	  $(VENV)/bin/uv pip compile integrations/blender/requirements.in --upgrade --python-version $$python \
+	    --generate-hashes --no-emit-index-url --no-header --no-annotate --quiet \
+	    -o integrations/blender/requirements-$$python.txt; \
 	done
 
 clean:

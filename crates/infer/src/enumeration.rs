@@ -1,42 +1,182 @@
 //! Exact enumeration: every value of every choice, by forking the run at each.
 //!
 //! `p(outcome, score) = sum over runs of exp(log_prior + log_score)`, an outcome being the program's value.
+//!
+//! A program with too many runs, or with endlessly many, can be enumerated in part: the branch with the largest joint
+//! probability so far goes on first, until so many runs have been visited. The prior probability of what is left is known
+//! exactly, and where a run's later scores are bounded, so is what it could add to the evidence.
 
 use crate::Failure;
 use crate::chooser::{Chooser, Chosen, Context};
 use crate::forward::Forward;
 use crate::record::{AllInvalid, Record};
 use crate::task::Task;
-use niwaki_math::Dist;
 use niwaki_math::log_sums::log_sum_exp;
+use niwaki_math::{Dist, Draw, Support};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::value::{Value, repr};
-use std::collections::HashMap;
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
 
 /// The exact distribution of a program's value.
 pub struct Enumerated {
     /// Outcomes in order of first appearance, with their unnormalised log probabilities, nats.
     pub outcomes: Vec<(Value, f64)>,
-    /// Log of their sum: the evidence.
+    /// Log of their sum: the evidence, or of a part of the runs a lower bound of it.
     pub log_evidence: f64,
-    /// How many complete runs there are.
+    /// How many complete runs were visited.
     pub runs: usize,
+    /// The prior probability of the runs that were not.
+    pub unseen: f64,
+    /// Log of the most that they add to the evidence, nats.
+    pub log_unseen: f64,
 }
 
-/// A run up to an open choice, and the value that it goes on with.
+/// What to visit.
+#[derive(Clone, Copy, Debug)]
+pub enum Visit {
+    /// All runs; more than so many are a failure.
+    All(usize),
+    /// So many, the likeliest branches first.
+    Likely {
+        /// How many.
+        runs: usize,
+        /// The most that the rest of a run adds to its log score, nats.
+        rest: f64,
+    },
+}
+
+/// A run up to an open choice, and how it goes on.
 struct Branch {
     state: State,
     record: Record,
-    next: Option<Chosen>,
+    next: Next,
+    /// Log of the prior probability of all its runs.
+    log_prior: f64,
+    /// The same with the scores so far.
+    log_joint: f64,
+    /// How many were made before it.
+    number: u64,
+}
+
+/// The value with which a run goes on.
+enum Next {
+    /// It has not begun.
+    Start,
+    /// This value.
+    Value(Chosen),
+    /// A whole number from here on, one by one; the probability of all of them.
+    From { dist: Dist, value: i64, left: f64 },
+}
+
+impl Next {
+    /// Log of its probability at the choice.
+    fn log(&self) -> f64 {
+        match self {
+            Next::Start => 0.0,
+            Next::Value(chosen) => chosen.log_prior,
+            Next::From { left, .. } => left.ln(),
+        }
+    }
+}
+
+/// In the order of their joint probability; of equals the last first.
+impl Ord for Branch {
+    fn cmp(&self, other: &Branch) -> Ordering {
+        self.log_joint.total_cmp(&other.log_joint).then(self.number.cmp(&other.number))
+    }
+}
+
+impl PartialOrd for Branch {
+    fn partial_cmp(&self, other: &Branch) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Branch {
+    fn eq(&self, other: &Branch) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Branch {}
+
+/// The branches that are open.
+struct Frontier {
+    visit: Visit,
+    last: Vec<Branch>,
+    likely: BinaryHeap<Branch>,
+    made: u64,
+    /// Logs of the prior and the joint probability of branches that were given up.
+    dropped: (Vec<f64>, Vec<f64>),
+}
+
+/// Of more open branches than this for each run that may be visited, and [`FEWEST`], the least likely are given up.
+const OPEN: usize = 4;
+const FEWEST: usize = 1000;
+
+impl Frontier {
+    fn new(visit: Visit) -> Frontier {
+        Frontier {
+            visit,
+            last: Vec::new(),
+            likely: BinaryHeap::new(),
+            made: 0,
+            dropped: (Vec::new(), Vec::new()),
+        }
+    }
+
+    fn push(&mut self, state: State, record: Record, next: Next) {
+        let log_prior = record.log_prior.value() + next.log();
+        let log_joint = log_prior + record.score().value();
+        let branch = Branch { state, record, next, log_prior, log_joint, number: self.made };
+        self.made += 1;
+        match self.visit {
+            Visit::All(_) => self.last.push(branch),
+            Visit::Likely { runs, .. } => {
+                self.likely.push(branch);
+                let most = runs.saturating_mul(OPEN).saturating_add(FEWEST);
+                if self.likely.len() > most {
+                    let mut sorted = std::mem::take(&mut self.likely).into_sorted_vec();
+                    for branch in sorted.drain(..most / 2) {
+                        self.give_up(&branch);
+                    }
+                    self.likely = sorted.into();
+                }
+            }
+        }
+    }
+
+    fn pop(&mut self) -> Option<Branch> {
+        self.last.pop().or_else(|| self.likely.pop())
+    }
+
+    fn give_up(&mut self, branch: &Branch) {
+        self.dropped.0.push(branch.log_prior);
+        self.dropped.1.push(branch.log_joint);
+    }
+
+    /// What is left: its prior probability, and the log of the most that it adds to the evidence.
+    fn unseen(mut self, rest: f64) -> (f64, f64) {
+        while let Some(branch) = self.likely.pop() {
+            self.give_up(&branch);
+        }
+        let (prior, joint) = self.dropped;
+        let sum =
+            |logs: Vec<f64>| if logs.is_empty() { f64::NEG_INFINITY } else { log_sum_exp(logs.into_iter()) };
+        (sum(prior).exp(), sum(joint) + rest)
+    }
 }
 
 /// Gives the next choice its value. At the choice after it the run pauses, with all values of that choice.
 struct Branching {
     next: Option<Chosen>,
-    open: Vec<Chosen>,
+    open: Vec<Next>,
+    /// Whether values may be endlessly many.
+    endless: bool,
 }
 
 impl Chooser for Branching {
@@ -45,6 +185,10 @@ impl Chooser for Branching {
             return Ok(self.next.take());
         }
         let Some(draws) = dist.enumerate() else {
+            if let (true, Support::Integers { lo, hi: None }) = (self.endless, dist.support()) {
+                self.open.push(Next::From { dist: dist.clone(), value: lo, left: 1.0 });
+                return Ok(None);
+            }
             return Err(Fault::new(
                 "not-enumerable",
                 format!("the choice `{}` has no finite list of values", at.path()),
@@ -54,63 +198,95 @@ impl Chooser for Branching {
         for draw in draws {
             let log = dist.log_density(&draw);
             if log > f64::NEG_INFINITY {
-                self.open.push(Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log });
+                self.open.push(Next::Value(Chosen {
+                    value: draw_to_value(draw),
+                    log_prior: log,
+                    log_drawn: log,
+                }));
             }
         }
         Ok(None)
     }
 }
 
-/// Enumerates every run of the program, at most `max_runs`, impossible ones included. `watch` is called with the
-/// number of runs after each; when it returns false, the search stops without a result.
+/// Enumerates every run of the program, at most `max_runs`, impossible ones included; see [`visit`].
 ///
 /// # Errors
-/// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
-/// of distributions, where they are invalid in every run.
+/// As for [`visit`].
 pub fn enumerate(
     task: &Task,
     max_runs: usize,
     watch: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Enumerated, Failure> {
+    visit(task, Visit::All(max_runs), watch)
+}
+
+/// Visits runs of the program. `watch` is called with the number of runs after each; when it returns false, the search stops:
+/// without a result where all runs are to be visited, else with what it has.
+///
+/// # Errors
+/// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
+/// of distributions, where they are invalid in every run.
+pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> Result<Enumerated, Failure> {
     let mut machine = task.machine();
-    let first = task.start(&machine, true)?;
-    let mut open = vec![Branch { state: first, record: Record::start(&task.sketches), next: None }];
+    let mut open = Frontier::new(what);
+    open.push(task.start(&machine, true)?, Record::start(&task.sketches), Next::Start);
+    let (endless, rest) = match what {
+        Visit::All(_) => (false, 0.0),
+        Visit::Likely { rest, .. } => (true, rest),
+    };
     let mut outcomes: Vec<(Value, Vec<f64>)> = Vec::new();
     let mut index: HashMap<String, usize> = HashMap::new();
     // Complete runs, and with them those that are impossible, which may be far more.
     let (mut runs, mut met, mut all) = (0, 0, AllInvalid::default());
     let mut causes: HashMap<String, usize> = HashMap::new();
     while let Some(mut branch) = open.pop() {
+        let next = match branch.next {
+            Next::Start => None,
+            Next::Value(chosen) => Some(chosen),
+            Next::From { dist, value, left } => {
+                let draw = Draw::Int(value);
+                let log = dist.log_density(&draw);
+                let chosen = Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log };
+                let others = left - log.exp();
+                if let (true, Some(value)) = (others > 0.0, value.checked_add(1)) {
+                    let next = Next::From { dist, value, left: others };
+                    open.push(branch.state.clone(), branch.record.fork(), next);
+                }
+                if log > f64::NEG_INFINITY {
+                    open.push(branch.state, branch.record, Next::Value(chosen));
+                }
+                continue;
+            }
+        };
         let hosts = &*task.hosts;
-        let (record, chooser) = (&mut branch.record, Branching { next: branch.next, open: Vec::new() });
+        let (record, chooser) = (&mut branch.record, Branching { next, open: Vec::new(), endless });
         let mut answers =
             Forward { record, chooser, log_ratio: 0.0, hosts, barriers: false, complete: false };
         answers.run(task, &mut machine, &mut branch.state)?;
         let values = answers.chooser.open;
-        if branch.record.cause.is_some() || branch.state.has_ended() {
+        let is_run = branch.record.cause.is_some() || branch.state.has_ended();
+        if is_run {
             met += 1;
-            if met > max_runs {
+            if let Visit::All(max_runs) = what
+                && met > max_runs
+            {
                 return Err(Fault::new(
                     "too-many-runs",
                     format!("the program has more than {max_runs} runs, the impossible ones included"),
                 )
-                .with_help("enumerate a smaller program, or use particles")
+                .with_help("enumerate the likeliest of them (`likely=True`), or use particles")
                 .into());
             }
-            if !watch(met) {
-                return Err(Fault::new("out-of-time", format!("stopped after {met} runs")).into());
-            }
+        }
+        // Reversed, so that outcomes appear in the order of the values.
+        for next in values.into_iter().rev() {
+            open.push(branch.state.clone(), branch.record.fork(), next);
         }
         if let Some(cause) = branch.record.cause {
             all.note(branch.record.invalid.as_ref());
             *causes.entry(cause).or_insert(0) += 1;
-            continue;
-        }
-        // Reversed, so that outcomes appear in the order of the values.
-        for next in values.into_iter().rev() {
-            open.push(Branch { state: branch.state.clone(), record: branch.record.fork(), next: Some(next) });
-        }
-        if branch.state.has_ended() {
+        } else if branch.state.has_ended() {
             runs += 1;
             all.note(None);
             let value = branch.state.result();
@@ -122,15 +298,33 @@ pub fn enumerate(
             });
             outcomes[at].1.push(log_joint);
         }
+        let enough = matches!(what, Visit::Likely { runs, .. } if met >= runs);
+        if is_run && !watch(met) {
+            match what {
+                Visit::All(_) => {
+                    return Err(Fault::new("out-of-time", format!("stopped after {met} runs")).into());
+                }
+                Visit::Likely { .. } => break,
+            }
+        }
+        if enough {
+            break;
+        }
     }
+    let (unseen, log_unseen) = open.unseen(rest);
     let outcomes: Vec<(Value, f64)> =
         outcomes.into_iter().map(|(v, logs)| (v, log_sum_exp(logs.into_iter()))).collect();
     if outcomes.is_empty() {
+        if unseen > 0.0 {
+            return Err(Fault::new("too-many-runs", format!("none of the {met} likeliest runs is possible"))
+                .with_help("visit more of them, or use particles")
+                .into());
+        }
         all.check()?;
         return Err(Failure::impossible(0, causes.iter().map(|(cause, n)| (cause.as_str(), *n))));
     }
     let log_evidence = log_sum_exp(outcomes.iter().map(|o| o.1));
-    Ok(Enumerated { outcomes, log_evidence, runs })
+    Ok(Enumerated { outcomes, log_evidence, runs, unseen, log_unseen })
 }
 
 #[cfg(test)]
@@ -173,5 +367,60 @@ mod tests {
         let found = enumerate(&task, 100, &mut |_| true).unwrap();
         assert!(found.runs == 1 && (found.log_evidence - 0.1f64.ln()).abs() < 1e-9);
         assert_eq!(importance(&task, None, 300, 1, &mut |_| true).unwrap().runs.len(), 300);
+    }
+
+    fn likely(text: &str, runs: usize) -> Enumerated {
+        let task = Task::new(Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap()));
+        visit(&task, Visit::Likely { runs, rest: 0.0 }, &mut |_| true).unwrap()
+    }
+
+    /// A geometric recursion, whose runs are endlessly many: run `n` has probability 2^-n, and each heads halves its score.
+    const ENDLESS: &str = r#"(module (fn "m" (params $n)
+        (if (sample (dist bernoulli 0.5)) (then (do (factor -0.6931471805599453)) (return (call "m" (add $n 1)))) (else (return $n))))
+        (fn "main" (params) (return (call "m" 0))) (entry "main"))"#;
+
+    /// The claim: the likeliest runs come first; what is left has exactly the prior probability and the joint probability
+    /// that the laws say: 2^-n and 4^-n.
+    #[test]
+    fn a_part_of_endlessly_many_runs_is_bounded() {
+        for n in [1, 2, 5, 20] {
+            let found = likely(ENDLESS, n);
+            let values: Vec<String> = found.outcomes.iter().map(|(value, _)| repr(value).unwrap()).collect();
+            assert_eq!(values, (0..n).map(|i| i.to_string()).collect::<Vec<_>>());
+            assert!((found.unseen - 0.5f64.powi(n as i32)).abs() < 1e-9);
+            // The rest of a run adds at most nothing: its branch has the score of the heads before it.
+            assert!((found.log_unseen - (n as f64 * 0.25f64.ln() + 2f64.ln())).abs() < 1e-9);
+            let whole = (2.0f64 / 3.0).ln();
+            assert!(found.log_evidence <= whole + 1e-9);
+            assert!(log_sum_exp([found.log_evidence, found.log_unseen].into_iter()) >= whole - 1e-9);
+        }
+    }
+
+    /// The claim: whole numbers without a bound are listed, and the tail is what is left.
+    #[test]
+    fn a_poisson_number_is_listed() {
+        let text = r#"(module (fn "m" (params) (return (sample (dist poisson 3.0)))) (entry "m"))"#;
+        let found = likely(text, 12);
+        let law = Dist::Poisson { rate: 3.0 };
+        let mut left = 1.0;
+        for (value, log) in &found.outcomes {
+            let Value::Int(n) = value else { panic!("{value:?}") };
+            assert!((log - law.log_density(&Draw::Int(*n))).abs() < 1e-9);
+            left -= log.exp();
+        }
+        assert!(found.outcomes.len() == 12 && (found.unseen - left).abs() < 1e-9 && left > 0.0);
+    }
+
+    /// The claim: where branches are given up their probability stays in the bounds; a program with few runs is whole.
+    #[test]
+    fn what_is_given_up_is_counted() {
+        let text = r#"(module (fn "m" (params) (set $s 0) (for $i (range 14) (body
+            (set $s (add $s (sample (dist discrete_uniform 0 1)))))) (return $s)) (entry "m"))"#;
+        let found = likely(text, 10);
+        let seen: f64 = found.outcomes.iter().map(|(_, log)| log.exp()).sum();
+        assert!(found.runs == 10 && (seen - 10.0 / 16384.0).abs() < 1e-12, "{seen}");
+        assert!((found.unseen + seen - 1.0).abs() < 1e-9, "{}", found.unseen);
+        let whole = likely(text, 20_000);
+        assert!(whole.runs == 16384 && whole.unseen == 0.0 && whole.log_unseen == f64::NEG_INFINITY);
     }
 }

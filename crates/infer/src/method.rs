@@ -3,7 +3,7 @@
 //! The fields are those of Python's classes of the same names, which describe them.
 
 use crate::chain::form::{Attached, Form};
-use crate::enumeration::enumerate;
+use crate::enumeration::{Visit, visit};
 use crate::forward::forward;
 use crate::hamiltonian::chains::Length;
 use crate::hamiltonian::{self, Shape};
@@ -34,7 +34,7 @@ const KEPT: u64 = 1000;
 #[expect(missing_docs, reason = "the settings are described where people read them: in Python's classes")]
 pub enum Method {
     Forward { n: u64 },
-    EnumerateAll { max_runs: usize },
+    EnumerateAll { max_runs: usize, likely: bool, rest: f64 },
     Rejection { n: usize, bound: f64, max_tries: u64 },
     Importance { n: usize, proposal: Option<Form> },
     Smc(Smc),
@@ -270,8 +270,13 @@ impl Method {
                     rejection(task, *n, *bound, *max_tries, seed, &mut |tries| watch(tries, 0, none))?;
                 Ok(bare(result.runs, result.interrupted, Info::Rejection { tries: result.tries }))
             }
-            Method::EnumerateAll { max_runs } => {
-                let result = enumerate(task, *max_runs, &mut |runs| watch(runs as u64, 0, none))?;
+            Method::EnumerateAll { max_runs, likely, rest } => {
+                let what = if *likely {
+                    Visit::Likely { runs: *max_runs, rest: *rest }
+                } else {
+                    Visit::All(*max_runs)
+                };
+                let result = visit(task, what, &mut |runs| watch(runs as u64, 0, none))?;
                 Ok(bare(vec![], false, Info::Enumeration(result)))
             }
             Method::Smc(own) => {
@@ -343,6 +348,9 @@ impl Method {
             Method::Smc(own) if own.diverse.is_some() => refused("diverse", "`infer` gives one value"),
             Method::Mh(own) if own.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
             Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
+            Method::EnumerateAll { likely: true, .. } => {
+                refused("likely", "a part of the runs is no distribution")
+            }
             Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
             Method::Improve(_) => refused("improve", "a search for the best is no sample"),
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),

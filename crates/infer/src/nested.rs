@@ -389,7 +389,8 @@ mod tests {
 
     #[test]
     fn enumeration_gives_every_value() {
-        let inferences = inferences(r#"{"method": "enumerate_all", "max_runs": 10}"#);
+        let inferences =
+            inferences(r#"{"method": "enumerate_all", "max_runs": 10, "likely": false, "rest": 0}"#);
         let inner = models(&inferences)[0].clone();
         let found = inferences.call(0, &[inner, Value::Real(-1.5), Value::Int(0)], &mut 0).unwrap();
         let Value::List(pairs) = &found else { panic!("{found:?}") };

@@ -424,6 +424,8 @@ impl PyTask {
                 dict.set_item("table", PyTuple::new(py, table)?)?;
                 dict.set_item("log_evidence", result.log_evidence)?;
                 dict.set_item("runs", result.runs)?;
+                dict.set_item("unseen", result.unseen)?;
+                dict.set_item("log_unseen", Some(result.log_unseen).filter(|log| log.is_finite()))?;
             }
             Info::Populations(result) => {
                 dict.set_item("log_evidence", result.log_evidence)?;

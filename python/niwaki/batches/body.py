@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -176,7 +176,7 @@ class Outcome:
             if isinstance(info, EnumerationInfo):
                 read = Reader()
                 table = tuple((read(value), log) for value, log in info.table)
-                return EnumerationInfo(info.log_evidence, table, info.runs)
+                return replace(info, table=table)
             return info
         except (*MALFORMED, Unfit) as error:
             raise self._refused(error) from error

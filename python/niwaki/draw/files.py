@@ -18,7 +18,7 @@ from typing import Any
 from niwaki.draw.animation import growth
 from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.flat.svg import svg
-from niwaki.draw.glb import glb
+from niwaki.draw.glb import About, glb
 from niwaki.draw.mesh_files import obj, ply
 from niwaki.draw.print_files import stl, threemf
 from niwaki.draw.scene import Scene
@@ -39,6 +39,7 @@ def export(
     *,
     scale: float | None = None,
     fuse: float | None = None,
+    about: About | None = None,
     **settings: Any,
 ) -> Path:
     """Write a scene to a file whose name ends in .glb, .obj, .ply, .stl, .3mf, .gif, .apng or .svg.
@@ -54,6 +55,8 @@ def export(
     fuse
         For .stl and .3mf: how far each shape is swollen before joining, scene units; when left out enough for shapes
         that touch to hang together, and too little to see.
+    about
+        What the scene came from; .glb has it among its extras.
     settings
         For .svg: `style`, `window` and `margin`, as for a picture of flat shapes.
 
@@ -87,7 +90,9 @@ def export(
     if suffix in SOLIDS:
         solid = union(scene, METRE if scale is None else scale, fuse)
         return write_whole(place, stl(solid) if suffix == ".stl" else threemf(solid, place.stem))
-    return write_whole(place, {".glb": glb, ".obj": obj, ".ply": ply}[suffix](scene))
+    if suffix == ".glb":
+        return write_whole(place, glb(scene, about))
+    return write_whole(place, obj(scene) if suffix == ".obj" else ply(scene))
 
 
 def check_format(place: Path) -> str:

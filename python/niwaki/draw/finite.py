@@ -55,6 +55,15 @@ def scalar(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
+def plain(value: Any) -> Any:
+    """A choice as JSON; reals that are not finite as text."""
+    if isinstance(value, tuple):
+        return [plain(part) for part in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)
+    return value
+
+
 def json_text(data: Any, what: str, **layout: Any) -> str:
     """Data as JSON.
 

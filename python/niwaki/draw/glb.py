@@ -1,12 +1,12 @@
 """A scene as a GLB file: nodes in the hierarchy of the model's calls; equal parts share a mesh.
 
 Written here rather than by a library, so that the same scene gives the same bytes (glTF 2.0, section 4 for the
-container, 3.6 for buffers, 3.5.3 for nodes). The node of a part carries its address as an extra. Parts of equal
-geometry (`niwaki.draw.instances`) share its buffers; where their paints are equal too they share the whole mesh, so
-that a modelling program opens them as linked copies.
+container, 3.6 for buffers, 3.5.3 for nodes). The node of a part carries its address as an extra, and each choice of the
+run is an extra of the node of its call. Parts of equal geometry (`niwaki.draw.instances`) share its buffers; where
+their paints are equal too they share the whole mesh, so that a modelling program opens them as linked copies.
 
-Lengths are scene units, y is up, as glTF requires. The origin of a part's node is the middle of the part; the nodes of
-calls stay at the scene's origin.
+Lengths are metres, y is up, as glTF requires. A part's node has the part's own frame (`niwaki.draw.pivots`): its first
+shape's. The node of a call stands where its first part stands, with the scene's axes.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ from __future__ import annotations
 import json
 import struct
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki.draw.finite import plain
 from niwaki.draw.hierarchy import hierarchy
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
 from niwaki.draw.palette import Paint
@@ -56,8 +58,24 @@ class _Buffer:
         return len(self.accessors) - 1
 
 
-def glb(scene: Scene) -> bytes:
-    """Return the scene as the bytes of a GLB file; equal scenes give equal bytes."""
+@dataclass(frozen=True)
+class About:
+    """What a scene came from, for the extras of a file.
+
+    Attributes
+    ----------
+    model
+        The model's name.
+    choices
+        Values of choices by address.
+    """
+
+    model: str
+    choices: Mapping[str, Any]
+
+
+def glb(scene: Scene, about: About | None = None) -> bytes:
+    """Return the scene as the bytes of a GLB file; equal scenes with equal choices give equal bytes."""
     parts = part_meshes(scene)
     geometries, placed = instances(parts)
     buffer = _Buffer()
@@ -76,7 +94,10 @@ def glb(scene: Scene) -> bytes:
             ]
             written.append({"name": "", "primitives": primitives})
         nodes.append(_node(part.address, meshes[instance.mesh, worn], instance))
-    roots = hierarchy(nodes)
+    noted = [] if about is None else [(address, plain(value)) for address, value in about.choices.items()]
+    roots, others = hierarchy(nodes, noted)
+    listed = [{"address": address, "value": value} for address, value in others]
+    extras = {} if about is None else {"extras": {"niwaki": {"model": about.model, "choices": listed}}}
     for node in nodes[: len(parts)]:
         written[node["mesh"]]["name"] = written[node["mesh"]]["name"] or node["name"]
     names = materials_named(materials)
@@ -84,7 +105,7 @@ def glb(scene: Scene) -> bytes:
         {
             "asset": {"version": "2.0", "generator": "niwaki"},
             "scene": 0,
-            "scenes": [{"nodes": roots}],
+            "scenes": [{"nodes": roots, **extras}],
             "nodes": nodes,
             "meshes": written,
             "materials": [_material(paint, name) for paint, name in zip(materials, names, strict=True)],
@@ -100,10 +121,10 @@ def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
     """Put a geometry into the buffer; for each piece what its primitives refer to."""
     found = []
     for piece in geometry.part.pieces:
-        local = (piece.vertices - geometry.pivot).astype("<f4")
+        local, normals = geometry.local(piece.vertices), geometry.local_directions(piece.normals)
         attributes = {
-            "POSITION": buffer.add(local, "VEC3", FLOAT, ARRAY_BUFFER),
-            "NORMAL": buffer.add(piece.normals.astype("<f4"), "VEC3", FLOAT, ARRAY_BUFFER),
+            "POSITION": buffer.add(local.astype("<f4"), "VEC3", FLOAT, ARRAY_BUFFER),
+            "NORMAL": buffer.add(normals.astype("<f4"), "VEC3", FLOAT, ARRAY_BUFFER),
         }
         corners = piece.faces.astype("<u4").reshape(-1)
         indices = buffer.add(corners, "SCALAR", UNSIGNED_INT, ELEMENT_ARRAY_BUFFER)

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki.draw.parts import PartMesh
+from niwaki.draw.pivots import Pivot, pivot
 
 #: Largest distance between vertices that count as one, as a share of the part's extent.
 TOLERANCE = 1e-6
@@ -61,12 +62,21 @@ class Geometry:
     ----------
     part
         The first part that has it.
-    pivot : (3,) float64
-        The middle of that part's bounding box, scene units: the origin of the geometry's own coordinates.
+    pivot
+        That part's own frame, which is the frame of the geometry's own coordinates.
     """
 
     part: PartMesh
-    pivot: NDArray[np.float64]
+    pivot: Pivot
+
+    def local(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points of the scene in the geometry's own coordinates, (n, 3)."""
+        return self.local_directions(points - self.pivot.origin)
+
+    def local_directions(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Directions of the scene in the geometry's own coordinates, (n, 3)."""
+        found: NDArray[np.float64] = directions @ self.pivot.axes
+        return found
 
 
 @dataclass
@@ -96,15 +106,15 @@ def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]
                 if found is not None:
                     break
         if found is None:
-            pivot = (cloud.min(axis=0) + cloud.max(axis=0)) / 2
             number = len(geometries)
-            geometries.append(Geometry(part, pivot))
+            geometries.append(Geometry(part, pivot(part.first)))
             clouds.append(cloud)
             bucket.numbers.append(number)
             bucket.measures.append(measure)
             found = 1.0, np.eye(3), np.zeros(3)
         scale, rotation, shift = found
-        placed.append(Instance(number, scale, rotation, shift + scale * rotation @ geometries[number].pivot))
+        own = geometries[number].pivot
+        placed.append(Instance(number, scale, rotation @ own.axes, shift + scale * rotation @ own.origin))
     return geometries, placed
 
 

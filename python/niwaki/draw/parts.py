@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki._engine import Shape
 from niwaki.draw.finite import floats
 from niwaki.draw.palette import Paint, paints
 from niwaki.draw.scene import Scene
@@ -43,10 +44,11 @@ class Piece:
 
 @dataclass(frozen=True)
 class PartMesh:
-    """A part's address and its pieces."""
+    """A part's address, its pieces, and its first shape, whose frame is the part's own."""
 
     address: str
     pieces: tuple[Piece, ...]
+    first: Shape
 
 
 def part_meshes(scene: Scene) -> list[PartMesh]:
@@ -62,9 +64,8 @@ def part_meshes(scene: Scene) -> list[PartMesh]:
             floats(normals, part.address, "its normals")
             groups.setdefault(shown, []).append((vertices, faces, normals))
         if groups:
-            out.append(
-                PartMesh(part.address, tuple(_merged(paint, group) for paint, group in groups.items()))
-            )
+            pieces = tuple(_merged(paint, group) for paint, group in groups.items())
+            out.append(PartMesh(part.address, pieces, part.shapes[0]))
     return out
 
 

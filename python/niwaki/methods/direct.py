@@ -16,18 +16,32 @@ from niwaki.methods.method import Method
 class EnumerateAll(Method):
     """The exact distribution of a model's value, by visiting every run; an error where none is possible.
 
+    With `likely` only a part of the runs is visited, the likeliest first, and a whole number may be unbounded.
+    `Result.info` then bounds what was not seen.
+
     Parameters
     ----------
     max_runs
-        Most runs to visit, those that prove impossible included.
+        Most runs to visit, those that prove impossible included. More are an error, unless `likely` is set.
+    likely
+        Stop after `max_runs`, each time going on with the branch whose joint probability so far is the largest.
+    rest
+        The most that the rest of a run can add to its log score, nats: 0 where each factor is at most 0 and each
+        observation is of a whole number or a truth value. It decides the bounds alone.
     """
 
     NAME = "enumerate_all"
     max_runs: int = 1_000_000
+    likely: bool = False
+    rest: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the settings."""
         at_least_one("max_runs", self.max_runs)
+        self._set("likely", bool(self.likely))
+        if not is_number(self.rest) or not abs(self.rest) < float("inf"):
+            raise bad("rest", self.rest, "a number of nats", "0")
+        self._set("rest", float(self.rest))
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
+from math import exp, inf
 from typing import Any, NamedTuple
 
 
@@ -36,11 +37,33 @@ class EnumerationInfo(Info):
     table : sequence of (value, float)
         Each value of the model with the log of its probability, nats, not normalised.
     runs : int
-        How many complete runs there are.
+        How many complete runs were visited.
+    unseen : float
+        The prior probability of the runs that were not, by `likely`.
+    log_unseen : float or None
+        Log of the most that they add to the evidence, nats, if the rest of a run adds at most `rest` to its score. None
+        where nothing is left.
     """
 
     table: tuple[tuple[Any, float], ...] = ()
     runs: int = 0
+    unseen: float = 0.0
+    log_unseen: float | None = None
+
+    def bounds(self, value: Any) -> tuple[float, float]:
+        """The probability of a value lies between these; both are the same where all runs were visited.
+
+        Parameters
+        ----------
+        value
+            A value of the model.
+        """
+        unseen = -inf if self.log_unseen is None else self.log_unseen
+        most = max([unseen, *(log for _, log in self.table)])
+        seen = sum(exp(log - most) for _, log in self.table)
+        own = sum(exp(log - most) for found, log in self.table if found == value)
+        left = exp(unseen - most)
+        return own / (seen + left), (own + left) / (seen + left)
 
 
 @dataclass(frozen=True)

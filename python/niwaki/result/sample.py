@@ -130,11 +130,15 @@ class Sample:
         InputError
             A pattern matches nothing; with the addresses that are nearest.
         """
-        # What has one value only is computed, not chosen.
-        free = {one.path: one.value for one in self._trace.choices if one.family != "delta"}
+        free = self._free
         scene = [address for address, _ in self._trace.parts]
         taken = parts.chosen(patterns, free, scene, self.search.model.name) if patterns else set(free)
         return {address: value for address, value in free.items() if address in taken}
+
+    @property
+    def _free(self) -> dict[str, Any]:
+        """The choices that could have another value: what has one value only is computed, not chosen."""
+        return {one.path: one.value for one in self._trace.choices if one.family != "delta"}
 
     def regrow(
         self,
@@ -258,7 +262,7 @@ class Sample:
     ) -> Path:
         """Write the scene as .glb, .obj, .ply, .stl, .3mf, .gif, .apng or .svg; see `niwaki.draw.files.export`.
 
-        The `style` is for drawings, as .svg, .gif or .apng.
+        A .glb has the choices among its extras. The `style` is for drawings, as .svg, .gif or .apng.
         """
         styled: dict[str, Any] = {} if style is None else {"style": style}
         suffix = Path(path).suffix.lower()
@@ -266,6 +270,8 @@ class Sample:
             return self.animate(path, **styled)
         if suffix in draw.files.DRAWINGS:
             styled = self._shown(styled)
+        if suffix == ".glb":
+            styled["about"] = draw.glb.About(self.search.model.name, self._free)
         return self.scene.export(path, scale=scale, fuse=fuse, **styled)
 
     def animate(

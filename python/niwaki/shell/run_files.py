@@ -7,7 +7,6 @@ the model's file with a hash of its bytes, and the files beside it that show one
 
 from __future__ import annotations
 
-import math
 import warnings
 from os import PathLike
 from pathlib import Path
@@ -105,20 +104,11 @@ def _names(sample: Sample) -> dict[str, Any]:
         "seed": sample.seed,
         "ended": sample.has_ended,
         "choices": [
-            {"address": address, "family": families[address], "value": _plain(value)}
+            {"address": address, "family": families[address], "value": finite.plain(value)}
             for address, value in sample.choices.items()
         ],
         "order_choices": [{"future": f"{future:032x}", "place": place} for future, place in sample.order],
     }
-
-
-def _plain(value: Any) -> Any:
-    """A choice as JSON; reals that are not finite as text."""
-    if isinstance(value, tuple):
-        return [_plain(part) for part in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return repr(value)
-    return value
 
 
 def _chosen(value: Any) -> Any:

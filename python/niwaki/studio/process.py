@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import count
 
 import msgspec
@@ -28,10 +28,12 @@ class Worker:
     ----------
     words
         Of its command line: see `niwaki.studio.worker.allowed`.
+    environment
+        Of the process; that of this one when left out.
     """
 
-    def __init__(self, *words: str) -> None:
-        self._words = words
+    def __init__(self, *words: str, environment: Mapping[str, str] | None = None) -> None:
+        self._words, self._environment = words, environment
         self._process: asyncio.subprocess.Process | None = None
         self._one = asyncio.Lock()
         self._ids = count(1)
@@ -65,7 +67,7 @@ class Worker:
             command = (sys.executable, "-m", "niwaki.studio.worker", *self._words)
             pipe = asyncio.subprocess.PIPE
             process = await asyncio.create_subprocess_exec(
-                *command, stdin=pipe, stdout=pipe, start_new_session=True
+                *command, stdin=pipe, stdout=pipe, start_new_session=True, env=self._environment
             )
             self._process = process
         assert process.stdin is not None and process.stdout is not None

@@ -120,14 +120,16 @@ ADDRESSES = (
 
 def tree(addresses: Sequence[str]) -> list[Any]:
     """The names of nodes, each with those below it."""
-    nodes: list[dict[str, Any]] = [{"extras": {"address": address}} for address in addresses]
+    nodes: list[dict[str, Any]] = [
+        {"extras": {"address": address}, "translation": [0.0, 0.0, 0.0]} for address in addresses
+    ]
 
     def shown(number: int) -> Any:
         below = nodes[number].get("children")
         name = nodes[number]["name"]
         return name if below is None else [name, *map(shown, below)]
 
-    return [shown(number) for number in hierarchy(nodes)]
+    return [shown(number) for number in hierarchy(nodes)[0]]
 
 
 def test_nodes_are_in_the_hierarchy_of_calls() -> None:

@@ -57,6 +57,42 @@ class Grow(Job, tag="grow"):
     file: str
 
 
+class GrowValues(Job, tag="grow-values"):
+    """Search for what is asked by values, from another program; results are written to `file`.
+
+    Attributes
+    ----------
+    target, score
+        As `niwaki.search.data.Writer` and `Score.data` write them; with neither, what is usual for the gallery's model.
+    """
+
+    model: str
+    arguments: dict[str, Any]
+    target: dict[str, Any] | None
+    score: list[Any]
+    settings: Settings
+    run: int
+    seed: int
+    file: str
+
+
+class GrowAgain(Job, tag="grow-again"):
+    """Carry out the search of a stored run again; results are written to `file`.
+
+    Attributes
+    ----------
+    seed, lock, count
+        Another seed, other held choices, another number of results that differ; as they were where they are None.
+    """
+
+    source: str
+    run: int
+    file: str
+    seed: int | None = None
+    lock: Choices | None = None
+    count: int | None = None
+
+
 class Regrow(Job, tag="regrow"):
     """Grow a part of one result again; results are written to `file`."""
 
@@ -163,6 +199,8 @@ AnyJob = (
     | Load
     | Ghost
     | Grow
+    | GrowValues
+    | GrowAgain
     | Regrow
     | Change
     | DragPart

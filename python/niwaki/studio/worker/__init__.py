@@ -6,6 +6,7 @@
 - `asks`     what is asked, as a target and a score
 - `kinds`    which module does a job: scenes, structures, drawings
 - `jobs`     scenes: searches, parts grown again, choices changed
+- `values`   searches that another program asks for by values, and stored ones that are carried out again
 - `drag`     a part that is dragged
 - `runs`     stored runs: replayed, described, shown, written
 - `differences`  where a result differs from what is wanted

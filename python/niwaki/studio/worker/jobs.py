@@ -11,6 +11,7 @@ from typing import Any
 import niwaki as nw
 from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
+from niwaki.result.progress import Watch
 from niwaki.search import Search
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
@@ -48,18 +49,7 @@ def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
     """Search for results that differ; the best so far is shown while it runs."""
     found, asked = asks.search(job.question)
-    settings, begun = job.question.settings, time.perf_counter()
-    shown = [-float("inf")]
-
-    def progress(now: Progress) -> None:
-        sample = now.sample
-        if sample is not None and sample.log_score > shown[0]:
-            shown[0] = sample.log_score
-            send(*shape(sample, "best", job.id, Key(job.run)))
-        best = shown[0] if isfinite(shown[0]) else None
-        send(Progressed(job.id, now.done, best, time.perf_counter() - begun))
-        check()
-
+    settings = job.question.settings
     result = nw.grow(
         found.model,
         **asked,
@@ -67,10 +57,26 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
         seed=job.seed,
         lock=runs.given(job.question.lock) or None,
-        progress=progress,
+        progress=watching(job.id, job.run, send, check),
     )
-    result.samples = variety.spread(_ended(result), settings.count, settings.strength)
+    result.samples = variety.spread(ended(result), settings.count, settings.strength)
     return _answered(result, found, job.run, job.file, "run", send, job.id)
+
+
+def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:
+    """The `progress` of a search: it sends the best so far, and ends the search when `check` says so."""
+    begun, shown = time.perf_counter(), [-float("inf")]
+
+    def progress(now: Progress) -> None:
+        sample = now.sample
+        if sample is not None and sample.log_score > shown[0]:
+            shown[0] = sample.log_score
+            send(*shape(sample, "best", job, Key(run)))
+        best = shown[0] if isfinite(shown[0]) else None
+        send(Progressed(job, now.done, best, time.perf_counter() - begun))
+        check()
+
+    return progress
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
@@ -112,7 +118,8 @@ def change(job: Change, send: Any) -> Answer:
     return _answered(result, found, job.run, job.file, job.origin, send, job.id)
 
 
-def _ended(result: Result) -> list[Sample]:
+def ended(result: Result) -> list[Sample]:
+    """The samples that ended; all where none did."""
     return [one for one in result.samples if one.has_ended] or list(result.samples)
 
 
@@ -132,7 +139,7 @@ def _answered(
     result: Result, found: ModelReference, run: int, file: str, origin: str, send: Any, job: int
 ) -> Answer:
     """Store the results that ended, the best first, and show them."""
-    result.samples = sorted(_ended(result), key=lambda one: -one.log_score)
+    result.samples = sorted(ended(result), key=lambda one: -one.log_score)
     outcomes = runs.store(result, found, run, file, origin)
     for one, outcome in zip(result.samples, outcomes, strict=True):
         send(*shape(one, "result", job, outcome.key))

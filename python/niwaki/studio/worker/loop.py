@@ -22,7 +22,7 @@ from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import allowed, differences, drag, kinds, offers, structures
+from niwaki.studio.worker import allowed, differences, drag, kinds, offers, structures, values
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -103,6 +103,10 @@ def _done(job: messages.AnyJob, send: Send, stopped: Stopped) -> Any:
             return kinds.asked(job.question).ghost(job, send)
         case messages.Grow():
             return kinds.asked(job.question).grow(job, send, stopped.check)
+        case messages.GrowValues():
+            return values.grow(job, send, stopped.check)
+        case messages.GrowAgain():
+            return values.again(job, send, stopped.check)
         case messages.Regrow():
             return kinds.asked(job.question).regrow(job, send)
         case messages.Change():

@@ -1,0 +1,98 @@
+"""The panel in the sidebar of the 3D view."""
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from . import growing, keeping, naming, operators
+
+
+class NIWAKI_PT_panel(bpy.types.Panel):
+    """What is asked, the search that is going on, and the active result."""
+
+    bl_idname = "NIWAKI_PT_panel"
+    bl_label = "Niwaki"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Niwaki"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw it."""
+        layout, settings = self.layout, context.scene.niwaki_settings
+        layout.use_property_split = True
+        self._model(layout, settings)
+        column = layout.column()
+        column.prop(settings, "target")
+        column.prop(settings, "obstacles")
+        row = column.row(heading="Floor")
+        row.prop(settings, "use_floor", text="")
+        row.prop(settings, "floor", text="")
+        column = layout.column(heading="Pictures")
+        for name in ("camera", "silhouette", "light", "shadow", "receiver"):
+            column.prop(settings, name)
+        column = layout.column()
+        for name in ("count", "effort", "seed"):
+            column.prop(settings, name)
+        found = operators.running()
+        if found is None:
+            layout.operator("niwaki.grow", icon="OUTLINER_OB_FORCE_FIELD").count = 0
+            layout.operator("niwaki.grow", text="Ten Different Ones", icon="GRID").count = 10
+        else:
+            self._progress(layout, found)
+        result = keeping.result_of(context.object)
+        if result is not None:
+            self._result(layout, result)
+
+    def _model(self, layout: Any, settings: Any) -> None:
+        file = settings.file()
+        row = layout.row()
+        row.prop(settings, "model_file")
+        row.operator("niwaki.open", text="", icon="FILE_FOLDER")
+        if file is None:
+            layout.prop(settings, "model")
+        else:
+            layout.prop(settings, "function")
+            if not naming.named(file):
+                _trust(layout, file, naming.digest(file))
+        layout.prop(settings, "arguments")
+
+    def _progress(self, layout: Any, found: growing.Growing) -> None:
+        now = found.progress
+        text = "Starting" if now is None else f"{now.seconds:.0f} s, round {now.done}"
+        if now is not None and now.best is not None:
+            text += f", score {now.best:.1f}"
+        layout.label(text=text, icon="SORTTIME")
+        layout.operator("niwaki.cancel", icon="CANCEL")
+
+    def _result(self, layout: Any, result: bpy.types.Collection) -> None:
+        box = layout.box()
+        box.label(text=result.name, icon="OUTLINER_COLLECTION")
+        numbers = [f"seed {result['niwaki_seed']}"]
+        if "niwaki_covered" in result:
+            numbers.append(f"{result['niwaki_covered']:.0%} covered, {result['niwaki_outside']:.0%} outside")
+        box.label(text=", ".join(numbers))
+        box.label(text=f"{len(keeping.held(result))} parts are held")
+        row = box.row(align=True)
+        for name in ("hold", "reroll", "again"):
+            row.operator(f"niwaki.{name}")
+        run = keeping.run_of(result)
+        file = None if run is None else growing.model_file(run[keeping.RUN])
+        if file is not None and not naming.named(file[0]):
+            _trust(box, *file)
+
+
+def _trust(layout: Any, file: Path, sha256: str) -> None:
+    """A button that agrees to a file with these bytes."""
+    button = layout.operator("niwaki.trust", text=f"Trust {file.name}", icon="QUESTION")
+    button.filepath, button.sha256 = str(file), sha256
+
+
+def register() -> None:
+    """Add the panel."""
+    bpy.utils.register_class(NIWAKI_PT_panel)
+
+
+def unregister() -> None:
+    """Remove it."""
+    bpy.utils.unregister_class(NIWAKI_PT_panel)

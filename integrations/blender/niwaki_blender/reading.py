@@ -1,0 +1,116 @@
+"""Objects, cameras, lights and images of Blender as arrays, where they stand and with their modifiers."""
+
+from __future__ import annotations
+
+from math import atan2, degrees
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .asking import Eye, Mesh
+
+#: Two shares of width and height count as one.
+NEAR = 0.01
+
+
+def mesh(thing: bpy.types.Object, context: bpy.types.Context) -> Mesh:
+    """The triangles of an object in the world.
+
+    Raises
+    ------
+    ValueError
+        It has none.
+    """
+    seen = thing.evaluated_get(context.evaluated_depsgraph_get())
+    data = seen.to_mesh()
+    try:
+        data.calc_loop_triangles()
+        vertices = np.empty(3 * len(data.vertices), dtype=np.float32)
+        data.vertices.foreach_get("co", vertices)
+        faces = np.empty(3 * len(data.loop_triangles), dtype=np.int32)
+        data.loop_triangles.foreach_get("vertices", faces)
+    finally:
+        seen.to_mesh_clear()
+    if not len(faces):
+        raise ValueError(f"{thing.name} has no faces")
+    matrix = np.array(seen.matrix_world, dtype=np.float64)
+    points = vertices.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    triangles = faces.reshape(-1, 3).astype(np.int64)
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        # A mirror turns triangles over.
+        triangles = triangles[:, ::-1]
+    return Mesh(thing.name, points, np.ascontiguousarray(triangles))
+
+
+def eye(thing: bpy.types.Object, scene: bpy.types.Scene) -> Eye:
+    """A camera of the scene.
+
+    Raises
+    ------
+    ValueError
+        It is panoramic, or its view is shifted.
+    """
+    lens = thing.data
+    if lens.type not in ("PERSP", "ORTHO"):
+        raise ValueError(f"{thing.name} is panoramic: choose a perspective or an orthographic camera")
+    if lens.shift_x or lens.shift_y:
+        raise ValueError(f"The view of {thing.name} is shifted: set both shifts to 0")
+    corners = np.array(lens.view_frame(scene=scene))
+    half = float(np.ptp(corners[:, 1])) / 2.0
+    matrix = np.array(thing.matrix_world, dtype=np.float64)
+    axes = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
+    view = {
+        "position": tuple(matrix[:3, 3].tolist()),
+        "forward": tuple((-axes[:, 2]).tolist()),
+        "up": tuple(axes[:, 1].tolist()),
+    }
+    if lens.type == "ORTHO":
+        return Eye(**view, height=2.0 * half)
+    fov = degrees(2.0 * atan2(half, -float(corners[0, 2])))
+    return Eye(**view, fov=fov, near=lens.clip_start)
+
+
+def light(thing: bpy.types.Object) -> tuple[float, float, float]:
+    """The direction in which a light travels: that of the object, as of a sun."""
+    x, y, z = (-np.array(thing.matrix_world, dtype=np.float64)[:3, 2]).tolist()
+    return (x, y, z)
+
+
+def mask(image: bpy.types.Image) -> NDArray[np.bool_]:
+    """Where an image is light and opaque, (rows, columns), the upper row first.
+
+    Raises
+    ------
+    ValueError
+        It has no pixels.
+    """
+    columns, rows = image.size
+    if not columns or not rows:
+        raise ValueError(f"The image {image.name} has no pixels")
+    pixels = np.empty(columns * rows * image.channels, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    pixels = pixels.reshape(rows, columns, image.channels)[::-1]
+    covered = pixels[:, :, 0] > 0.5
+    if image.channels == 4:
+        covered &= pixels[:, :, 3] > 0.5
+    return np.ascontiguousarray(covered)
+
+
+def check_shape(image: bpy.types.Image, scene: bpy.types.Scene) -> None:
+    """Refuse an image that the camera does not see as it is.
+
+    Raises
+    ------
+    ValueError
+        Its shape is not that of the render.
+    """
+    render = scene.render
+    columns, rows = image.size
+    wide = render.resolution_x * render.pixel_aspect_x
+    high = render.resolution_y * render.pixel_aspect_y
+    if abs(columns * high / (rows * wide) - 1.0) > NEAR:
+        raise ValueError(
+            f"{image.name} has {columns} x {rows} pixels, and the camera sees "
+            f"{render.resolution_x} x {render.resolution_y}: give both the same shape"
+        )

@@ -1,0 +1,148 @@
+"""Claim: in a GLB each part turns about its own frame, a call about its first part, and each choice of the run is an
+extra of exactly one node, that of its call; so a program that opens the file needs no mending."""
+
+from __future__ import annotations
+
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import niwaki as nw
+import numpy as np
+import pytest
+import trimesh
+from niwaki import gallery, rotation
+from niwaki._engine import Shape
+from niwaki.draw.glb import About, glb
+from niwaki.draw.parts import part_meshes
+from niwaki.draw.pivots import pivot
+from niwaki.draw.scene import Scene
+
+TURN = rotation((0.36, 0.48, 0.8), 0.9)
+UP = (0.0, 0.6, 0.8)
+
+
+def document(data: bytes) -> dict[str, Any]:
+    size = struct.unpack_from("<I", data, 12)[0]
+    return dict(json.loads(data[20 : 20 + size]))
+
+
+def world(found: dict[str, Any]) -> dict[str, np.ndarray]:
+    """The matrix of each node in the scene, by its address or its name."""
+    matrices: dict[str, np.ndarray] = {}
+
+    def walk(number: int, around: np.ndarray) -> None:
+        node = found["nodes"][number]
+        x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+        own = trimesh.transformations.quaternion_matrix([w, x, y, z])
+        own[:3, :3] *= np.array(node.get("scale", (1, 1, 1)))
+        own[:3, 3] = node["translation"]
+        matrices[node.get("extras", {}).get("address", node["name"])] = around @ own
+        for child in node.get("children", ()):
+            walk(child, around @ own)
+
+    for root in found["scenes"][0]["nodes"]:
+        walk(root, np.eye(4))
+    return matrices
+
+
+@pytest.mark.parametrize(
+    ("shape", "origin", "axis", "along"),
+    [
+        (Shape.box((1, 2, 3), (1, 2, 4), rotation=TURN), (1, 2, 3), 0, np.array(TURN)[:, 0]),
+        (Shape.cylinder((1, 2, 3), 0.5, 2, UP), (1, 2, 3), 1, UP),
+        (Shape.limb((1, 2, 3), (1, 2.6, 3.8), 0.2, 0.1), (1, 2, 3), 1, UP),
+        (Shape.limb((1, 2, 3), (1, 1, 3), 0.2, 0.1), (1, 2, 3), 1, (0, -1, 0)),
+        (Shape.stroke((1, 2, 0), (1, 5, 0), 0.1), (1, 2, 0), 0, (0, 1, 0)),
+        (Shape.disc((1, 2, 0), 2.0), (1, 2, 0), 2, (0, 0, 1)),
+    ],
+)
+def test_a_shape_turns_about_its_own_frame(shape: Shape, origin: Any, axis: int, along: Any) -> None:
+    found = pivot(shape)
+    assert found.origin == pytest.approx(origin)
+    assert found.axes[:, axis] == pytest.approx(np.array(along))
+    assert found.axes.T @ found.axes == pytest.approx(np.eye(3), abs=1e-12)
+    assert np.linalg.det(found.axes) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("name", ["spaceship", "gnarly-tree", "building"])
+def test_nodes_have_the_parts_frames_and_the_scene_stays_where_it_is(name: str, tmp_path: Path) -> None:
+    entry = gallery.entry(name)
+    assert entry is not None
+    sample = nw.run(entry.model, seed=3).best
+    path = sample.export(tmp_path / "best.glb")
+    matrices = world(document(path.read_bytes()))
+    for part in sample.scene.parts:
+        own, matrix = pivot(part.shapes[0]), matrices[part.address]
+        assert matrix[:3, 3] == pytest.approx(own.origin, abs=1e-6)
+        # Several shapes share one mesh when a turn takes one onto the other; their frames follow the turn.
+        size = np.linalg.norm(matrix[:3, 0])
+        assert matrix[:3, :3] / size == pytest.approx(own.axes, abs=1e-5)
+    loaded = trimesh.load_scene(path, process=False)
+    reach = np.abs(loaded.bounds).max()
+    corners = np.concatenate([piece.vertices for part in part_meshes(sample.scene) for piece in part.pieces])
+    assert loaded.bounds == pytest.approx(
+        np.stack([corners.min(axis=0), corners.max(axis=0)]), abs=1e-6 * reach
+    )
+
+
+def test_a_call_stands_where_its_first_part_stands() -> None:
+    def limb(x: float) -> list[Shape]:
+        return [Shape.limb((x, 1, 2), (x, 2, 2), 0.2, 0.1)]
+
+    scene = Scene([("arm/emit", limb(5)), ("arm/hand/emit", limb(6)), ("arm/hand/thumb/emit", limb(7))])
+    found = document(glb(scene))
+    matrices = world(found)
+    assert matrices["arm"][:3, 3] == pytest.approx([5, 1, 2])
+    assert matrices["hand"][:3, 3] == pytest.approx([6, 1, 2])
+    assert matrices["arm/hand/thumb/emit"][:3, 3] == pytest.approx([7, 1, 2])
+    # What moves with a call is told relative to it.
+    hand = next(node for node in found["nodes"] if node["name"] == "hand" and "children" in node)
+    assert hand["translation"] == pytest.approx([1, 0, 0])
+
+
+def test_each_choice_is_an_extra_of_its_call() -> None:
+    box = [Shape.box((0, 0, 0), (1, 1, 1))]
+    scene = Scene([("wing[0]/emit", box), ("wing[0]/tip/emit", box), ("body/hull/emit", box)])
+    choices = {
+        "count": 3,
+        "wing[0]/length": 1.5,
+        "wing[0]/tip/bend": (0.5, float("inf")),
+        "wing[0]/tip/flap/angle": True,
+        "body/size": "large",
+        "body/hull/plates": 7,
+        "nothing/here": 0.25,
+    }
+    found = document(glb(scene, About("ship", choices)))
+    noted = {
+        node["extras"].get("address", node["name"]): [one["address"] for one in node["extras"]["choices"]]
+        for node in found["nodes"]
+        if "choices" in node.get("extras", {})
+    }
+    assert noted == {
+        "wing[0]": ["wing[0]/length"],
+        "wing[0]/tip/emit": ["wing[0]/tip/bend", "wing[0]/tip/flap/angle"],
+        "body/hull/emit": ["body/size", "body/hull/plates"],
+    }
+    extras = found["scenes"][0]["extras"]["niwaki"]
+    assert extras["model"] == "ship" and [one["address"] for one in extras["choices"]] == [
+        "count",
+        "nothing/here",
+    ]
+    tip = next(node for node in found["nodes"] if node.get("extras", {}).get("address") == "wing[0]/tip/emit")
+    assert [one["value"] for one in tip["extras"]["choices"]] == [[0.5, "inf"], True]
+
+
+def test_a_sample_s_file_has_all_its_choices(tmp_path: Path) -> None:
+    entry = gallery.entry("spaceship")
+    assert entry is not None
+    sample = nw.run(entry.model, seed=3).best
+    found = document(sample.export(tmp_path / "best.glb").read_bytes())
+    holders = [*(node.get("extras", {}) for node in found["nodes"]), found["scenes"][0]["extras"]["niwaki"]]
+    noted = [one for holder in holders for one in holder.get("choices", [])]
+    assert len({one["address"] for one in noted}) == len(noted)
+    assert {one["address"]: one["value"] for one in noted} == {
+        address: list(value) if isinstance(value, tuple) else value
+        for address, value in sample.held().items()
+    }
