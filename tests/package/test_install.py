@@ -53,11 +53,11 @@ def test_the_sdist_builds_a_wheel_in_a_clean_folder(sdist: Path, tmp_path: Path)
     with tarfile.open(sdist) as archive:
         archive.extractall(tmp_path, filter="data")
     (folder,) = tmp_path.iterdir()
-    # The crates from elsewhere are those of this checkout's build. What the sdist holds is compiled: cargo takes files
-    # that are newer than what is built for changed ones, wherever they lie.
+    # A build of its own: in the checkout's, cargo would take these crates for those of the checkout. What an earlier run
+    # left is older than the files, and is compiled again; only crates from elsewhere stay.
     for file in folder.rglob("*"):
         os.utime(file)
-    target = os.environ.get("CARGO_TARGET_DIR", str(ROOT / "target"))
+    target = str(ROOT / "target" / "sdist")
     maturin = Path(sys.executable).with_name("maturin")
     command = [maturin, "build", "--release", "--locked", "--out", tmp_path / "built"]
     subprocess.run(command, cwd=folder, check=True, env={**os.environ, "CARGO_TARGET_DIR": target})
