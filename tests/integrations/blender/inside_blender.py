@@ -194,6 +194,8 @@ def test_a_reroll_keeps_the_part_that_is_held(scene: bpy.types.Scene) -> None:
     (old,) = results()
     before = parts(old)
     activate(before["while[0]/emit"])
+    # Its mesh is being edited.
+    bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.niwaki.hold() == {"FINISHED"}
     assert bpy.ops.niwaki.reroll(seed=11) == {"FINISHED"}
     new = next(one for one in results() if one != old)
@@ -295,7 +297,7 @@ def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key
     )
     window = SimpleNamespace(screen=SimpleNamespace(areas=[]))
     context = SimpleNamespace(
-        window_manager=manager, window=window, scene=scene, view_layer=bpy.context.view_layer
+        window_manager=manager, window=window, scene=scene, view_layer=bpy.context.view_layer, object=None
     )
 
     class Button(extension.operators._Grows):
@@ -330,6 +332,12 @@ def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key
     assert extension.placing.BEST not in bpy.data.objects and len(results()) == 1
     assert extension.operators.running() is None and bpy.ops.niwaki.grow.poll()
     assert button.reports == (["Cancelled: the best until then"] if key == "ESC" else [])
+    # Blender loads another file.
+    assert button.invoke(context, None) == {"RUNNING_MODAL"}
+    folder = button._growing._folder
+    button.cancel(context)
+    button._growing.wait(20)
+    assert extension.operators.running() is None and not folder.exists()
 
 
 def test_messages_say_what_is_missing(scene: bpy.types.Scene) -> None:
