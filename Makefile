@@ -28,6 +28,11 @@
 #   make sanitize the tests of the crates with unsafe code under the address sanitizer (needs a nightly toolchain with
 #                 rustup; skipped with a line where there is none)
 #   make mutants  deliberate errors in the engine, which the tests must reject (ONLY=name: those); out/mutants.md
+#   make wheel    the wheel of this machine, into dist/; one for Python 3.11 and later
+#   make sdist    the sources that build a wheel, into dist/
+#   make package  both, and their tests: empty environments without a toolchain, one for each Python of the machine
+#                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (10 minutes)
+#   make licences write THIRD-PARTY again, after a change of Cargo.lock; `make lint` compares it
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
 #   make format   format the sources
 #   make locks    pin the newest versions of the packages in pyproject.toml
@@ -56,10 +61,11 @@ RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.l
 PYTHON_SOURCES := python tests benches integrations docs/conf.py
 
 PARTS :=
+PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -103,10 +109,8 @@ studio-pictures:
 
 # A zip with the wheel and what it needs; pip downloads the latter, at the hashes of requirements/core.txt.
 BLENDER_PYTHON := 3.11
-blender: $(STAMPS)/engine $(STAMPS)/build
-	rm -rf out/blender/wheel
-	VIRTUAL_ENV=$(CURDIR)/$(VENV) $(VENV)/bin/maturin build $(CARGO_FLAGS) --out out/blender/wheel
-	$(PY) integrations/blender/build_extension.py --wheel out/blender/wheel/*.whl --python $(BLENDER_PYTHON) --out out/blender
+blender: $(STAMPS)/engine wheel
+	$(PY) integrations/blender/build_extension.py --wheel dist/niwaki-*.whl --python $(BLENDER_PYTHON) --out out/blender
 
 # Blender as a module, in an environment of its own: Niwaki is only in the zip.
 IN_BLENDER := $(VENV)/blender-$(BLENDER_PYTHON)
@@ -138,6 +142,9 @@ lint: $(STAMPS)/engine $(STAMPS)/lint
 	$(VENV)/bin/lint-imports --no-cache
 	$(VENV)/bin/mypy
 	$(VENV)/bin/stubtest niwaki._engine
+	$(PY) tests/house/licences.py
+	@if command -v cargo-deny >/dev/null; then cargo deny --locked check licenses bans sources; fi
+	@if command -v actionlint >/dev/null; then actionlint; fi
 
 bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/startup.py
@@ -203,6 +210,22 @@ sanitize: $(STAMPS)/venv
 mutants: $(STAMPS)/venv
 	$(PY) tests/mutants/mutants.py $(ONLY)
 
+# Each replaces the one that is there. The engine is compiled with the profile of `make test`, so little is built again.
+MATURIN := VIRTUAL_ENV=$(CURDIR)/$(VENV) $(VENV)/bin/maturin
+wheel: $(STAMPS)/build
+	rm -f dist/niwaki-*.whl
+	$(MATURIN) build $(CARGO_FLAGS) --out dist
+
+sdist: $(STAMPS)/build
+	rm -f dist/niwaki-*.tar.gz
+	$(MATURIN) sdist --out dist
+
+package: $(STAMPS)/engine $(STAMPS)/test wheel sdist
+	NIWAKI_PACKAGE=dist NIWAKI_PYTHONS="$(PYTHONS)" $(PY) -m pytest --durations=0 -o tmp_path_retention_policy=failed tests/package
+
+licences: $(STAMPS)/venv
+	$(PY) tests/house/licences.py --write
+
 docs: $(STAMPS)/engine $(STAMPS)/docs
 	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --workspace --exclude niwaki-py --no-deps
@@ -230,5 +253,5 @@ locks: $(STAMPS)/venv
 	done
 
 clean:
-	rm -rf $(VENV) target out docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf $(VENV) target out dist docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
 	find python tests benches \( -name __pycache__ -o -name '*.so' \) -prune -exec rm -rf {} +

@@ -30,6 +30,7 @@ The results of a search:
 
     Result, Sample                              all runs, and one: its value, choices, scores, picture, files
     run_python                                  one run as plain Python, for a debugger
+    doctor                                      what is installed, what works, what is missing for what
 
 Everything else:
 

@@ -9,6 +9,7 @@ from . import targets as targets
 from . import words as words
 from ._engine import __version__ as __version__
 from .batches import batch as batch
+from .checkup import doctor as doctor
 from .errors import InputError as InputError
 from .errors import ModelError as ModelError
 from .errors import ModelFault as ModelFault

@@ -48,12 +48,15 @@ __all__ = [
     "guide_slope",
     "guide_steps",
     "log_density",
+    "machine",
     "matches",
     "nearest",
     "parameter_names",
+    "population",
     "render",
     "support",
     "unique_models",
+    "united",
 ]
 
 __version__: str
@@ -335,6 +338,7 @@ def agreement(
 def matches(pattern: str, address: str) -> bool: ...
 def nearest(pattern: str, addresses: Sequence[str]) -> list[str]: ...
 def fingerprint() -> str: ...
+def machine() -> tuple[int, str, bool]: ...
 def population(seed: int, number: int, count: int, max_memory: int) -> tuple[int, int]: ...
 def united(
     lived: Sequence[tuple[int, float | None, Sequence[float]]], total: int

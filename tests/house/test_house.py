@@ -85,14 +85,14 @@ def test_import_loads_nothing_that_is_not_always_needed():
 def test_locks_pin_every_requirement_with_a_hash():
     locks = sorted((ROOT / "requirements").glob("*.txt"))
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    unlocked = {"arviz", "color", "parquet", "plots", "print", "stacks"}
+    unlocked = {"arviz", "color", "parquet", "print", "stacks"}
     assert {lock.stem for lock in locks} == set(extras) - unlocked | {"core"}
     for lock in locks:
         entries = re.split(r"\n(?=\S)", lock.read_text().strip())
         assert all("==" in entry and "--hash=sha256:" in entry for entry in entries), lock.name
 
 
-@pytest.mark.parametrize("python", ["3.11", "3.12", "3.13"])
+@pytest.mark.parametrize("python", ["3.11", "3.12", "3.13", "3.14"])
 def test_locks_agree_with_one_another(python: str):
     # They are installed side by side; one may need a package only where another Python makes others unnecessary.
     machine = {"python_version": python, "python_full_version": f"{python}.0"}
@@ -125,11 +125,12 @@ def test_every_python_file_opens_with_what_it_is_for():
     assert not [path.relative_to(ROOT).as_posix() for path in bare]
 
 
-#: Imports inside functions: ArviZ is an extra, and warns while it is imported; `resource` is not on every system.
-OPTIONAL = {("errors/memory.py", "resource"), ("result/diagnostics.py", "arviz")}
-#: Who imports modules by a name of their own: extras, the gallery's folder, the shell's commands, the host functions of
-#: a search that was read.
+#: Imports inside functions: `resource` is not on every system.
+OPTIONAL = {("errors/memory.py", "resource")}
+#: Who imports modules by a name of their own: a look at parts that may be broken, extras, the gallery's folder, the
+#: shell's commands, the host functions of a search that was read.
 BY_NAME = {
+    "checkup/looking.py",
     "errors/extras.py",
     "gallery/__init__.py",
     "inputs/child.py",
@@ -163,7 +164,7 @@ def test_help_names_only_what_there_is():
 
     listed = re.findall(r"^    (\w+(?:, \w+)*)(?:, \.\.\.)?  ", niwaki.__doc__, re.M)
     names = {name for line in listed for name in line.split(", ")}
-    assert len(names) == 36
+    assert len(names) == 37
     assert names <= set(niwaki.__all__)
     parts = re.findall(r"^    niwaki\.(\w+)  ", niwaki.__doc__, re.M)
     assert len(parts) == 12 and all(importlib.util.find_spec(f"niwaki.{part}") for part in parts)
@@ -183,7 +184,10 @@ def test_crates_import_only_the_rooms_above_them():
 def pages() -> list[Path]:
     """The pages for readers."""
     return [
-        *(ROOT / name for name in ("README.md", "ARCHITECTURE.md", "SECURITY.md")),
+        *(
+            ROOT / f"{name}.md"
+            for name in ("README", "ARCHITECTURE", "CHANGELOG", "CONTRIBUTING", "SECURITY")
+        ),
         *sorted((ROOT / "docs").rglob("*.md")),
     ]
 
@@ -208,6 +212,12 @@ def test_the_pages_link_to_files_that_exist():
 def test_the_programs_on_a_page_are_python(page: Path):
     for program in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S):
         ast.parse(program)
+
+
+def test_the_files_that_contributing_names_exist():
+    named = re.findall(r"`([\w.-]+/[\w./-]+|[A-Z][\w-]+\.\w+)`", (ROOT / "CONTRIBUTING.md").read_text())
+    assert len(named) > 30
+    assert [name for name in named if not (ROOT / name).exists()] == []
 
 
 def test_what_is_promised_is_tested():

@@ -7,7 +7,8 @@
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `positions`: where shapes are, with theirs;
 //!   `trajectories`: chains that follow them;
 //!   `networks`: networks of guides, for a comparison with other software;
-//! * `threads`: the pools of threads; `shared`: values that several threads of Python use;
+//! * `machine`: what the engine finds on this machine; `threads`: the pools of threads;
+//!   `shared`: values that several threads of Python use;
 //! * `checkpoints`: what a search needs to go on after it was killed;
 //! * `distributions`, `geometry`, `views`, `pictures`: parts of the lower crates.
 
@@ -20,6 +21,7 @@ mod faults;
 mod geometry;
 mod gradients;
 mod guides;
+mod machine;
 mod model;
 mod networks;
 mod pictures;
@@ -46,6 +48,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     geometry::register(module)?;
     gradients::register(module)?;
     guides::register(module)?;
+    machine::register(module)?;
     pictures::register(module)?;
     positions::register(module)?;
     views::register(module)?;

@@ -57,6 +57,11 @@ impl Pool {
         Ok(Pool { threads, asked, process })
     }
 
+    /// How many threads work in it.
+    pub fn count(&self) -> usize {
+        self.threads.current_num_threads()
+    }
+
     /// Gives the pool back, for the next search.
     pub fn give_back(self, py: Python<'_>) {
         let mut idle = waiting(py);

@@ -1,16 +1,58 @@
-"""Libraries that only some users of the package install."""
+"""Libraries that only some users install: the extras, what each is for, and the error where one is missing."""
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import Any
 
 from niwaki.errors.files import FileError
 
+#: The extras that users install, and what each is for. The packages of each are in the package's own metadata.
+EXTRAS = {
+    "arviz": "plots and tables of draws by ArviZ (`result.to_arviz()`)",
+    "cluster": "batches on Ray or Dask (`niwaki batch --engine`)",
+    "color": "pictures of coloured drawings (`niwaki color`)",
+    "parquet": "a batch's table as Parquet (`niwaki batch export --parquet`)",
+    "print": "one closed solid for a printer (`--format stl`, `--format 3mf`)",
+    "stacks": "judging structures of blocks, and their cutting sheets (`niwaki.stacks`)",
+    "studio": "the studio, a page in your browser (`niwaki studio`)",
+}
 
-def optional(module: str, task: str, extra: str) -> Any:
-    """Import a library of an extra of the package, or raise an error that names the extra and the `task`."""
+
+def install(extra: str) -> str:
+    """The command that installs an extra."""
+    return f"pip install 'niwaki[{extra}]'"
+
+
+def optional(module: str, task: str, extra: str, instead: str = "") -> Any:
+    """Import a library of an extra.
+
+    Parameters
+    ----------
+    module
+        The library, or a module of this package that needs it.
+    task
+        What it is needed for, in words.
+    extra
+        A name of `EXTRAS`.
+    instead
+        What else a person can do, in words.
+
+    Raises
+    ------
+    FileError
+        `missing-extra`, where a package is not installed; `broken-extra`, where it is, and does not load.
+    """
     try:
         return import_module(module)
-    except ImportError:
-        raise FileError("missing-extra", task=task, extra=extra) from None
+    except (ImportError, OSError) as error:
+        lacks = (error.name or "").partition(".")[0] if isinstance(error, ModuleNotFoundError) else ""
+        if lacks == "niwaki":
+            raise
+        # Python's own modules are not on every system.
+        if lacks and lacks not in sys.stdlib_module_names:
+            cure = f"install it with `{install(extra)}`" + (f", or {instead}" if instead else "")
+            raise FileError("missing-extra", task=task, extra=extra, cure=cure) from None
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise FileError("broken-extra", task=task, extra=extra, module=module, reason=reason) from error

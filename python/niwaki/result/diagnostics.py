@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from niwaki.errors import InputError
+from niwaki.errors.extras import optional
 
 Reals = NDArray[np.float64]
 
@@ -309,16 +309,15 @@ def to_arviz(draws: Mapping[str, ArrayLike], stats: Mapping[str, ArrayLike] | No
 
     Raises
     ------
-    InputError
+    FileError
         ArviZ is not installed.
     """
-    try:
-        with warnings.catch_warnings():
-            # ArviZ 0.23 warns about its successor on import.
-            warnings.simplefilter("ignore", FutureWarning)
-            import arviz
-    except ImportError:
-        raise InputError("no-arviz") from None
+    with warnings.catch_warnings():
+        # ArviZ 0.23 warns about its successor on import.
+        warnings.simplefilter("ignore", FutureWarning)
+        arviz = optional(
+            "arviz", "passing draws to ArviZ", "arviz", "use `niwaki.diagnostics`, which needs NumPy only"
+        )
     posterior = {name: np.asarray(values) for name, values in draws.items()}
     groups: dict[str, Any] = {"posterior": posterior}
     if stats:

@@ -142,7 +142,7 @@ class Result(Sequence[Sample]):
 
         Raises
         ------
-        InputError
+        FileError
             ArviZ is not installed.
         """
         if isinstance(self.info, HmcInfo):

@@ -25,6 +25,7 @@ COMMANDS = {
     "guide": "Train guides, and show what they see.",
     "studio": "Open a page to search, hold parts and grow the rest again.",
     "explain": "Draw what each strategy runs again for one proposal.",
+    "doctor": "Report what is installed, what works, and what is missing for what.",
 }
 
 

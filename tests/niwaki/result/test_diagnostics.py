@@ -234,6 +234,6 @@ def test_without_arviz_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> No
     import sys
 
     monkeypatch.setitem(sys.modules, "arviz", None)
-    with pytest.raises(nw.InputError, match="niwaki\\[arviz\\]") as caught:
+    with pytest.raises(nw.NiwakiError, match=r"niwaki\[arviz\]'`, or use `niwaki.diagnostics`") as caught:
         diagnostics.to_arviz({"x": walk(0.0, 2, 10)})
-    assert caught.value.code == "no-arviz"
+    assert caught.value.code == "missing-extra"

@@ -40,14 +40,6 @@ INPUTS = (
         cure="importance(1000)",
     ),
     Message(
-        "no-arviz",
-        "the package ArviZ is not installed",
-        why="draws are passed to ArviZ in its own containers",
-        help="install it with `pip install 'niwaki[arviz]'`, or use `niwaki.diagnostics`, which needs NumPy only",
-        example="result.to_arviz() without ArviZ",
-        cure="pip install 'niwaki[arviz]'",
-    ),
-    Message(
         "too-many-runs",
         "the model has more runs than can be listed",
         why="enumeration visits every one",

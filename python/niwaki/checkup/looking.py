@@ -1,0 +1,126 @@
+"""Looking at an installation: nothing here needs a part of the package that may be broken."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import re
+import warnings
+from collections.abc import Callable
+from importlib import import_module, metadata
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from niwaki.checkup.report import Checkup, Extra, Trial
+from niwaki.errors.extras import EXTRAS, install
+from niwaki.errors.memory import UNKNOWN, free_memory
+
+#: What the core needs and tells its version.
+CORE = ("numpy", "pillow", "trimesh", "msgspec", "typer", "rich", "lazy-loader")
+#: A requirement of the package's metadata: the package, its least version, and what it is for.
+_REQUIREMENT = re.compile(r"""([\w.-]+)>=([\w.]+)[^;]*; extra == ["']([\w-]+)["']""")
+
+
+def doctor() -> Checkup:
+    """Look at this installation: versions, what works, the machine, and the extras.
+
+    Returns
+    -------
+    Checkup
+        `print` it for the report of `niwaki doctor`.
+    """
+    versions = {
+        "Niwaki": _version("niwaki") or "not installed: run from a folder",
+        "engine": "not loaded",
+        "Python": f"{platform.python_version()}, {platform.system()} {platform.machine()}",
+        **{name: _version(name) or "not installed" for name in CORE},
+    }
+    core = [_tried("the engine loads", lambda: import_module("niwaki._engine"))]
+    free = free_memory()
+    machine: dict[str, Any] = {
+        "processors": os.cpu_count() or 1,
+        "free_memory": free if free < UNKNOWN else None,
+    }
+    if not core[0].error:
+        engine = import_module("niwaki._engine")
+        versions["engine"] = f"{engine.__version__}, SHA-256 {_hash(engine)}"
+        core.append(_tried("the engine knows the machine", lambda: machine.update(_of_engine(engine))))
+        core += _trials(_version("niwaki"))
+    return Checkup(versions, tuple(core), machine, tuple(map(_extra, EXTRAS)))
+
+
+def _trials(package: str | None) -> list[Trial]:
+    """Small searches; their module imports all that a search needs."""
+    loaded = _tried("its parts load", lambda: import_module("niwaki.checkup.trials"))
+    if loaded.error:
+        return [loaded]
+    trials = import_module("niwaki.checkup.trials")
+    found = [
+        loaded,
+        _tried("a search gives the exact answer", trials.exact),
+        _tried("a scene grows into a target; its picture and its mesh are written", trials.grown),
+    ]
+    if package is not None:
+        one = "package and engine are of one version"
+        found.append(_tried(one, lambda: trials.one_version(package)))
+    return found
+
+
+def _tried(name: str, trial: Callable[[], object]) -> Trial:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            trial()
+    except Exception as error:
+        return Trial(name, f"{type(error).__name__}: {' '.join(str(error).split())}")
+    return Trial(name)
+
+
+def _of_engine(engine: Any) -> dict[str, Any]:
+    threads, vectors, compiles = engine.machine()
+    return {"threads": threads, "vectors": vectors, "machine_code": compiles, "bits": engine.fingerprint()}
+
+
+def _extra(name: str) -> Extra:
+    """An extra by the package's metadata: what it needs and what of it is not there."""
+    needed = [match for text in _requirements() if (match := _REQUIREMENT.match(text)) and match[3] == name]
+    missing = []
+    for package, least, _ in (match.groups() for match in needed):
+        found = _version(package)
+        if found is None:
+            missing.append(package)
+        elif _numbers(found) < _numbers(least):
+            missing.append(f"{package}>={least}, not {found}")
+    if not needed:
+        missing.append("the package itself, installed")
+    return Extra(name, EXTRAS[name], tuple(missing), install(name))
+
+
+def _requirements() -> list[str]:
+    try:
+        return metadata.requires("niwaki") or []
+    except metadata.PackageNotFoundError:
+        return []
+
+
+def _version(package: str) -> str | None:
+    try:
+        return metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return None
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    """The numbers at the start of a version, without zeros at the end."""
+    start = re.match(r"\d+(?:\.\d+)*", version)
+    numbers = [int(part) for part in start[0].split(".")] if start else []
+    while numbers and numbers[-1] == 0:
+        numbers.pop()
+    return tuple(numbers)
+
+
+def _hash(engine: ModuleType) -> str:
+    """The start of the SHA-256 of its file."""
+    return hashlib.sha256(Path(engine.__file__ or "").read_bytes()).hexdigest()[:16]
