@@ -305,6 +305,7 @@ class NIWAKI_OT_trust(bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Show what is agreed to."""
+        self.sha256 = self.sha256 or naming.digest(Path(self.filepath))
         return context.window_manager.invoke_props_dialog(self, width=520)
 
     def draw(self, context: bpy.types.Context) -> None:
