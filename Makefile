@@ -11,6 +11,7 @@
 #   make figures-guides  the figures and the numbers of chapter 6, into docs/pictures/guides (QUICK=1: a smoke run)
 #   make bench-c3 proposals of Markov chains compared with WebPPL and the limit, with figures (15 minutes; QUICK=1: two)
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
+#   make bench-vi  evidence bounds and seconds of variational inference, beside NumPyro and BlackJAX (QUICK=1: two models)
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
 #   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
@@ -33,7 +34,8 @@
 #   make package  both, and their tests: empty environments without a toolchain, one for each Python of the machine
 #                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (10 minutes)
 #   make licences write THIRD-PARTY again, after a change of Cargo.lock; `make lint` compares it
-#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
+#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc; runs every snippet of the
+#                 manual first (ONLY="files chains": those pages; minutes)
 #   make format   format the sources
 #   make locks    pin the newest versions of the packages in pyproject.toml
 #   make clean    remove everything that these targets created
@@ -58,14 +60,14 @@ LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/li
 FUZZERS := --manifest-path fuzz/Cargo.toml --target-dir fuzz/target/lint
 
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
-PYTHON_SOURCES := python tests benches integrations docs/conf.py
+PYTHON_SOURCES := python tests benches integrations docs/conf.py docs/running
 
 PARTS :=
 PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-vi bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -171,6 +173,9 @@ bench-hmc: $(STAMPS)/engine $(STAMPS)/bench-hmc $(STAMPS)/test
 	$(PY) -m pytest tests/niwaki/result/test_with_peers.py
 	$(PY) benches/gradients.py
 
+bench-vi: $(STAMPS)/engine $(STAMPS)/bench-hmc
+	$(PY) benches/vi.py
+
 bench-wait: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/wait.py
 
@@ -226,7 +231,10 @@ package: $(STAMPS)/engine $(STAMPS)/test wheel sdist
 licences: $(STAMPS)/venv
 	$(PY) tests/house/licences.py --write
 
-docs: $(STAMPS)/engine $(STAMPS)/docs
+# The test extra has the libraries that pages about printing, colours and structures need.
+docs: $(STAMPS)/engine $(STAMPS)/docs $(STAMPS)/test
+	$(PY) docs/running/snippets.py docs/made $(ONLY)
+	$(PY) docs/running/reference.py docs/made
 	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --workspace --exclude niwaki-py --no-deps
 	@echo "the manual: docs/_build/html/index.html; the engine: target/doc/niwaki_vm/index.html"
@@ -253,5 +261,5 @@ locks: $(STAMPS)/venv
 	done
 
 clean:
-	rm -rf $(VENV) target out dist docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf $(VENV) target out dist docs/_build docs/made benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
 	find python tests benches \( -name __pycache__ -o -name '*.so' \) -prune -exec rm -rf {} +

@@ -13,6 +13,7 @@ Searching a model:
     grow, run                                   grow a model into a target; run a model by any method
     smc                                         method: particles
     mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
+    vi                                          method: a normal near the model's distribution, and weighed draws
     kernels                                     the kernels of Markov chains
     batch                                       many searches on all processors, or on many machines
     train_guide, Guide                          a network that has learnt which choices lead where

@@ -72,7 +72,8 @@ _End = tuple[list[float], float]
 _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
-_Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Corner]
+_Surface = tuple[float, float, float, float]
+_Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Surface]
 
 @final
 class Shape:
@@ -85,6 +86,8 @@ class Shape:
         taper_axis: str = "z",
         bevel: float | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def cylinder(
@@ -96,6 +99,8 @@ class Shape:
         rotation: _Rows | None = None,
         bevel: float | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def limb(
@@ -106,6 +111,8 @@ class Shape:
         start_normal: _Triple | None = None,
         end_normal: _Triple | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def segment(
@@ -114,6 +121,8 @@ class Shape:
         end: _Frame,
         onto: _Bark | None = None,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def mesh(
@@ -123,6 +132,8 @@ class Shape:
         rotation: _Rows | None = None,
         scale: float = 1.0,
         color: _Triple | None = None,
+        metalness: float | None = None,
+        roughness: float | None = None,
     ) -> Shape: ...
     @staticmethod
     def stroke(
@@ -145,6 +156,10 @@ class Shape:
     def kind(self) -> str: ...
     @property
     def color(self) -> list[float] | None: ...
+    @property
+    def metalness(self) -> float | None: ...
+    @property
+    def roughness(self) -> float | None: ...
     def aabb(self) -> tuple[list[float], list[float]]: ...
     def flat(self) -> tuple[_End, _End] | tuple[list[float], float, float, float] | None: ...
     def vertices(self) -> NDArray[np.float64]: ...
@@ -168,6 +183,7 @@ class Target:
     def vertices(self) -> NDArray[np.float64]: ...
     def faces(self) -> NDArray[np.int64]: ...
     def cells(self) -> NDArray[np.bool_]: ...
+    def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
 
 @final
 class SketchSpec:
@@ -248,6 +264,9 @@ class BadParameter(ValueError):
 #: Function, path, (line, column, end line, end column).
 _Place = tuple[str, str, tuple[int, int, int, int]]
 
+#: Address, function, path, (line, column, end line, end column).
+_Emitted = tuple[str, str, str, tuple[int, int, int, int]]
+
 class EngineFault(RuntimeError):
     kind: Literal["run", "setting", "impossible", "no-start", "compile"]
     code: str
@@ -261,7 +280,7 @@ class EngineFault(RuntimeError):
     barrier: int
     tries: int
     causes: list[tuple[str, int]]
-    blame: list[tuple[str, _Place, _Place | None, int]]
+    blame: list[tuple[str, _Emitted, _Emitted | None, int]]
     looked_at: int
     attempts: list[tuple[str, int, int | None]]
 
@@ -410,6 +429,32 @@ class Trajectories:
     def positions(self, chain: int) -> NDArray[np.float64]: ...
     def draws(self, chain: int) -> dict[str, NDArray[Any]]: ...
     def scores(self, chain: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def counters(self, chain: int) -> dict[str, Any]: ...
+    def fault(self, chain: int) -> BaseException | None: ...
+
+@final
+class Normals:
+    def __new__(
+        cls,
+        task: Task,
+        method: str,
+        seed: int,
+        *,
+        start: Run | None = None,
+        threads: int | None = None,
+        watch: _Watch | None = None,
+    ) -> Normals: ...
+    @property
+    def interrupted(self) -> bool: ...
+    @property
+    def chains(self) -> int: ...
+    def choices(self, chain: int) -> list[Coordinates]: ...
+    def values(self, chain: int) -> NDArray[np.float64]: ...
+    def positions(self, chain: int) -> NDArray[np.float64]: ...
+    def densities(self, chain: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def scores(self, chain: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def moments(self, chain: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def bounds(self, chain: int) -> NDArray[np.float64]: ...
     def counters(self, chain: int) -> dict[str, Any]: ...
     def fault(self, chain: int) -> BaseException | None: ...
 

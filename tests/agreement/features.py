@@ -259,6 +259,7 @@ def m():
     emit([box((2 * i, 1, 3), (0.5, 0.1, 2)) for i in range(3)], disc((0, 0, 9), 1, color=(1, 0, 0)), color=skin, name="wing")
     emit(box((0, 1, 6), (2, 1, 2)) if flip() else (limb((0, 1, 6), (2, 1, 1), 0.3, 0.2),), color=skin, name="wing")
     emit(cylinder((0, 20, 0), uniform(1, 2), 1), color=None, name="a-mast_2")
+    emit([box((0, 30, k), (1, 1, 0.5), metalness=0.25) for k in range(2)], disc((0, 40, 0), 1), metalness=1, roughness=0.5 * skin[0])
     part(skin[0])
     emit(box((0, 30, 0), (1, 1, 1)))
 """,

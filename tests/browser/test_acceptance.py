@@ -112,6 +112,45 @@ def test_pinned_choices_are_equal_after_searches(open_page, served):
     effort(page, 0)
 
 
+def test_a_pin_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_page, served):
+    page = open_page(served)
+    choose(page, "spaceship", 1, seed=3)
+    effort(page, -2)
+    grow(page)
+    at_rest(page)
+    address = visible(page, "wings")
+    click_part(page, address)
+    until(page, f"window.__studio.selection.part == {json.dumps(address)}")
+    steps = page.evaluate("window.__studio.view.undo")
+    # In one go, so that no answer comes between them.
+    press = "key => dispatchEvent(new KeyboardEvent('keydown', key))"
+    seen = page.evaluate(
+        f"() => {{ const press = {press}; press({{key: 'p'}}); press({{key: 'z', ctrlKey: true}});"
+        " return new Promise(done => setTimeout(() => done(document.querySelectorAll('.pins li').length))); }"
+    )
+    assert seen == 1
+    # The undo takes the pin back, not the step before it.
+    until(page, f"window.__studio.view.redo == 1 && window.__studio.view.undo == {steps}")
+    until(page, "document.querySelectorAll('.pins li').length == 0")
+    assert page.evaluate("window.__studio.view.pins") == []
+    first = page.evaluate("window.__studio.view.picked.run")
+    page.evaluate(f"() => {{ const press = {press}; press({{key: 'p'}}); press({{key: 'Enter'}}); }}")
+    until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {first}")
+    held = page.evaluate("window.__studio.view.pins[0].choices")
+    data = run_files.load(
+        served.folder / "runs" / f"{page.evaluate('window.__studio.view.picked')['run']}.json"
+    )
+    found = {one["address"]: one["value"] for one in data["runs"][0]["choices"]}
+    assert {one: found[one] for one in held} == held
+    page.keyboard.press("p")
+    until(page, "window.__studio.view.pins.length == 0")
+    # A pin that is refused is taken back.
+    page.evaluate("window.__studio.pin('nothing/like/this')")
+    page.locator(".notice", has_text="nothing/like/this").first.wait_for()
+    until(page, "document.querySelectorAll('.pins li').length == 0")
+    effort(page, 0)
+
+
 def test_undo_ten_deep_and_redo_give_the_same_states(open_page, served):
     page = open_page(served)
     choose(page, "spaceship", 3, seed=2)

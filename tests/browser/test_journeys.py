@@ -9,7 +9,19 @@ import json
 from pathlib import Path
 
 from niwaki import studio
-from studio_page import at_rest, camera, choose, click_part, grow, picture, timed, until, visible
+from studio_page import (
+    at_rest,
+    camera,
+    choose,
+    click_part,
+    contrasts,
+    grow,
+    nameless,
+    picture,
+    timed,
+    until,
+    visible,
+)
 from studio_process import serving
 
 
@@ -59,7 +71,8 @@ def test_shape_by_hand(open_page, served):
     at_rest(page)
     with timed("pin"):
         page.keyboard.press("p")
-        until(page, "window.__studio.view.pins.length == 1")
+        until(page, "document.querySelector('.pins li')")
+    until(page, "window.__studio.view.pins.length == 1")
     held = page.evaluate("window.__studio.view.pins[0].choices")
     page.get_by_role("button", name="Grow the rest").click()
     until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {first}")
@@ -161,9 +174,7 @@ def test_dark_and_keyboard_only(open_page, served):
     until(page, f"window.__studio.view.picked.number != {first}")
     page.keyboard.press("s")
     until(page, "window.__studio.view.stars.length > 0")
-    nameless = "one => !(one.title || one.ariaLabel || one.textContent.trim() || one.closest('label'))"
-    names = page.eval_on_selector_all("button, select, input", f"all => all.filter({nameless}).length")
-    assert names == 0
+    assert nameless(page) == 0 and contrasts(page) == []
     picture(page, "dark")
 
 

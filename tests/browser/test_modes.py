@@ -8,7 +8,7 @@ from pathlib import Path
 
 import ezdxf
 from niwaki.color.drawing import OWN
-from studio_page import at_rest, choose, grow, picture, until
+from studio_page import at_rest, choose, contrasts, grow, nameless, picture, until
 
 
 def colored(page):
@@ -129,3 +129,75 @@ def test_a_structure_shows_its_forces_what_falls_is_marked_and_boards_are_cut(op
     assert page.evaluate("window.__studio.judged.loose.length") > 0
     page.get_by_text("Falls", exact=True).wait_for()
     picture(page, "falls")
+
+
+def test_colouring_in_the_dark_by_the_keyboard_alone(open_page, served):
+    page = open_page(served, color_scheme="dark")
+    assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+    choose(page, "drawing:house", 3)
+    until(page, "window.__studio.view.model.regions.length > 10")
+    page.get_by_label("The drawing.").focus()
+    page.keyboard.press("Enter")
+    until(page, "window.__studio.view.results.length > 1 && !window.__studio.view.searching")
+    colored(page)
+    page.locator("[role=option][aria-selected=true]").focus()
+    first = page.evaluate("window.__studio.view.picked.number")
+    page.keyboard.press("ArrowRight")
+    until(page, f"window.__studio.view.picked.number != {first}")
+    colored(page)
+    # A region by its name, pinned, and the rest coloured again.
+    page.get_by_role("button", name="roof", exact=True).press("Enter")
+    until(page, "window.__studio.selection.level == 'roof'")
+    page.keyboard.press("p")
+    until(page, "window.__studio.view.pins.length == 1")
+    before = colors(page)["roof"]
+    page.get_by_label("The drawing.").focus()
+    run = page.evaluate("window.__studio.view.picked.run")
+    page.keyboard.press("Enter")
+    until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {run}")
+    colored(page)
+    assert colors(page)["roof"] == before
+    assert nameless(page) == 0 and contrasts(page) == []
+    picture(page, "coloring-dark")
+    page.keyboard.press("p")
+    until(page, "window.__studio.view.pins.length == 0")
+
+
+def test_structures_in_the_dark_by_the_keyboard_alone(open_page, served):
+    page = open_page(served, color_scheme="dark")
+    choose(page, "stack:cut_stack", 2, seed=3)
+    page.locator("main.stage canvas").first.focus()
+    page.keyboard.press("Enter")
+    until(page, "window.__studio.view.results.length == 2 && !window.__studio.view.searching")
+    at_rest(page)
+    judged = "window.__studio.judged?.key.number == window.__studio.view.picked.number"
+    until(page, judged)
+    page.locator("[role=option][aria-selected=true]").focus()
+    page.keyboard.press("ArrowRight")
+    until(page, "window.__studio.view.picked.number == 1")
+    until(page, judged)
+    page.get_by_role("button", name="Let go").press("Enter")
+    until(page, "window.__studio.judged.stands === true")
+    # A call by its name; its slider.
+    until(page, "window.__studio.described?.key.number == 1")
+    page.locator("button.call").last.press("Enter")
+    until(page, "window.__studio.selection.level")
+    run = page.evaluate("window.__studio.view.picked.run")
+    page.locator(".choice input[type=range]").first.press("ArrowRight")
+    until(page, f"window.__studio.view.picked.run != {run}")
+    assert nameless(page) == 0 and contrasts(page) == []
+    picture(page, "structure-dark")
+
+
+def test_a_call_of_a_structure_is_grown_again_and_it_still_stands(open_page, served):
+    page = open_page(served)
+    choose(page, "stack:cut_stack", 1, seed=3)
+    grow(page)
+    at_rest(page)
+    page.locator("button.call").last.click()
+    until(page, "window.__studio.selection.level")
+    run = page.evaluate("window.__studio.view.picked.run")
+    page.get_by_role("button", name="Re-roll").click()
+    until(page, f"window.__studio.view.picked.run != {run}")
+    until(page, "window.__studio.judged?.key.run == window.__studio.view.picked.run")
+    assert page.evaluate("window.__studio.judged.holds")

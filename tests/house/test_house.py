@@ -85,7 +85,7 @@ def test_import_loads_nothing_that_is_not_always_needed():
 def test_locks_pin_every_requirement_with_a_hash():
     locks = sorted((ROOT / "requirements").glob("*.txt"))
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
-    unlocked = {"arviz", "color", "parquet", "print", "stacks"}
+    unlocked = {"arviz", "color", "notebook", "parquet", "plots", "print", "stacks"}
     assert {lock.stem for lock in locks} == set(extras) - unlocked | {"core"}
     for lock in locks:
         entries = re.split(r"\n(?=\S)", lock.read_text().strip())
@@ -205,7 +205,9 @@ def test_the_pages_name_only_commands_that_exist():
 def test_the_pages_link_to_files_that_exist():
     for page in pages():
         for link in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
-            assert (page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}"
+            # What is below `made` is made when the manual is built; Sphinx refuses what is missing there.
+            if not link.startswith("../made/"):
+                assert (page.parent / link).exists(), f"{page.relative_to(ROOT)}: {link}"
 
 
 @pytest.mark.parametrize("page", pages(), ids=lambda page: page.stem)

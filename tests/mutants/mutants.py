@@ -1,4 +1,4 @@
-"""Deliberate errors in the engine, each of which a test must reject: `make mutants`.
+"""Deliberate errors in the engine and in the package, each of which a test must reject: `make mutants`.
 
 `mutants.toml` holds one entry for each error: a file, the text that is there, the text of the error, and the
 judge, which is the tests that must fail. The sources are copied to `target/mutants/tree`, so that the working tree is
@@ -18,6 +18,7 @@ part of a name runs all entries that have it. `--page` writes the table of the m
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -39,15 +40,22 @@ CRATES = ["math", "geom", "vm", "grad", "guide", "infer"]
 OWN = ("codegen-units=64", "debug=false")
 QUICK = ["profile.release.incremental=true"]
 QUICK += [f"profile.release.package.niwaki-{crate}.{key}" for crate in CRATES for key in OWN]
-#: What cargo needs to build the crates and their tests.
-SOURCES = ["Cargo.toml", "Cargo.lock", "crates", "benches/hmc"]
+#: What cargo needs to build the crates and their tests, and pytest for the package.
+SOURCES = ["Cargo.toml", "Cargo.lock", "crates", "benches/hmc", "pyproject.toml", "python", "tests"]
+#: The engine as Python loads it; it is built, and not among the sources.
+ENGINE = "python/niwaki/_engine.abi3.so"
 BUILD_LIMIT = 1800.0  # seconds
+#: A line of pytest: the test's name, and how it ended.
+PYTEST = r"^\S+::(\S+) (PASSED|FAILED)"
 MARKS = ("<!-- table of mutants: begin -->", "<!-- table of mutants: end -->")
 
 
 @dataclass(frozen=True)
 class Judge:
-    """Tests of one target: `infer chain: board calibration` is `cargo test -p niwaki-infer --test chain` of both."""
+    """Tests of one target: `infer chain: board calibration` is `cargo test -p niwaki-infer --test chain` of both.
+
+    `python studio/test_variety: order` are the tests of `tests/niwaki/studio/test_variety.py` with that name.
+    """
 
     crate: str
     target: str
@@ -55,8 +63,8 @@ class Judge:
 
     @staticmethod
     def read(text: str) -> "Judge":
-        found = re.fullmatch(r"(\w+) (\w+): (\S+(?: \S+)*)", text)
-        if not found or found[1] not in CRATES:
+        found = re.fullmatch(r"(\w+) ([\w/]+): (\S+(?: \S+)*)", text)
+        if not found or found[1] not in (*CRATES, "python"):
             raise ValueError(f"the judge `{text}` is not of the form `crate target: pattern ...`")
         return Judge(found[1], found[2], tuple(found[3].split()))
 
@@ -64,6 +72,16 @@ class Judge:
         return f"{self.crate} {self.target}: {' '.join(self.patterns)}"
 
     def command(self) -> list[str]:
+        if self.crate == "python":
+            return [
+                sys.executable,
+                "-m",
+                "pytest",
+                "-vv",
+                "-p",
+                "no:cacheprovider",
+                f"tests/niwaki/{self.target}.py",
+            ]
         config = [word for line in QUICK for word in ("--config", line)]
         target = ["--lib"] if self.target == "lib" else ["--test", self.target]
         return [
@@ -128,11 +146,13 @@ def copy_sources() -> None:
         text = (ROOT / name).read_bytes()
         if not (TREE / name).is_file() or (TREE / name).read_bytes() != text:
             (TREE / name).write_bytes(text)
+    if (ROOT / ENGINE).is_file():
+        shutil.copy2(ROOT / ENGINE, TREE / ENGINE)
 
 
 def run(command: list[str], limit: float) -> tuple[int | None, str, float]:
     """Status (None: too long), its output, seconds."""
-    env = {**os.environ, "CARGO_TARGET_DIR": str(SCRATCH / "build")}
+    env = {**os.environ, "CARGO_TARGET_DIR": str(SCRATCH / "build"), "PYTHONPATH": str(TREE / "python")}
     start = time.monotonic()
     with subprocess.Popen(
         command,
@@ -169,6 +189,12 @@ class Outcome:
 
 def judged(judge: Judge, limit: float) -> Outcome:
     """Builds a judge and runs it; `passed` where no test of it failed."""
+    if judge.crate == "python":
+        status, output, took = run([*judge.command(), "-k", " or ".join(judge.patterns)], limit)
+        ended = {
+            name: "FAILED" if how == "FAILED" else "ok" for name, how in re.findall(PYTEST, output, re.M)
+        }
+        return outcome(judge, status, output, 0.0, took, ended)
     status, output, build = run([*judge.command(), "--no-run"], BUILD_LIMIT)
     if status != 0:
         return Outcome("no build", [], build, 0.0, output)
@@ -176,6 +202,13 @@ def judged(judge: Judge, limit: float) -> Outcome:
     command = [word for word in judge.command() if word != "--quiet"]
     status, output, took = run([*command, "--", *judge.patterns], limit)
     ended = dict(re.findall(r"^test (\S+).* \.\.\. (?:.*\n)*?.*?(ok|FAILED|ignored)$", output, re.M))
+    return outcome(judge, status, output, build, took, ended)
+
+
+def outcome(
+    judge: Judge, status: int | None, output: str, build: float, took: float, ended: dict[str, str]
+) -> Outcome:
+    """What became of a judge whose tests ended so."""
     if status is None:
         return Outcome("timeout", [], build, took, output)
     failed = sorted(name for name, how in ended.items() if how == "FAILED")

@@ -10,13 +10,17 @@ MUTANTS = mutants.entries()
 def test_an_error_changes_one_place_and_its_judge_has_tests(mutant):
     text = (mutants.ROOT / mutant.file).read_text(encoding="utf-8")
     assert mutant.applied(text) != text
-    crate = mutants.ROOT / "crates" / mutant.judge.crate
-    folder = crate / ("src" if mutant.judge.target == "lib" else "tests")
+    if mutant.judge.crate == "python":
+        files, word = [mutants.ROOT / "tests" / "niwaki" / f"{mutant.judge.target}.py"], "def "
+    else:
+        crate = mutants.ROOT / "crates" / mutant.judge.crate
+        folder = crate / ("src" if mutant.judge.target == "lib" else "tests")
+        files, word = list(folder.rglob("*.rs")), "fn "
     names = {
-        line.split("(")[0].split("fn ")[-1]
-        for file in folder.rglob("*.rs")
+        line.split("(")[0].split(word)[-1]
+        for file in files
         for line in file.read_text().splitlines()
-        if "fn " in line
+        if word in line
     }
     for pattern in mutant.judge.patterns:
         own = pattern.rsplit("::", 1)[-1]

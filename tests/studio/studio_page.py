@@ -167,3 +167,39 @@ def visible(page, word):
 def camera(page):
     """Where the camera stands."""
     return np.array(page.evaluate("window.__studio.camera"))
+
+
+def nameless(page):
+    """How many buttons and fields have no name that can be read out."""
+    is_nameless = "one => !(one.title || one.ariaLabel || one.textContent.trim() || one.closest('label'))"
+    return page.eval_on_selector_all("button, select, input", f"all => all.filter({is_nameless}).length")
+
+
+#: Texts that are seen whose colour is too near to what is behind them: less than 4.5 to 1 (WCAG 2.2, 1.4.3).
+CONTRASTS = """() => {
+  const parsed = text => (text.match(/[\\d.]+/g) ?? []).map(Number);
+  const light = ([r, g, b]) => [r, g, b].map(v => v / 255)
+    .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
+  const found = [];
+  for (const one of document.querySelectorAll("body *")) {
+    const own = [...one.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
+    const box = one.getBoundingClientRect();
+    if (!own || !box.width || !box.height || one.closest("option, [disabled]")) continue;
+    let behind = one, back = [0, 0, 0, 0];
+    while (behind && (back[3] ?? 1) === 0) {
+      back = parsed(getComputedStyle(behind).backgroundColor);
+      behind = behind.parentElement;
+    }
+    const [a, b] = [light(parsed(getComputedStyle(one).color)), light(back)].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    const name = `${one.tagName}.${one.className} ${one.textContent.trim().slice(0, 20)}`;
+    if (ratio < 4.5) found.push(`${name}: ${ratio.toFixed(2)}`);
+  }
+  return [...new Set(found)];
+}"""
+
+
+def contrasts(page):
+    """Texts that are hard to read, each with its contrast."""
+    return page.evaluate(CONTRASTS)

@@ -13,6 +13,7 @@ use crate::once::Once;
 use crate::plane::flat::{self, Round};
 use crate::segment::{self, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
+use crate::words::Look;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
@@ -137,7 +138,10 @@ struct Inner {
     placement: Placement,
     /// NaN for none.
     bevel: f64,
-    color: Option<[f32; 3]>,
+    /// NaN for none.
+    color: [f32; 3],
+    /// Metalness and roughness; NaN for none.
+    finish: [f32; 2],
     aabb: Aabb,
     /// A box with its sides along the coordinate directions.
     aligned: bool,
@@ -169,13 +173,18 @@ struct Plain {
     placement: Placement,
     bevel: Option<f64>,
     color: Option<[f32; 3]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    metalness: Option<f32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    roughness: Option<f32>,
 }
 
 impl TryFrom<Plain> for Shape {
     type Error = GeomError;
 
     fn try_from(plain: Plain) -> Result<Shape, GeomError> {
-        Shape::new(plain.solid, plain.placement, plain.bevel, plain.color)
+        let Plain { solid, placement, bevel, color, metalness, roughness } = plain;
+        Shape::new(solid, placement, &Look { rotation: None, bevel, color, metalness, roughness })
     }
 }
 
@@ -186,6 +195,8 @@ impl From<Shape> for Plain {
             placement: *shape.placement(),
             bevel: shape.bevel(),
             color: shape.color(),
+            metalness: shape.metalness(),
+            roughness: shape.roughness(),
         }
     }
 }
@@ -197,22 +208,20 @@ impl PartialEq for Shape {
             || (a.aabb == b.aabb
                 && a.placement == b.placement
                 && a.bevel.to_bits() == b.bevel.to_bits()
-                && a.color == b.color
+                && self.color() == other.color()
+                && a.finish.map(f32::to_bits) == b.finish.map(f32::to_bits)
                 && a.solid == b.solid)
     }
 }
 
 impl Shape {
-    /// Places `solid` in the world and computes the data for scores.
+    /// Places `solid` in the world and computes the data for scores. The rotation of its look is not read.
     ///
     /// # Errors
-    /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, or a flat limb.
-    pub fn new(
-        solid: Solid,
-        placement: Placement,
-        bevel: Option<f64>,
-        color: Option<[f32; 3]>,
-    ) -> Result<Shape, GeomError> {
+    /// `bad-shape` for sizes that are not positive and finite, a placement that is not a rotation, a flat limb, or a look
+    /// that is out of range.
+    pub fn new(solid: Solid, placement: Placement, look: &Look) -> Result<Shape, GeomError> {
+        let Look { bevel, color, metalness, roughness, .. } = *look;
         check_solid(&solid)?;
         if !placement.translation.is_finite() {
             return bad(format!(
@@ -229,6 +238,11 @@ impl Shape {
         }
         if let Some(c) = color.filter(|c| !c.iter().all(|c| c.is_finite())) {
             return bad(format!("the color is {c:?}, expected three finite numbers"));
+        }
+        for (name, given) in [("metalness", metalness), ("roughness", roughness)] {
+            if let Some(share) = given.filter(|share| !(0.0..=1.0).contains(share)) {
+                return bad(format!("the {name} is {share}, expected a number from 0 to 1"));
+            }
         }
         let flat = || bad(format!("{} has no inside", kind(&solid)));
         let (hull, aabb) = match &solid {
@@ -258,7 +272,9 @@ impl Shape {
         }
         let aligned = matches!(solid, Solid::Box { .. }) && is_aligned(&placement);
         let (bevel, world) = (bevel.unwrap_or(f64::NAN), OnceLock::new());
-        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, aabb, aligned, hull, world })))
+        let color = color.unwrap_or([f32::NAN; 3]);
+        let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
+        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, finish, aabb, aligned, hull, world })))
     }
 
     /// The solid, in its own coordinates.
@@ -278,7 +294,17 @@ impl Shape {
 
     /// Linear colour in `[0, 1]`.
     pub fn color(&self) -> Option<[f32; 3]> {
-        self.0.color
+        Some(self.0.color).filter(|color| !color[0].is_nan())
+    }
+
+    /// From 0 (paint, wood, stone) to 1 (metal).
+    pub fn metalness(&self) -> Option<f32> {
+        Some(self.0.finish[0]).filter(|share| !share.is_nan())
+    }
+
+    /// From 0 (a mirror) to 1 (chalk).
+    pub fn roughness(&self) -> Option<f32> {
+        Some(self.0.finish[1]).filter(|share| !share.is_nan())
     }
 
     /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment`, `mesh`, `stroke` or `ellipse`.

@@ -17,6 +17,10 @@ pub struct Look {
     pub bevel: Option<f64>,
     /// Linear colour in `[0, 1]`.
     pub color: Option<[f32; 3]>,
+    /// From 0 (paint, wood, stone) to 1 (metal).
+    pub metalness: Option<f32>,
+    /// From 0 (a mirror) to 1 (chalk).
+    pub roughness: Option<f32>,
 }
 
 impl Shape {
@@ -26,7 +30,7 @@ impl Shape {
     /// `bad-shape`, as for [`Shape::new`].
     pub fn placed(solid: Solid, center: Vec3, laid: Mat3, look: &Look) -> Result<Shape, GeomError> {
         let rotation = look.rotation.map_or(laid, |r| r.after(&laid));
-        Shape::new(solid, Placement { rotation, translation: center }, look.bevel, look.color)
+        Shape::new(solid, Placement { rotation, translation: center }, look)
     }
 
     /// A box around `center` with full side lengths `size`.
@@ -119,7 +123,7 @@ impl Shape {
     pub fn stroke(start: Vec3, end: Vec3, widths: (f64, f64), look: &Look) -> Result<Shape, GeomError> {
         let round = |center, width| Round { center, radius: 0.5 * width };
         let solid = Solid::Stroke { ends: Box::new([round(start, widths.0), round(end, widths.1)]) };
-        Shape::new(solid, Placement::IDENTITY, look.bevel, look.color)
+        Shape::new(solid, Placement::IDENTITY, look)
     }
 
     /// Flat: an ellipse of a length and a width, its length turned by `angle` (radians) from +x to +y.
@@ -132,7 +136,7 @@ impl Shape {
             return Err(GeomError::new("bad-shape", message));
         }
         let placement = Placement { rotation: Mat3::rotation(Vec3::AXES[2], angle), translation: center };
-        Shape::new(Solid::Ellipse { size: [size.0, size.1] }, placement, look.bevel, look.color)
+        Shape::new(Solid::Ellipse { size: [size.0, size.1] }, placement, look)
     }
 
     /// A mesh, scaled about its own origin, turned and moved to `center`.
@@ -161,7 +165,7 @@ mod tests {
     //! Shapes have the place of their arguments, and impossible ones are refused.
     use super::*;
 
-    const PLAIN: Look = Look { rotation: None, bevel: None, color: None };
+    const PLAIN: Look = Look { rotation: None, bevel: None, color: None, metalness: None, roughness: None };
 
     #[test]
     fn a_cylinder_laid_along_z_has_vertices_on_the_axes() {

@@ -405,7 +405,7 @@ fn a_cylinder_with_very_many_sides_is_covered_whole() {
         rotation: niwaki_geom::Mat3::between(Vec3::AXES[1], Vec3::AXES[2]),
         translation: vec3(0.01, 0.02, 0.0),
     };
-    let shape = Shape::new(solid, turned, None, None).unwrap();
+    let shape = Shape::new(solid, turned, &Look::default()).unwrap();
     let mesh = picture.rays().meeting_mesh(shape.world_mesh());
     let whole = picture.rays().meeting(&shape);
     assert_eq!(whole, mesh);

@@ -162,6 +162,9 @@ fn counts_are_those_of_a_list_of_sets_in_any_order() {
         most = most.max(count);
     }
     assert!(most > 7, "more than three planes are used: {most}");
+    let mut filled = vec![false; nx * ny * nz];
+    target.visit_filled(&shapes, |[x, y, z]| filled[(z * ny + y) * nx + x] = true);
+    assert_eq!(filled, (0..filled.len()).map(|i| sets.iter().any(|s| s[i])).collect::<Vec<_>>());
 
     // Removing every other primitive leaves what adding only the rest gives, and then nothing.
     let mut rest = VolumeMatch::new(target.clone(), 0.02);

@@ -5,6 +5,7 @@
 //!     trajectories chain MODEL POINT STEP LENGTH DRAWS SEED OUT  one chain; draws go to the file OUT, f64 in native order
 //!     trajectories lanes MODEL POINT STEP LENGTH DRAWS SEED -    64 chains in lanes
 //!     trajectories nuts MODEL POINT WARMUP DRAWS SEED OUT        the no-U-turn sampler, with its own warm-up
+//!     trajectories vi MODEL POINT FAMILY STEPS DRAWS SEED        a normal near it, and its bound by so many draws
 //!
 //! MODEL is ring, coloring, stack, or stackN of N blocks; POINT a file with a number for each coordinate. Prints one
 //! JSON line.
@@ -16,6 +17,11 @@ use niwaki_grad::{Compiled, Density, Native, Rolling, Tape, Wide};
 use niwaki_infer::hamiltonian::chains::{Length, run};
 use niwaki_infer::hamiltonian::lanes::run_in_lanes;
 use niwaki_infer::hamiltonian::{Cause, Chain, Draws, Potential, Settings, Shape, Stop};
+use niwaki_infer::variational::ascent::{ascend, counts};
+use niwaki_infer::variational::family::Family;
+use niwaki_infer::variational::pathfinder::pathfinder;
+use niwaki_infer::variational::{self, Batch, Purpose};
+use niwaki_math::Stream;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -193,11 +199,60 @@ fn sample(args: &[&str]) -> String {
     line
 }
 
+/// A normal by a family's name (mean-field, full-rank, pathfinder): seconds until it is found, recording apart, and its bound.
+fn normal(args: &[&str]) -> String {
+    let [_, model, point, family, rest @ ..] = args else { panic!("{USAGE}") };
+    let text = std::fs::read_to_string(point).unwrap_or_else(|error| panic!("{point}: {error}"));
+    let start: Vec<f64> = text.split_whitespace().map(|word| word.parse().expect(USAGE)).collect();
+    let number = |k: usize| rest.get(k).and_then(|word| word.parse::<u32>().ok()).expect(USAGE);
+    let (steps, draws, seed) = (number(0), number(1), u64::from(number(2)));
+    let clock = Instant::now();
+    let density = Arc::new(density(model));
+    let recorded = clock.elapsed().as_secs_f64();
+    let busy = cpu();
+    let mut target = Target(Compiled::new(density.clone()));
+    let mut wide = Wide::<{ variational::LANES }>::new(&density);
+    let mut batch = Batch::new(&mut target, &mut wide);
+    let path = pathfinder(&mut batch, &start, seed, 0, &|_| true).expect("one structure");
+    let path_seconds = clock.elapsed().as_secs_f64() - recorded;
+    let family = match *family {
+        "mean-field" => Some(Family::MeanField),
+        "full-rank" => Some(Family::FullRank),
+        _ => None,
+    };
+    let (found, taken, converged) = match family {
+        None => (path.normal, path.bounds.len(), true),
+        Some(family) => {
+            let settings = variational::Settings { family, steps, samples: 16, tolerance: 0.02 };
+            let fit = ascend(&mut batch, &path.normal, &settings, seed, 0, &|_| true).expect("one structure");
+            (fit.normal, fit.bounds.len(), fit.converged)
+        }
+    };
+    let (seconds, busy, gradients) =
+        (clock.elapsed().as_secs_f64() - recorded, cpu() - busy, batch.gradients);
+    let mut stream = Stream::new(seed, 1, Purpose::Draw as u128, 0);
+    let mut rows = [(); 3].map(|()| vec![[0.0; variational::LANES]; start.len()]);
+    let mut ratios = Vec::new();
+    for count in counts(draws as usize) {
+        let [z, x, g] = &mut rows;
+        found.draw(&mut stream, z, x);
+        let log_q = found.log_density(z);
+        let log_p = batch.evaluate(x, g, count).expect("one structure");
+        ratios.extend(log_p.iter().zip(log_q).take(count).map(|(p, q)| p - q));
+    }
+    let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    let variance = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / ratios.len() as f64;
+    format!(
+        r#"{{"record_seconds": {recorded}, "path_seconds": {path_seconds}, "seconds": {seconds}, "cpu_seconds": {busy}, "gradients": {gradients}, "steps": {taken}, "converged": {converged}, "bound": {mean}, "bound_error": {}}}"#,
+        (variance / ratios.len() as f64).sqrt(),
+    )
+}
+
 /// As `gradient::explore` groups them on one thread.
 const LANES: usize = 64;
 
-const USAGE: &str = "usage: trajectories start|check MODEL, chain|lanes MODEL POINT STEP LENGTH DRAWS SEED OUT, or \
-                     nuts MODEL POINT WARMUP DRAWS SEED OUT";
+const USAGE: &str = "usage: trajectories start|check MODEL, chain|lanes MODEL POINT STEP LENGTH DRAWS SEED OUT, \
+                     nuts MODEL POINT WARMUP DRAWS SEED OUT, or vi MODEL POINT FAMILY STEPS DRAWS SEED";
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -206,6 +261,7 @@ fn main() {
         ["start", model] => startup(model),
         ["check", model] => check(model),
         ["chain" | "lanes" | "nuts", ..] => sample(&args),
+        ["vi", ..] => normal(&args),
         _ => panic!("{USAGE}"),
     };
     println!("{line}");

@@ -1,64 +1,103 @@
-//! Which parts of scenes break a constraint: for messages about searches in which every run is impossible.
+//! Which parts of scenes break a constraint: for what is told of runs that became impossible.
 
 use crate::Task;
 use crate::log::Entry;
 use crate::replay::{Missing, Part, Source, by_address, replay};
 use niwaki_geom::Primitive;
+use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_vm::machine::stack::Call;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Most runs that are looked at.
-pub(crate) const RUNS: usize = 50;
+pub(crate) const RUNS: usize = 300;
+
+/// A run that became impossible.
+#[derive(Clone, Debug)]
+pub struct Dead {
+    /// What made it impossible: the name of a sketch, or of a factor.
+    pub(crate) cause: String,
+    /// Its choices.
+    pub(crate) entries: Vec<Entry>,
+}
 
 /// Where parts that break a constraint are emitted, and in how many runs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Blame {
     /// The name of the constraint.
-    pub constraint: &'static str,
-    /// Where the part is emitted that breaks it.
-    pub part: Call,
-    /// The part that it breaks it with, where one alone does not.
-    pub other: Option<Call>,
+    pub constraint: String,
+    /// The part that breaks it.
+    pub part: Emitted,
+    /// The part before it that it breaks it with, where one alone does not.
+    pub other: Option<Emitted>,
     /// In how many of the runs.
     pub runs: usize,
 }
 
+/// Where a part is emitted.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Emitted {
+    /// The readable address of one such part.
+    pub path: String,
+    /// Qualified name of the function.
+    pub function: String,
+    /// Number of its source file.
+    pub file: u32,
+    /// First line, first column, last line, column after the last character.
+    pub span: [u32; 4],
+}
+
+impl Emitted {
+    fn of(part: &Part) -> Emitted {
+        let (call, s) = (&part.place, part.place.span);
+        let span = [s.line, s.column, s.end_line, s.end_column];
+        Emitted { path: part.path.clone(), function: call.function.to_string(), file: call.file, span }
+    }
+
+    fn place(&self) -> (u32, [u32; 4]) {
+        (self.file, self.span)
+    }
+}
+
 /// The parts of impossible runs that break a constraint, most frequent first, and how many runs were looked at. Runs that something
 /// else made impossible have none.
-pub(crate) fn blame(task: &Task, runs: Vec<Vec<Entry>>) -> (Vec<Blame>, usize) {
+pub(crate) fn blame(task: &Task, runs: &[Dead]) -> (Vec<Blame>, usize) {
     let mut counts: BTreeMap<_, Blame> = BTreeMap::new();
-    let seen = runs.len();
-    for entries in runs {
-        let Ok(trace) = replay(task, Source::Addresses(by_address(&entries)), Missing::Stop) else {
+    for Dead { cause, entries } in runs {
+        // Of the scores only the constraint is computed.
+        let sketches: Vec<_> = task.sketches.iter().filter(|own| own.name() == cause).cloned().collect();
+        if sketches.is_empty() {
+            continue;
+        }
+        let own = Task { sketches, ..task.uncounted() };
+        let Ok(trace) = replay(&own, Source::Addresses(by_address(entries)), Missing::Stop) else {
             continue;
         };
-        let Some((constraint, part, other)) = first_forbidden(task, &trace.parts) else { continue };
-        let place = |call: &Call| (call.file, call.span.line, call.span.column);
-        let mut calls = [Some(part), other];
+        let Some((part, other)) = first_forbidden(&own.sketches, &trace.parts) else { continue };
+        let (part, other) = (Emitted::of(part), other.map(Emitted::of));
         // A pair is the same pair in either order.
-        if other.is_some() {
-            calls.sort_by_key(|call| call.map(place));
-        }
-        let key = (constraint, calls.map(|call| call.map(place)));
-        let [part, other] = calls.map(|call| call.cloned());
-        let Some(part) = part else { continue };
-        counts.entry(key).or_insert(Blame { constraint, part, other, runs: 0 }).runs += 1;
+        let mut key = [Some(part.place()), other.as_ref().map(Emitted::place)];
+        key.sort();
+        let blame = Blame { constraint: cause.clone(), part, other, runs: 0 };
+        counts.entry((cause, key)).or_insert(blame).runs += 1;
     }
     let mut found: Vec<Blame> = counts.into_values().collect();
     found.sort_by_key(|one| std::cmp::Reverse(one.runs));
-    (found, seen)
+    (found, runs.len())
 }
 
 /// The first part, in the order of the program, with which the scene is forbidden; and where that part alone is not, a part
 /// before it with which it is.
-fn first_forbidden<'a>(task: &Task, parts: &'a [Part]) -> Option<(&'static str, &'a Call, Option<&'a Call>)> {
+fn first_forbidden<'a>(
+    sketches: &[Arc<dyn SketchSpec>],
+    parts: &'a [Part],
+) -> Option<(&'a Part, Option<&'a Part>)> {
     let primitives: Vec<Primitive> = parts.iter().map(|part| Primitive::new(&part.shapes)).collect();
-    let mut scene = Sketches::start(&task.sketches);
-    let (last, constraint) =
-        primitives.iter().enumerate().find_map(|(at, one)| scene.add(one).map(|name| (at, name)))?;
+    let mut scene = Sketches::start(sketches);
+    let last = primitives.iter().position(|one| scene.add(one).is_some())?;
     let is_forbidden = |others: &[&Primitive]| {
-        let mut scene = Sketches::start(&task.sketches);
+        let mut scene = Sketches::start(sketches);
         others.iter().any(|one| scene.add(one).is_some())
     };
     let last_one = &primitives[last];
@@ -67,5 +106,5 @@ fn first_forbidden<'a>(task: &Task, parts: &'a [Part]) -> Option<(&'static str, 
     } else {
         primitives[..last].iter().position(|one| is_forbidden(&[one, last_one]))
     };
-    Some((constraint, &parts[last].place, before.map(|at| &parts[at].place)))
+    Some((&parts[last], before.map(|at| &parts[at])))
 }

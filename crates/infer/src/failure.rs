@@ -1,8 +1,7 @@
 //! Why a search gives no result.
 
 use crate::Task;
-use crate::blame::{Blame, blame};
-use crate::log::Entry;
+use crate::blame::{Blame, Dead, blame};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
 use std::collections::HashMap;
@@ -20,8 +19,8 @@ pub enum Failure {
         barrier: usize,
         /// What made them impossible: constraint and count, most frequent first.
         causes: Vec<(String, usize)>,
-        /// The choices of some of the runs, until `blame` is read from them.
-        dead: Vec<Vec<Entry>>,
+        /// Some of the runs, until `blame` is read from them.
+        dead: Vec<Dead>,
         /// Where parts that break a constraint are emitted, most frequent first, and of how many runs.
         blame: (Vec<Blame>, usize),
         /// The populations that were tried, of which this is the first.
@@ -61,7 +60,7 @@ impl Failure {
     /// a population has died do not need them.
     pub(crate) fn explained(mut self, task: &Task) -> Failure {
         if let Failure::Impossible { dead, blame: found, .. } = &mut self {
-            *found = blame(task, std::mem::take(dead));
+            *found = blame(task, &std::mem::take(dead));
         }
         self
     }

@@ -11,13 +11,15 @@
 //! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values; parts of a run grown again by particles;
 //! * [`checkpoint`]: what a search needs to go on after it was killed;
+//! * [`blame`], [`losses`]: which parts made runs impossible;
 //! * [`hold`]: a task with choices held;
 //! * [`proposal`]: a user's proposals for a run that begins;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
 //! * [`nested`]: inference inside a model;
 //! * [`improve`]: a search for the best, by all of these;
 //! * [`gradient`]: a task as a log density over its continuous choices, and chains that follow its slope;
-//! * [`hamiltonian`]: such chains over any log density of real coordinates.
+//! * [`hamiltonian`]: such chains over any log density of real coordinates;
+//! * [`variational`]: normals near such a density.
 //!
 //! Not here: opcodes, shapes, Python.
 
@@ -35,6 +37,7 @@ pub mod hold;
 pub mod importance;
 pub mod improve;
 pub mod log;
+pub mod losses;
 pub mod method;
 pub mod nested;
 mod particle;
@@ -47,6 +50,7 @@ pub mod resampling;
 pub mod run;
 mod streams;
 pub mod task;
+pub mod variational;
 mod weights;
 
 pub use failure::Failure;

@@ -5,11 +5,13 @@
 use crate::chain::form::{Attached, Form};
 use crate::enumeration::{Visit, visit};
 use crate::forward::forward;
+use crate::gradient::approximate;
 use crate::hamiltonian::chains::Length;
-use crate::hamiltonian::{self, Shape};
+use crate::hamiltonian::{self, Metric, Shape};
 use crate::importance::importance;
 use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
+use crate::losses::Lost;
 use crate::particles::{
     self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
     populations, within,
@@ -17,11 +19,13 @@ use crate::particles::{
 use crate::proposal::Proposal;
 use crate::rejection::rejection;
 use crate::run::Run;
+use crate::variational::family::Family;
 use crate::{Failure, Task, chain};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Strategy;
+use niwaki_vm::value::Value;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -44,6 +48,7 @@ pub enum Method {
     Mh(Mh),
     Hmc(Hmc),
     Nuts(Nuts),
+    Vi(Vi),
 }
 
 /// Settings that a method does not have.
@@ -150,10 +155,66 @@ struct Trajectories {
     warmup: u32,
     thin: u32,
     target_accept: f64,
-    metric: Shape,
+    metric: MetricForm,
     step_size: Option<f64>,
     climb: u32,
     tries: u64,
+}
+
+/// The metric of chains.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum MetricForm {
+    /// What the warm-up fits.
+    Fitted(Shape),
+    /// Variances of the coordinates, kept throughout.
+    Variances(Vec<f64>),
+    /// A covariance by rows, kept throughout.
+    Covariance(Vec<Vec<f64>>),
+}
+
+impl MetricForm {
+    /// What is fitted, and what is given.
+    fn read(&self) -> Result<(Shape, Option<Metric>), Fault> {
+        let given = match self {
+            MetricForm::Fitted(shape) => return Ok((*shape, None)),
+            MetricForm::Variances(variances) => {
+                let is_sound = variances.iter().all(|v| v.is_finite() && *v > 0.0);
+                is_sound.then(|| Metric::diagonal(variances.clone()))
+            }
+            MetricForm::Covariance(rows) if rows.iter().all(|row| row.len() == rows.len()) => {
+                Metric::dense(rows.concat())
+            }
+            MetricForm::Covariance(_) => None,
+        };
+        let metric = given.ok_or_else(|| {
+            bad("`metric` has numbers that are neither variances above 0 nor a covariance".into())
+        })?;
+        Ok((Shape::Unit, Some(metric)))
+    }
+}
+
+/// Variational inference.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vi {
+    family: Normals,
+    start: approximate::Start,
+    draws: usize,
+    steps: u32,
+    samples: usize,
+    tolerance: f64,
+    paths: usize,
+    tries: u64,
+}
+
+/// The normals of variational inference.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Normals {
+    MeanField,
+    FullRank,
+    Pathfinder,
 }
 
 /// Reads the name of a strategy.
@@ -201,8 +262,8 @@ pub enum Info {
     },
     /// Of enumeration, whose runs are not kept.
     Enumeration(crate::enumeration::Enumerated),
-    /// Of populations; its particles are the runs.
-    Populations(particles::Result),
+    /// Of populations, and of what became impossible in them; their particles are the runs.
+    Populations(particles::Result, Lost),
     /// Of a chain of whole runs; its states are the runs.
     Chain(particles::Chain),
     /// Of a search for the best.
@@ -289,7 +350,8 @@ impl Method {
                     None => populations(task, &settings, &own.plan(), &mut progress)?,
                 };
                 let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
-                Ok(bare(runs.collect(), result.interrupted, Info::Populations(result)))
+                let (runs, lost) = (runs.collect(), std::mem::take(&mut result.losses).explained(task));
+                Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
             }
             Method::ParticleGibbs(own) => {
                 let settings = own.settings(given)?;
@@ -307,20 +369,24 @@ impl Method {
                 let (runs, result) = own.search(task, seed, proposal, given.seen, &mut progress)?;
                 Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
-            Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) => {
-                Err(bad("a method whose chains go on is started, not searched".into()).into())
+            Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) | Method::Vi(_) => {
+                Err(bad("a method of chains or normals is started, not searched".into()).into())
             }
         }
     }
 
     /// Of a method that follows the gradient: how its chains move, how many they are, and the most forward runs for
     /// the start of each. `None` for any other method.
-    pub fn trajectories(&self) -> Option<(hamiltonian::Settings, usize, u64)> {
+    ///
+    /// # Errors
+    /// Numbers that are no metric.
+    pub fn trajectories(&self) -> Result<Option<(hamiltonian::Settings, usize, u64)>, Fault> {
         let (length, own) = match self {
             Method::Hmc(own) => (Length::Fixed { steps: own.steps, jitter: own.jitter }, &own.common),
             Method::Nuts(own) => (Length::NoUTurn { max_depth: own.max_depth }, &own.common),
-            _ => return None,
+            _ => return Ok(None),
         };
+        let (shape, metric) = own.metric.read()?;
         let settings = hamiltonian::Settings {
             length,
             climb: own.climb,
@@ -328,11 +394,28 @@ impl Method {
             draws: own.draws,
             thin: own.thin,
             target_accept: own.target_accept,
-            shape: own.metric,
+            shape,
+            metric,
             step_size: own.step_size,
             ..hamiltonian::Settings::nuts()
         };
-        Some((settings, own.chains, own.tries))
+        Ok(Some((settings, own.chains, own.tries)))
+    }
+
+    /// Of variational inference: the plan of a search. `None` for any other method.
+    pub fn normals<'a>(
+        &self,
+        seed: u64,
+        known: Option<&'a HashMap<u128, Value>>,
+    ) -> Option<approximate::Plan<'a>> {
+        let Method::Vi(own) = self else { return None };
+        let family = match own.family {
+            Normals::MeanField => Some(Family::MeanField),
+            Normals::FullRank => Some(Family::FullRank),
+            Normals::Pathfinder => None,
+        };
+        let Vi { start, draws, steps, samples, tolerance, paths, tries, .. } = *own;
+        Some(approximate::Plan { family, start, draws, steps, samples, tolerance, paths, seed, tries, known })
     }
 
     /// Refuses settings that make no sense for an inference inside a model, which gives one value for each seed.
@@ -354,6 +437,7 @@ impl Method {
             Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
             Method::Improve(_) => refused("improve", "a search for the best is no sample"),
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
+            Method::Vi(_) => refused("vi", "no gradient is followed"),
             Method::Importance { proposal, .. } => proposed(proposal.as_ref(), &Given::default()).map(|_| ()),
             Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
             Method::ParticleGibbs(own) => own.settings(&Given::default()).map(|_| ()),

@@ -5,12 +5,14 @@
 //! and causes) or "compile" (a defect of the text or a limit of the machine).
 
 use niwaki_infer::Failure;
+use niwaki_infer::blame::{Blame, Emitted};
+use niwaki_infer::losses::Lost;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::Call;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList, PyTuple};
 
 pyo3::create_exception!(
     _engine,
@@ -53,11 +55,7 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
         Failure::Setting(fault) => about(fault, "setting")?,
         Failure::Impossible { barrier, causes, blame: (blame, looked_at), attempts, .. } => {
             facts.set_item("barrier", barrier)?;
-            let found = blame.iter().map(|one| {
-                let other = one.other.as_ref().map(place);
-                (one.constraint, place(&one.part), other, one.runs)
-            });
-            facts.set_item("blame", found.collect::<Vec<_>>())?;
+            facts.set_item("blame", blamed(py, blame, program)?)?;
             facts.set_item("looked_at", looked_at)?;
             let tried = attempts.iter().map(|one| (one.form, one.particles, one.died_at));
             facts.set_item("attempts", tried.collect::<Vec<_>>())?;
@@ -69,6 +67,23 @@ fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr
         }
     }
     with_facts(py, failure.to_string(), &facts)
+}
+
+/// What became impossible in a search that has a result: causes, the parts to blame, and of how many runs.
+pub fn losses<'py>(py: Python<'py>, lost: &Lost, program: &Program) -> PyResult<Bound<'py, PyTuple>> {
+    let blame = blamed(py, &lost.blame, program)?;
+    (lost.causes.clone(), blame, lost.looked_at).into_pyobject(py)
+}
+
+/// Constraint, part, other part and runs; a part as address, function, path and span.
+fn blamed<'py>(py: Python<'py>, blame: &[Blame], program: &Program) -> PyResult<Bound<'py, PyList>> {
+    let part = |one: &Emitted| {
+        let path = program.files.get(one.file as usize).map_or("", String::as_str);
+        (one.path.clone(), one.function.clone(), path.to_string(), <(u32, u32, u32, u32)>::from(one.span))
+    };
+    let found =
+        blame.iter().map(|one| (&one.constraint, part(&one.part), one.other.as_ref().map(part), one.runs));
+    PyList::new(py, found)
 }
 
 fn note(facts: &Bound<'_, PyDict>, fault: &Fault, kind: &str) -> PyResult<()> {

@@ -155,6 +155,18 @@ impl PyShape {
         self.0.color()
     }
 
+    /// From 0 to 1, or None.
+    #[getter]
+    fn metalness(&self) -> Option<f32> {
+        self.0.metalness()
+    }
+
+    /// From 0 to 1, or None.
+    #[getter]
+    fn roughness(&self) -> Option<f32> {
+        self.0.roughness()
+    }
+
     /// Smallest and largest corner of the box around the coarse mesh, scene units.
     fn aabb(&self) -> (Triple, Triple) {
         (self.0.aabb().low.to_array(), self.0.aabb().high.to_array())
@@ -258,6 +270,14 @@ impl PyTarget {
     /// Which cells are filled, (x, y, z) bool.
     fn cells<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<bool>> {
         Array3::from_shape_fn(self.0.grid().dims(), |(x, y, z)| self.0.contains([x, y, z])).into_pyarray(py)
+    }
+
+    /// Which cells a scene of ``shapes`` fills, (x, y, z) bool.
+    fn mask<'py>(&self, py: Python<'py>, shapes: Vec<PyShape>) -> Bound<'py, PyArray3<bool>> {
+        let shapes: Vec<Shape> = shapes.into_iter().map(|s| s.0).collect();
+        let mut mask = Array3::from_elem(self.0.grid().dims(), false);
+        py.detach(|| self.0.visit_filled(&shapes, |cell| mask[cell] = true));
+        mask.into_pyarray(py)
     }
 }
 

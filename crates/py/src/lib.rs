@@ -5,7 +5,7 @@
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
 //! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `positions`: where shapes are, with theirs;
-//!   `trajectories`: chains that follow them;
+//!   `trajectories`: chains that follow them; `normals`: normals near a distribution;
 //!   `networks`: networks of guides, for a comparison with other software;
 //! * `machine`: what the engine finds on this machine; `threads`: the pools of threads;
 //!   `shared`: values that several threads of Python use;
@@ -24,6 +24,7 @@ mod guides;
 mod machine;
 mod model;
 mod networks;
+mod normals;
 mod pictures;
 mod positions;
 mod runs;
@@ -56,6 +57,7 @@ fn _engine(module: &Bound<'_, PyModule>) -> PyResult<()> {
     faults::register(module)?;
     model::register(module)?;
     networks::register(module)?;
+    normals::register(module)?;
     runs::register(module)?;
     search::register(module)?;
     chains::register(module)?;

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 
 type Vertices<'py> = PyReadonlyArray2<'py, f64>;
 type Faces<'py> = PyReadonlyArray2<'py, i64>;
-type Mesh<'py> = (Vertices<'py>, Faces<'py>, Option<Vertices<'py>>, [f32; 3], [f32; 3]);
+type Mesh<'py> = (Vertices<'py>, Faces<'py>, Option<Vertices<'py>>, [f32; 3], [f32; 4]);
 type Corner = (f32, f32, f32);
 type Eye = (Corner, Corner, Corner, f32);
 
@@ -28,7 +28,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     Ok(())
 }
 
-/// Draws meshes `(vertices (n, 3), faces (m, 3), normals or None, sRGB colour, (gloss, rough, pitch))` as `(height, width, 4)` bytes.
+/// Draws meshes `(vertices (n, 3), faces (m, 3), normals or None, sRGB colour, (gloss, metal, rough, pitch))` as `(height, width, 4)` bytes.
 #[pyfunction(name = "render")]
 #[pyo3(signature = (meshes, ghost=None, *, camera=None, width=640, height=480, samples=16, backdrop=None, floor=None,
                     ghost_color=None))]
@@ -97,7 +97,7 @@ fn fine_mesh<'py>(py: Python<'py>, shape: &PyShape) -> Arrays<'py> {
     (points(&mesh.vertices), faces.into_pyarray(py), points(&mesh.normals))
 }
 
-fn surface((vertices, faces, normals, color, [gloss, rough, pitch]): &Mesh<'_>) -> PyResult<Surface> {
+fn surface((vertices, faces, normals, color, [gloss, metal, rough, pitch]): &Mesh<'_>) -> PyResult<Surface> {
     let count = faces.as_array().nrows();
     let mut corners = Vec::with_capacity(count);
     for face in faces.as_array().rows() {
@@ -113,6 +113,7 @@ fn surface((vertices, faces, normals, color, [gloss, rough, pitch]): &Mesh<'_>) 
         normals: normals.as_ref().map_or(Ok(Vec::new()), |n| triples(n, "normals"))?,
         color: *color,
         gloss: *gloss,
+        metal: *metal,
         rough: *rough,
         pitch: *pitch,
     })

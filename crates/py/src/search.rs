@@ -427,7 +427,7 @@ impl PyTask {
                 dict.set_item("unseen", result.unseen)?;
                 dict.set_item("log_unseen", Some(result.log_unseen).filter(|log| log.is_finite()))?;
             }
-            Info::Populations(result) => {
+            Info::Populations(result, lost) => {
                 dict.set_item("log_evidence", result.log_evidence)?;
                 dict.set_item("log_normaliser", result.log_normaliser)?;
                 dict.set_item("barriers", result.barriers)?;
@@ -436,6 +436,7 @@ impl PyTask {
                 dict.set_item("ancestors", result.ancestors)?;
                 dict.set_item("plan", PyTuple::new(py, result.plan)?)?;
                 dict.set_item("died", result.died)?;
+                dict.set_item("losses", faults::losses(py, &lost, &self.task.program)?)?;
                 dict.set_item("powers", PyTuple::new(py, result.powers)?)?;
                 let pair = |count: Count| (count.proposed, count.accepted);
                 dict.set_item("moved_running", pair(result.moved.running))?;
@@ -449,6 +450,7 @@ impl PyTask {
                 dict.set_item("rounds", PyTuple::new(py, rounds.clone().map(of))?)?;
                 dict.set_item("seconds", PyTuple::new(py, rounds.map(|round| round.time.as_secs_f64()))?)?;
                 dict.set_item("searches", result.searches)?;
+                dict.set_item("losses", faults::losses(py, &result.lost, &self.task.program)?)?;
             }
             Info::Chain(result) => {
                 dict.set_item("tries", result.tries)?;

@@ -41,6 +41,7 @@ impl PyTrajectories {
     ) -> PyResult<PyTrajectories> {
         let own = task.get();
         let (settings, chains, tries) = (own.read(py, method)?.trajectories())
+            .map_err(|fault| faults::setting(py, &fault))?
             .ok_or_else(|| PyTypeError::new_err("this method does not follow the gradient"))?;
         let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };

@@ -23,7 +23,7 @@ from niwaki.batches.running import Watch
 from niwaki.errors.settings import bad
 from niwaki.methods import Smc
 from niwaki.result import Result, Sample
-from niwaki.result.info import Count, PopulationInfo
+from niwaki.result.info import Count, Losses, PopulationInfo
 from niwaki.search import Search
 from niwaki.search.searching import Clock, carried_out, different
 
@@ -149,4 +149,5 @@ def _summed(
         powers=infos[0].powers,
         moved_running=moved("moved_running"),
         moved_ended=moved("moved_ended"),
+        losses=Losses.of_several(one.losses for one in infos),
     )

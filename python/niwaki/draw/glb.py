@@ -158,8 +158,8 @@ def _material(paint: Paint, name: str) -> dict[str, Any]:
         "name": name,
         "pbrMetallicRoughness": {
             "baseColorFactor": [*(round(_linear(c), 6) for c in paint.color), 1.0],
-            "metallicFactor": 0.0,
-            "roughnessFactor": round(0.9 - 0.55 * paint.gloss, 6),
+            "metallicFactor": round(paint.metalness, 6),
+            "roughnessFactor": round(paint.roughness, 6),
         },
     }
 

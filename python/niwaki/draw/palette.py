@@ -11,7 +11,7 @@ from __future__ import annotations
 import colorsys
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from niwaki._engine import Shape
 from niwaki.draw.scene import Part, Scene
@@ -23,6 +23,9 @@ GRAPHITES: tuple[Color, ...] = ((0.33, 0.35, 0.38), (0.40, 0.41, 0.43), (0.27, 0
 ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
+
+#: The roughness of chalk, and what lacquer takes from it.
+DULL, LACQUER = 0.9, 0.55
 
 #: Kinds of shapes that have bark where they have no colour, and then make a scene a garden.
 WOODEN = ("limb", "segment")
@@ -44,6 +47,10 @@ class Paint:
         From 0 (smooth) to 1 (foliage); in pictures only.
     pitch
         Size of the bumps of a rough surface, scene units.
+    metalness
+        From 0 to 1 (metal), as glTF has it.
+    given_roughness
+        That of the model, where it says one.
     """
 
     name: str
@@ -51,6 +58,20 @@ class Paint:
     gloss: float
     rough: float = 0.0
     pitch: float = 0.0
+    metalness: float = 0.0
+    given_roughness: float | None = None
+
+    @property
+    def roughness(self) -> float:
+        """From 0 (a mirror) to 1 (chalk), as glTF has it."""
+        return DULL - LACQUER * self.gloss if self.given_roughness is None else self.given_roughness
+
+    def finished(self, metalness: float | None, roughness: float | None) -> Paint:
+        """The paint with what a model says of its surface."""
+        if roughness is not None:
+            gloss = min(max((DULL - roughness) / LACQUER, 0.0), 1.0)
+            return replace(self, gloss=gloss, metalness=metalness or 0.0, given_roughness=roughness)
+        return self if metalness is None else replace(self, metalness=metalness)
 
 
 def paints(scene: Scene, like: Scene | None = None) -> list[list[Paint]]:
@@ -60,7 +81,13 @@ def paints(scene: Scene, like: Scene | None = None) -> list[list[Paint]]:
         shape.kind in WOODEN and shape.color is None for part in whole.parts for shape in part.shapes
     )
     extent = whole.size.max() if len(whole) else 1.0
-    return [[_paint(part, shape, garden, extent) for shape in part.shapes] for part in scene.parts]
+    return [
+        [
+            _paint(part, shape, garden, extent).finished(shape.metalness, shape.roughness)
+            for shape in part.shapes
+        ]
+        for part in scene.parts
+    ]
 
 
 def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:

@@ -161,7 +161,8 @@ def surfaces(scene: Scene, like: Scene | None = None) -> list[tuple[Any, ...]]:
     for part, part_paints in zip(scene.parts, paints(scene, like), strict=True):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
             vertices, faces, normals = _engine.fine_mesh(shape)
-            meshes.append((vertices, faces, normals, paint.color, (paint.gloss, paint.rough, paint.pitch)))
+            surface = (paint.gloss, paint.metalness, paint.rough, paint.pitch)
+            meshes.append((vertices, faces, normals, paint.color, surface))
     return meshes
 
 
@@ -219,4 +220,4 @@ def preview(scene: Scene) -> bytes:
 def _ghost(target: Volume) -> tuple[Any, ...]:
     """Make the target's mesh with normals that are smooth where it is smooth."""
     vertices, faces, normals = _engine.fine_mesh(_engine.Shape.mesh(target.vertices, target.faces))
-    return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
+    return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))

@@ -11,11 +11,10 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
-from niwaki.errors.kinds import place
 from niwaki.errors.messages import MESSAGES
 from niwaki.errors.settings import MOST, bad, is_whole
-from niwaki.errors.source import Span
 from niwaki.lang import vocabulary
+from niwaki.lang.blame import Blame, marked
 from niwaki.lang.core import Core
 from niwaki.lang.lower import lower
 from niwaki.lang.marks import Marked, P, T
@@ -152,6 +151,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return InputError("machine-limit", found=fault.message)
     if fault.code == "no-continuous-choices":
         return InputError(fault.code)
+    if fault.code == "no-normal-fits":
+        return InputError(fault.code, name=name, found=fault.message)
     if fault.code == "no-address":
         return InputError("no-address", pattern=fault.subject, name=name, nearest=fault.help or "none")
     if fault.code in ("no-part", "many-parts"):
@@ -168,14 +169,16 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
             return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
+        blame = [Blame.of(one) for one in fault.blame]
         return InputError(
             "everything-impossible",
-            _places(fault.blame, fault.looked_at),
+            marked(blame, fault.looked_at),
             barrier=f"barrier {fault.barrier}" if fault.barrier else "the end",
             count=total,
             constraint=causes,
             cure=_cure(fault),
-            elsewhere=_elsewhere(fault.blame),
+            often=f"{blame[0]} in {blame[0].runs} of {fault.looked_at}" if blame else "",
+            elsewhere="; ".join(f"{one} in {one.runs}" for one in blame[1:4]),
             attempts=_tried(fault.attempts),
         )
     if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:
@@ -194,13 +197,6 @@ CURES = {
 }
 
 
-#: A part that breaks a constraint alone, or with another, by the name of the constraint.
-BREAKS = {
-    "floor": "reaches below the floor",
-    "avoid": "reaches into the obstacle",
-    "no_self_intersection": "runs into another part",
-}
-
 #: Where one place forbids this share of the runs, more of them do not help.
 NEARLY_ALL = 0.9
 
@@ -212,33 +208,6 @@ def _cure(fault: Any) -> str:
     often = max((runs for *_, runs in fault.blame), default=0)
     hopeless = fault.barrier <= 1 or (fault.looked_at and often >= NEARLY_ALL * fault.looked_at)
     return first if hopeless else f"{first}; more particles may help, as runs die late and in many places"
-
-
-def _places(blame: list[Any], looked_at: int) -> list[tuple[Span, str]]:
-    """Where the parts are emitted that break a constraint most often; `looked_at` is the number of runs."""
-    if not blame:
-        return []
-    constraint, part, other, runs = blame[0]
-    what = BREAKS.get(constraint, f"breaks {constraint}")
-    often = f"in {runs} of {looked_at} runs"
-    first, second = place(part[1], *part[2]), None if other is None else place(other[1], *other[2])
-    if second is None:
-        return [(first, f"{what} {often}")]
-    if second == first:
-        return [(first, f"one of these {what} of this line {often}")]
-    return [(first, f"{what} {often}"), (second, "the other part")]
-
-
-def _elsewhere(blame: list[Any]) -> str:
-    """Where other runs broke a constraint."""
-
-    def line(call: Any) -> str:
-        return f"`{call[0]}`, line {call[2][0]}"
-
-    return "; ".join(
-        f"{constraint} at {line(part)}{'' if other is None else f' with {line(other)}'} ({runs})"
-        for constraint, part, other, runs in blame[1:4]
-    )
 
 
 def _tried(attempts: list[tuple[str, int, int | None]]) -> str:

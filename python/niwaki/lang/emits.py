@@ -1,6 +1,6 @@
-"""`emit` to core form: its shapes, the name of its part, and a colour for the shapes that have none.
+"""`emit` to core form: its shapes, the name of its part, and a look (colour, metalness, roughness) for plain shapes.
 
-A name is a part of addresses, so it is known when the model is compiled (`sites`). A colour is written into the shapes:
+A name is a part of addresses, so it is known when the model is compiled (`sites`). A look is written into the shapes:
 the engine has no operation that paints one. So it is for shapes that are made inside of the `emit`, directly, in lists
 and in comprehensions, and what makes them must not draw it: it is computed once, before them.
 """
@@ -18,9 +18,9 @@ from niwaki.lang.core import Expr
 from niwaki.lang.expressions import expression, expressions, lowers, static
 from niwaki.lang.marks import underlying
 from niwaki.lang.sites import part_name
-from niwaki.words.shapes import SHAPES
+from niwaki.words.shapes import LOOKS, SHAPES
 
-KEYWORDS = ("name", "color")
+KEYWORDS = ("name", *LOOKS)
 
 
 class _Computed(ast.expr):
@@ -47,26 +47,31 @@ def emit(body: Body, node: ast.Call) -> Expr:
             name="emit",
             expected="at least 1 shape",
             found="0",
-            parameters="shapes, [name], [color]",
+            parameters="shapes, " + ", ".join(f"[{one}]" for one in KEYWORDS),
         )
     given = {keyword.arg: keyword.value for keyword in node.keywords}
-    name, color = given.get("name"), given.get("color")
+    name = given.get("name")
     if name is not None and not _is_none(name) and part_name(node) is None:
         body.refuse("emit-name", name)
-    if color is None or _is_none(color):
+    looks = {key: given[key] for key in LOOKS if key in given and not _is_none(given[key])}
+    if not looks:
         return body.form("emit", expressions(body, node.args), node)
-    if any(one in body.unit.labels for one in ast.walk(color)):
-        body.refuse("emit-color", color)
+    for value in looks.values():
+        if any(one in body.unit.labels for one in ast.walk(value)):
+            body.refuse("emit-color", value)
     makers = [maker for arg in node.args for maker in _makers(body, arg)]
-    coat = ast.copy_location(_Computed(), color)
-    coat.core = body.kept(expression(body, color))
-    plain = [maker for maker in makers if not _has_color(body, maker)]
-    for maker in plain:
-        maker.keywords.append(ast.copy_location(ast.keyword("color", coat), color))
+    added: list[ast.Call] = []
+    for key, value in looks.items():
+        coat = ast.copy_location(_Computed(), value)
+        coat.core = body.kept(expression(body, value))
+        for maker in makers:
+            if _takes(body, maker, key):
+                maker.keywords.append(ast.copy_location(ast.keyword(key, coat), value))
+                added.append(maker)
     try:
         return body.form("emit", expressions(body, node.args), node)
     finally:
-        for maker in plain:
+        for maker in added:
             maker.keywords.pop()
 
 
@@ -95,10 +100,12 @@ def makes_a_shape(node: ast.expr, body: Body) -> TypeGuard[ast.Call]:
     return isinstance(node, ast.Call) and any(_word(body, node) is word for word in SHAPES)
 
 
-def _has_color(body: Body, node: ast.Call) -> bool:
-    """Whether a call of a shape's word has a colour of its own."""
-    count = len(vocabulary.OPERATIONS[_word(body, node)].parameters)
-    return len(node.args) >= count or any(keyword.arg == "color" for keyword in node.keywords)
+def _takes(body: Body, node: ast.Call, key: str) -> bool:
+    """Whether a call of a shape's word can have this, and has none of its own."""
+    names = [one.name for one in vocabulary.OPERATIONS[_word(body, node)].parameters]
+    if key not in names:
+        return False
+    return len(node.args) <= names.index(key) and all(keyword.arg != key for keyword in node.keywords)
 
 
 def _word(body: Body, node: ast.Call) -> object:

@@ -15,7 +15,7 @@ from typing import Any
 from niwaki import words
 from niwaki.lang.core import is_literal
 from niwaki.words.distributions import FAMILIES, Distribution
-from niwaki.words.shapes import SHAPES
+from niwaki.words.shapes import LOOKS, SHAPES
 
 
 @dataclass(frozen=True)
@@ -123,9 +123,18 @@ def _word(function: Any, omit: bool) -> Op:
     return Op(function.__name__, given)
 
 
+def _shape(function: Any) -> Op:
+    """A word for a shape; of its look only the colour is written where it is left out."""
+    given = _word(function, False).parameters
+    return Op(
+        function.__name__,
+        tuple(Parameter(p.name, OMITTED) if p.name in LOOKS[1:] else p for p in given),
+    )
+
+
 WORDS: dict[Any, Op] = {
     **{function: _word(function, True) for function in (*_VECTORS, *_COLORS, *_POLYGONS, *_NUMBERS, *_SOFT)},
-    **{function: _word(function, False) for function in SHAPES},
+    **{function: _shape(function) for function in SHAPES},
 }
 
 OPERATIONS: dict[Any, Op] = {**BUILTINS, **MATH, **WORDS}

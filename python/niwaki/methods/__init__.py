@@ -4,6 +4,7 @@ direct      forward runs, enumeration, rejection, likelihood weighting
 particles   sequential Monte Carlo, and chains whose proposals are populations
 chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
+normals     variational inference
 improve     a search for the best run, by several of these
 guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
@@ -28,6 +29,7 @@ from niwaki.methods.gradients import METRICS, Hmc, Nuts, explore, hmc, nuts
 from niwaki.methods.guide import Guide
 from niwaki.methods.improve import Improve, improve
 from niwaki.methods.method import Method
+from niwaki.methods.normals import FAMILIES, STARTS, Vi, vi
 from niwaki.methods.particles import (
     ORDERS,
     RESAMPLING,
@@ -41,9 +43,11 @@ from niwaki.methods.particles import (
 )
 
 __all__ = [
+    "FAMILIES",
     "METRICS",
     "ORDERS",
     "RESAMPLING",
+    "STARTS",
     "STRATEGIES",
     "WEIGHTS",
     "EnumerateAll",
@@ -59,6 +63,7 @@ __all__ = [
     "Pimh",
     "Rejection",
     "Smc",
+    "Vi",
     "at_least_one",
     "enumerate_all",
     "explore",
@@ -72,4 +77,5 @@ __all__ = [
     "pimh",
     "rejection",
     "smc",
+    "vi",
 ]

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from niwaki.errors.settings import bad, count, is_number
 from niwaki.methods.checks import at_least_one, one_of
@@ -39,7 +42,8 @@ class Hmc(Method):
     metric
         What the warm-up learns of the target's shape: "diagonal", a scale for each coordinate; "low-rank", and a few
         directions; "dense", the whole covariance, which suits nearly normal targets; "unit", nothing (the
-        dissertation's setting).
+        dissertation's setting). Or numbers, kept as they are: the variance of each coordinate, or a covariance by rows,
+        such as the `metric` of a result of `vi`.
     step_size
         A step to keep instead of an adapted one.
     climb
@@ -61,7 +65,7 @@ class Hmc(Method):
     warmup: int = 1000
     thin: int = 1
     target_accept: float = 0.65
-    metric: str = "diagonal"
+    metric: str | tuple[float | tuple[float, ...], ...] = "diagonal"
     step_size: float | None = None
     climb: int = 0
     tries: int = 1000
@@ -96,7 +100,7 @@ class Nuts(Method):
     warmup: int = 1000
     thin: int = 1
     target_accept: float = 0.8
-    metric: str = "diagonal"
+    metric: str | tuple[float | tuple[float, ...], ...] = "diagonal"
     step_size: float | None = None
     climb: int = 0
     tries: int = 1000
@@ -138,8 +142,29 @@ def _check(method: Hmc | Nuts) -> None:
     step = method.step_size
     if step is not None and (not is_number(step) or not 0 < step < float("inf")):
         raise bad("step_size", step, "a number above 0", "0.1, or leave it out")
-    one_of("metric", method.metric, METRICS)
+    _check_metric(method)
     for name in ("draws", "thin"):
         count(name, getattr(method, name), most=MOST, usual="1000")
     for name in ("chains", "tries"):
         at_least_one(name, getattr(method, name))
+
+
+def _check_metric(method: Hmc | Nuts) -> None:
+    """Check the name of a metric, or make its numbers a tuple."""
+    metric: Any = method.metric
+    if isinstance(metric, str):
+        one_of("metric", metric, METRICS)
+        return
+    expected = f"one of {', '.join(METRICS)}, or variances or a covariance as numbers"
+    try:
+        given = np.asarray(metric, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise bad("metric", metric, expected, '"diagonal"') from None
+    square = given.ndim == 2 and given.shape[0] == given.shape[1]
+    is_sound = (
+        given.size and np.isfinite(given).all() and (square or given.ndim == 1 and bool((given > 0.0).all()))
+    )
+    if not is_sound:
+        raise bad("metric", metric, expected, '"diagonal"')
+    rows = given.tolist()
+    method._set("metric", tuple(tuple(row) if isinstance(row, list) else row for row in rows))

@@ -17,6 +17,7 @@ from niwaki.methods.gradients import Hmc, Nuts
 from niwaki.methods.improve import Improve
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
+from niwaki.methods.normals import Vi
 from niwaki.methods.particles import ParticleGibbs, Pimh, Smc
 
 #: Bytes of a run that is kept, of a particle, of a chain, of a chain that follows the gradient, of one of its
@@ -59,6 +60,9 @@ def _needs(method: Method) -> Iterator[Need]:
         case Hmc() | Nuts():
             yield "chains", method.chains, GRADIENT_CHAIN, "chain"
             yield "draws", method.draws * method.chains, DRAW, "draw of each chain"
+        case Vi():
+            yield "paths", method.paths, GRADIENT_CHAIN, "path"
+            yield "draws", method.draws * method.paths, DRAW, "draw of each path"
     for kernel in (getattr(method, name, None) for name in ("kernel", "rejuvenate")):
         if isinstance(kernel, Kernel):
             yield from _of_kernel(kernel)

@@ -4,7 +4,9 @@ result       `Result`, a sequence of samples
 sample       `Sample`, one run
 info         the statistics of each method
 chains       statistics of Markov chains, and how chains continue
+drawn        draws that are kept as numbers
 hmc          statistics of chains that follow a gradient
+normals      normals of variational inference
 progress     how far a search is
 diagnostics  whether draws of chains can be trusted; draws for ArviZ
 gradient     the log density of a run, with its gradient

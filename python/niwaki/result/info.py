@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from math import exp, inf
 from typing import Any, NamedTuple
+
+from niwaki.lang.blame import Blame
 
 
 class Count(NamedTuple):
@@ -12,6 +16,60 @@ class Count(NamedTuple):
 
     proposed: int = 0
     kept: int = 0
+
+
+class Losses(NamedTuple):
+    """Partial runs that became impossible at barriers where others of their population lived. Its text is one line.
+
+    Attributes
+    ----------
+    causes : tuple of (str, int)
+        What made them impossible, and how many; most frequent first.
+    blame : tuple of Blame
+        The parts that broke a constraint, most frequent first.
+    looked_at : int
+        In how many of the runs these were looked for.
+    """
+
+    causes: tuple[tuple[str, int], ...] = ()
+    blame: tuple[Blame, ...] = ()
+    looked_at: int = 0
+
+    @classmethod
+    def of_several(cls, losses: Iterable[Losses]) -> Losses:
+        """Those of several populations together."""
+        causes: Counter[str] = Counter()
+        blame: dict[Any, Blame] = {}
+        looked_at = 0
+        for one in losses:
+            causes.update(dict(one.causes))
+            looked_at += one.looked_at
+            for own in one.blame:
+                key = own.constraint, own.part[1:], own.other and own.other[1:]
+                known = blame.get(key)
+                blame[key] = own if known is None else known._replace(runs=known.runs + own.runs)
+        ranked = sorted(blame.values(), key=lambda own: -own.runs)
+        return cls(tuple(causes.most_common()), tuple(ranked), looked_at)
+
+    @property
+    def total(self) -> int:
+        """How many partial runs were lost."""
+        return sum(count for _, count in self.causes)
+
+    def __str__(self) -> str:
+        """How many, by what, and which parts; empty where none was lost."""
+        if not self.causes:
+            return ""
+        by = ", ".join(f"{cause} ({count:,})" for cause, count in self.causes)
+        said = [f"lost on the way: {self.total:,} partial run{'' if self.total == 1 else 's'}, by {by}"]
+        of = "" if self.looked_at == self.total else " that were looked at"
+        said += [f"{one} in {one.runs} of {self.looked_at}{of}" for one in self.blame[:1]]
+        return "; ".join(said)
+
+
+def _losses(data: Any) -> Losses:
+    causes, blame, looked_at = data
+    return Losses(tuple((cause, count) for cause, count in causes), tuple(map(Blame.of, blame)), looked_at)
 
 
 @dataclass(frozen=True)
@@ -104,6 +162,8 @@ class PopulationInfo(Info):
         The power at each barrier where it is not constant, of the first population.
     moved_running, moved_ended : Count
         Proposals of rejuvenation: of particles that still ran, and of those that had ended.
+    losses : Losses
+        Particles that became impossible while others lived.
     """
 
     log_normaliser: float | None = None
@@ -116,9 +176,11 @@ class PopulationInfo(Info):
     powers: tuple[float, ...] = ()
     moved_running: Count = Count()  # noqa: RUF009
     moved_ended: Count = Count()  # noqa: RUF009
+    losses: Losses = Losses()  # noqa: RUF009
 
     def __post_init__(self) -> None:
         """Name the counts of the engine."""
+        object.__setattr__(self, "losses", _losses(self.losses))
         for name in ("moved_running", "moved_ended"):
             object.__setattr__(self, name, Count(*getattr(self, name)))
 
@@ -186,6 +248,8 @@ class ImproveInfo(Info):
         That population, and then each round.
     searches : int
         Searches for results that differ.
+    losses : Losses
+        Particles of the first population that lived, which became impossible.
     seconds : tuple of float
         When each round ended, from the beginning, by the clock. Two searches with other seconds alone are equal.
     """
@@ -193,10 +257,12 @@ class ImproveInfo(Info):
     attempts: tuple[Attempt, ...] = ()
     rounds: tuple[Round, ...] = ()
     searches: int = 1
+    losses: Losses = Losses()  # noqa: RUF009
     seconds: tuple[float, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         """Name the rounds of the engine."""
+        object.__setattr__(self, "losses", _losses(self.losses))
         object.__setattr__(self, "attempts", tuple(Attempt(*one) for one in self.attempts))
         object.__setattr__(self, "rounds", tuple(Round(*one) for one in self.rounds))
 

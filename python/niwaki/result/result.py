@@ -26,8 +26,10 @@ from niwaki.methods import Method, Mh, at_least_one
 from niwaki.once import cached_property
 from niwaki.result import diagnostics
 from niwaki.result.chains import MhInfo
-from niwaki.result.hmc import HmcInfo, together
+from niwaki.result.drawn import DrawnInfo, together
+from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import EnumerationInfo, Info
+from niwaki.result.normals import ViInfo
 from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
 from niwaki.targets.sketches import Score, View
@@ -132,7 +134,7 @@ class Result(Sequence[Sample]):
         continuous choices); of as many samples as the shortest chain has. Where samples have weights, they are not
         among these: see `weights`.
         """
-        if isinstance(self.info, HmcInfo):
+        if isinstance(self.info, DrawnInfo):
             return self.info.draws
         least = min(self.sizes, default=0)
         return together([_columns(chain[:least]) for chain in self.by_chain])
@@ -145,7 +147,7 @@ class Result(Sequence[Sample]):
         FileError
             ArviZ is not installed.
         """
-        if isinstance(self.info, HmcInfo):
+        if isinstance(self.info, HmcInfo | ViInfo):
             return diagnostics.to_arviz(self.draws, self.info.statistics())
         numbers = {"lp": self._numbers("log_joint"), "log_weight": self._numbers("log_weight")}
         return diagnostics.to_arviz(self.draws, numbers)
@@ -164,7 +166,7 @@ class Result(Sequence[Sample]):
             return diagnostics.summarise(
                 {**self.draws, "log density": self.info.log_density}, self.info.divergences
             )
-        if len({sample.log_weight for sample in self.samples}) > 1:
+        if len(set(self._log_weights())) > 1:
             raise bad(
                 "method",
                 self.method,
@@ -193,7 +195,7 @@ class Result(Sequence[Sample]):
         pool: Sequence[Sample] = self.samples
         if isinstance(self.info, MhInfo):
             pool = self.info.bests
-        elif isinstance(self.info, HmcInfo) and len(pool):
+        elif isinstance(self.info, DrawnInfo) and len(pool):
             pool = [self.samples[self.info.best_draw]]
         if not len(pool):
             raise InputError("no-runs", detail=repr(self))
@@ -309,7 +311,7 @@ class Result(Sequence[Sample]):
         """
         if self.search.runs > 1 and self.search.method.NAME == "smc":
             raise InputError("weights-of-runs", runs=self.search.runs)
-        logs = np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
+        logs = self._log_weights()
         if len(logs) == 0:
             return logs
         if logs.max() == -math.inf:
@@ -320,6 +322,30 @@ class Result(Sequence[Sample]):
             )
         raw = np.exp(logs - logs.max())
         return np.asarray(raw / raw.sum())
+
+    def _log_weights(self) -> NDArray[np.float64]:
+        """Logs of the weights, (n,)."""
+        if isinstance(self.info, DrawnInfo):
+            return np.zeros(len(self)) if self.info.log_weights is None else self.info.log_weights
+        return np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
+
+    def resampled(self, n: int, seed: int | None = None) -> list[Sample]:
+        """Samples of equal weight, drawn by their weights: systematic resampling.
+
+        Parameters
+        ----------
+        n
+            How many; a sample of a large weight is there several times.
+        seed
+            Decides which; that of the search when left out.
+        """
+        at_least_one("n", n)
+        first = np.random.default_rng(self.seed if seed is None else seed).random()
+        ends = np.cumsum(self.weights)
+        if not len(ends):
+            raise InputError("no-runs", detail=repr(self))
+        places = np.searchsorted(ends, (np.arange(n) + first) / n * ends[-1], side="right")
+        return [self.samples[int(place)] for place in np.minimum(places, len(ends) - 1)]
 
     def distribution(self) -> dict[Any, float]:
         """The probability of each value: exact for enumeration, weighted shares of the samples else.
@@ -348,12 +374,12 @@ class Result(Sequence[Sample]):
         """Draw the best scene into an image file."""
         return self.best.save(path, **settings)
 
-    def sheet(self, **settings: Any) -> Any:
-        """All samples side by side, best first, each with its number, from 1, and its scores.
+    def sheet(self, *, most: int | None = None, **settings: Any) -> Any:
+        """All samples side by side, or the best so many; best first, each with its number, from 1, and its scores.
 
         Where an image or a shadow is matched and no volume, they are seen from its camera.
         """
-        ranked = sorted(enumerate(self.samples, 1), key=lambda one: -one[1].log_score)
+        ranked = sorted(enumerate(self.samples, 1), key=lambda one: -one[1].log_score)[:most]
         scenes = [sample.scene for _, sample in ranked]
         captions = [caption(sample, number) for number, sample in ranked]
         if self.score.window is not None:
@@ -365,6 +391,23 @@ class Result(Sequence[Sample]):
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None
 
+    def _repr_html_(self) -> str:
+        """The best sample and the numbers of the search; a small sheet where each sample is a run of its own."""
+        rows: dict[str, Any] = {"method": self.method.NAME, "samples": len(self)}
+        png = None
+        if self.samples or isinstance(self.info, MhInfo):
+            rows |= {f"best {name}": value for name, value in self.best.numbers.items() if name != "seed"}
+            png = self.best._repr_png_()
+        if (
+            png is not None
+            and len(self) > 1
+            and (self.method.NAME == "improve" or len(self) == self.search.runs)
+        ):
+            png = draw.picture.png(self.sheet(most=6, size=(240, 180), samples=1))
+        rows |= {"log evidence": self.log_evidence, "seed": self.seed, "seconds": f"{self.seconds:.2f}"}
+        rows |= {"invalid": sum(self.invalid.values()) or None, "interrupted": self.interrupted or None}
+        return draw.card.card(f"Result of {self.model.name}", rows, png)
+
     def _outside(self) -> list[str]:
         """The part of the summary about runs in which a distribution was invalid."""
         return [f"{sum(self.invalid.values())} invalid"] if self.invalid else []
@@ -375,6 +418,10 @@ class Result(Sequence[Sample]):
             parts = [f"{len(self.info.table)} values, {self.info.runs} runs"]
         elif isinstance(self.info, HmcInfo):
             parts = [*parts, f"{self.info.gradients} gradients", *self.info.divergences.named]
+        elif isinstance(self.info, ViInfo):
+            own = self.info
+            bound = f"evidence bound {own.log_evidence_bound:.4g} ({own.bound_error:.1g})"
+            parts = [*parts, f"{own.gradients} gradients", bound, f"k-hat {own.k_hat:.2f}"]
         elif self.samples or isinstance(self.info, MhInfo):
             parts.append(f"best log score {self.best.log_score:.2f}")
             if self.best.fit is not None:

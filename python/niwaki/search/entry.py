@@ -62,7 +62,7 @@ def run(
         Its arguments.
     method
         `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
-        `importance(...)`, `hmc(...)`, `nuts(...)` or `forward(...)`, which is also what happens when it is left out.
+        `importance(...)`, `hmc(...)`, `nuts(...)`, `vi(...)` or `forward(...)`, also what happens when it is left out.
         It may also be the argument after the model.
     score
         What its scene should be like.
@@ -70,8 +70,8 @@ def run(
         Decides every random choice; fresh when left out.
     choices
         Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
-        missing ones are an error where it is not. With `mh`, `hmc`, `nuts` and `particle_gibbs`, the chains start from
-        them.
+        missing ones are an error where it is not. With `mh`, `hmc`, `nuts`, `vi`, `particle_gibbs` the search starts
+        from them.
     lock
         Values of choices by address that every run has; see `Search`.
     max_steps

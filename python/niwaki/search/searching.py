@@ -16,11 +16,12 @@ from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, at_least_one
+from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
 from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
-from niwaki.result.hmc import Drawn, HmcInfo
+from niwaki.result.drawn import Drawn, DrawnInfo
+from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import (
     INFOS,
     ImproveInfo,
@@ -30,6 +31,7 @@ from niwaki.result.info import (
     stored_info,
     without_evidence,
 )
+from niwaki.result.normals import ViInfo
 from niwaki.result.progress import EngineWatch, Watch, watcher
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads
@@ -105,7 +107,7 @@ def carried_out(
             interrupted = True
             break
         # Several runs share the statistics of the last one, without evidence; runs of chains have none.
-        if not isinstance(one.info, MhInfo | HmcInfo):
+        if not isinstance(one.info, MhInfo | DrawnInfo):
             info = without_evidence(one.info)
         interrupted = one.interrupted
         invalid.update(one.invalid)
@@ -190,11 +192,8 @@ def _lost(error: InputError | ModelFault) -> str:
     """What made a run impossible, where, and what helps."""
     if not isinstance(error, InputError):
         return f": {error.message}"
-    said = [
-        f"line {span.line} {label}" if n == 0 else f"({label}: line {span.line})"
-        for n, (span, label) in enumerate(error.places)
-    ] or [str(error.values.get("constraint", ""))]
-    return f": {' '.join(said)}; {error.values.get('cure', '')}"
+    said = error.values.get("often") or error.values.get("constraint", "")
+    return f": {said}; {error.values.get('cure', '')}"
 
 
 def _check_guide(search: Search, guide: Guide) -> None:
@@ -233,7 +232,7 @@ def _check_weights(result: Result) -> None:
 
 def starts(method: Method) -> bool:
     """Whether a method starts from a run whose choices are given."""
-    return isinstance(method, Mh | Hmc | Nuts | ParticleGibbs)
+    return isinstance(method, Mh | Hmc | Nuts | Vi | ParticleGibbs)
 
 
 def given(search: Search, seed: int | None = None) -> Result:
@@ -263,6 +262,8 @@ def searched(
         return chains_of(search, search.method, seed, threads, watch, start, stage=stage)
     if isinstance(search.method, Hmc | Nuts):
         return trajectories(search, search.method, seed, threads, watch, start)
+    if isinstance(search.method, Vi):
+        return normals(search, search.method, seed, threads, watch, start)
     method, attached = _written(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
@@ -382,6 +383,33 @@ def trajectories(
         seconds=seconds,
     )
     info.warn(method)
+    return result
+
+
+def normals(
+    search: Search,
+    method: Vi,
+    seed: int,
+    threads: int | None,
+    watch: EngineWatch,
+    start: _engine.Run | None,
+) -> Result:
+    """Normals near the model's distribution."""
+    counted, clock = search.task.uncounted(), Clock()
+    with translated(search.model.name, f"seed={seed}"):
+        found = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
+    info, seconds = ViInfo.of(search, seed, found), clock.read()
+    result = Result(
+        search,
+        Drawn(info, seconds),
+        seed,
+        info=info,
+        sizes=info.sizes,
+        interrupted=found.interrupted,
+        invalid=counted.invalid(),
+        seconds=seconds,
+    )
+    info.warn(method, found.interrupted)
     return result
 
 

@@ -1,4 +1,4 @@
-"""A drag that a number of the source explains, as a change of the model's file: a default, or a literal.
+"""Changes of a model's file: numbers that explain a drag, defaults or literals; and arguments as defaults.
 
 The program is recorded once more with each real number of the model's file as something that may move, and no choice. A
 choice whose distribution has such a number keeps its place in it (`crates/grad/src/positions.rs`), so that the mean of
@@ -21,11 +21,12 @@ import niwaki
 from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
-from niwaki.errors.source import Span, find_function, span_of
+from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.lang.compiled import compile_core, translated
 from niwaki.lang.lower import lower
 
 if TYPE_CHECKING:
+    from niwaki.lang.models import Model
     from niwaki.search.drag.held import Held, Vector
     from niwaki.search.request import Search
 
@@ -50,7 +51,7 @@ class Edit:
 
 @dataclass(frozen=True)
 class SourceChange:
-    """A change of a model's file that takes a part to a point.
+    """A change of a model's file.
 
     Attributes
     ----------
@@ -59,7 +60,7 @@ class SourceChange:
     edits : tuple of Edit
         What changes.
     share : float
-        What is left to the point, as a share of the scene's size.
+        Of a drag, what is left to the point, as a share of the scene's size.
     choices : dict
         Choices that keep their places in distributions that have changed, with their values.
     arguments : dict
@@ -70,7 +71,7 @@ class SourceChange:
     edits: tuple[Edit, ...]
     share: float
     choices: dict[str, float]
-    arguments: dict[str, float]
+    arguments: dict[str, Any]
     text: str
 
     @property
@@ -121,18 +122,11 @@ class _Number:
 def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
     """The changes of the model's file that take the held point to a goal, those that change the source least first."""
     model = held.search.model
-    function = getattr(model, "function", None)
-    found = None if function is None else find_function(function)
-    if function is None or found is None:
+    found = _source(model)
+    if found is None:
         return []
-    file, node = found
-    path = Path(file.path)
-    if not path.is_file() or Path(niwaki.__file__).parent in path.resolve().parents:
-        return []
-    text = path.read_bytes().decode()
-    if tuple(line.rstrip("\r") for line in text.removesuffix("\n").split("\n")) != file.lines:
-        return []
-    core = lower(function, lifts=True)
+    file, node, text = found
+    core = lower(model.function, lifts=True)
     numbers = [
         _Number("constants", key, span, core.constants[key])
         for key, span in core.lifted.items()
@@ -160,6 +154,55 @@ def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
     # A group of which one number changes is that number alone.
     different = {one.edits: one for one in reversed(changes) if one.edits}
     return sorted(different.values(), key=lambda one: sum(map(_size, one.edits)))[:most]
+
+
+def as_defaults(model: Model[..., Any], arguments: Mapping[str, Any]) -> SourceChange | None:
+    """The change of the model's file that makes arguments the defaults of their parameters.
+
+    Parameters
+    ----------
+    model
+        The model.
+    arguments
+        Values by parameter; left out are those whose default is not written as a number, a text or a truth value.
+
+    Returns
+    -------
+    None where nothing changes, or where the file is not the user's, or not as it was read.
+    """
+    found = _source(model)
+    if found is None:
+        return None
+    file, node, text = found
+    edits, changed = [], {}
+    for _, name, default in _defaults(node):
+        try:
+            before = ast.literal_eval(default)
+        except ValueError:
+            continue
+        value = arguments.get(name, before)
+        if isinstance(before, float) and isinstance(value, int):
+            value = float(value)
+        if type(value) is type(before) and value != before and isinstance(value, bool | int | float | str):
+            span = span_of(default, file)
+            edits.append(Edit(span.line, span.column, span.end_column, span.text, repr(value)))
+            changed[name] = value
+    return SourceChange(file.path, tuple(edits), 0.0, {}, changed, text) if edits else None
+
+
+def _source(model: Any) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda, str] | None:
+    """The file of a model, its function there and the text; None for a file of ours, or that has changed meanwhile."""
+    function = getattr(model, "function", None)
+    found = None if function is None else find_function(function)
+    if found is None:
+        return None
+    file, node = found
+    path = Path(file.path)
+    if not path.is_file() or Path(niwaki.__file__).parent in path.resolve().parents:
+        return None
+    text = path.read_bytes().decode()
+    lines = tuple(line.rstrip("\r") for line in text.removesuffix("\n").split("\n"))
+    return (file, node, text) if lines == file.lines else None
 
 
 @dataclass

@@ -19,6 +19,8 @@ import secrets
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.studio.document import Document
@@ -151,7 +153,11 @@ class Journal:
         changes: dict[str, Any] = {}
         for step in self._line():
             changes |= self._changes[step]
-        return Document().changed(changes)
+        try:
+            return Document().changed(changes)
+        except (msgspec.ValidationError, TypeError) as error:
+            reason = f"a step of it is not one of this version: {error}"
+            raise InputError("bad-run-file", path=self.folder / "journal.jsonl", reason=reason) from error
 
     def runs_file(self, number: int) -> Path:
         """The file of a run."""

@@ -100,18 +100,12 @@ def _measured(spec: _engine.SketchSpec, scene: Scene) -> dict[str, float]:
 
 
 def cells(score: Score, scene: Scene) -> Cells | None:
-    """Which cells of its target a scene fills, as its first `match_volume` counts them; None without one.
-
-    The engine's sketch is asked: a box inside some cells adds as many filled cells as of these were empty. So the
-    sums over the cells are those of the score to the unit.
-    """
+    """Which cells of its target a scene fills, as its first `match_volume` counts them; None without one."""
     for call in score.asks:
         if call.function == "match_volume" and call.grid is not None:
-            sketch = _engine.Sketch([call.spec])
-            for part in scene:
-                sketch.add(list(part.shapes))
             low, high = np.asarray(call.grid.domain)
-            return Cells(low, high, call.grid.cells(), _filled(sketch, low, high, call.grid.dims))
+            made = call.grid.mask([shape for part in scene for shape in part.shapes])
+            return Cells(low, high, call.grid.cells(), made)
     return None
 
 
@@ -131,30 +125,3 @@ class Cells:
     high: NDArray[np.float64]
     wanted: NDArray[np.bool_]
     made: NDArray[np.bool_]
-
-
-def _filled(
-    sketch: _engine.Sketch, low: NDArray[np.float64], high: NDArray[np.float64], dims: tuple[int, int, int]
-) -> NDArray[np.bool_]:
-    """The cells that are filled: blocks that are neither full nor empty are halved."""
-    corner: list[float] = low.tolist()
-    size: list[float] = ((high - low) / np.array(dims)).tolist()
-    made = np.zeros(dims, dtype=np.bool_)
-    filled = sketch.measures()["filled"]
-    waiting: list[tuple[tuple[int, ...], tuple[int, ...]]] = [((0, 0, 0), dims)]
-    while waiting:
-        first, last = waiting.pop()
-        sides = [b - a for a, b in zip(first, last, strict=True)]
-        center = [c + 0.5 * (a + b) * s for c, a, b, s in zip(corner, first, last, size, strict=True)]
-        block = Shape.box(center, [(n - 0.5) * s for n, s in zip(sides, size, strict=True)])
-        sketch.add([block])
-        count, empty = prod(sides), round(sketch.measures()["filled"] - filled)
-        sketch.remove([block])
-        if empty == 0:
-            made[first[0] : last[0], first[1] : last[1], first[2] : last[2]] = True
-        elif empty < count:
-            axis = sides.index(max(sides))
-            middle = (first[axis] + last[axis]) // 2
-            waiting.append((first, (*last[:axis], middle, *last[axis + 1 :])))
-            waiting.append(((*first[:axis], middle, *first[axis + 1 :]), last))
-    return made

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from niwaki._engine import Shape
 from niwaki.words.distributions import Distribution
 from niwaki.words.running import runner
-from niwaki.words.shapes import painted
+from niwaki.words.shapes import worn
 
 __all__ = ["condition", "emit", "factor", "force", "future", "infer", "observe", "query"]
 
@@ -68,7 +68,13 @@ def query(key: str, value: Any) -> None:
     runner("query").query(key, value)
 
 
-def emit(*shapes: Any, name: str | None = None, color: Sequence[float] | None = None) -> None:
+def emit(
+    *shapes: Any,
+    name: str | None = None,
+    color: Sequence[float] | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> None:
     """Add shapes to the scene. All shapes of one `emit` are one primitive and are not tested against one another.
 
     Parameters
@@ -79,8 +85,14 @@ def emit(*shapes: Any, name: str | None = None, color: Sequence[float] | None = 
         What addresses and files call the part, in place of `emit`: a constant of letters, digits, `_` and `-`.
     color
         `(r, g, b)` in [0, 1], for the shapes without a colour of their own.
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal), for the solids without one of their own.
+    roughness
+        From 0 (a mirror) to 1 (chalk), for the solids without one of their own.
     """
-    runner("emit").emit(shapes if color is None else [painted(shape, color) for shape in flatten(shapes)])
+    look = {"color": color, "metalness": metalness, "roughness": roughness}
+    given = {key: value for key, value in look.items() if value is not None}
+    runner("emit").emit([worn(shape, given) for shape in flatten(shapes)] if given else shapes)
 
 
 def future(function: Callable[..., T], *args: Any) -> T:

@@ -8,7 +8,7 @@ plain-Python run a shape is the engine's own `Shape`.
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -76,6 +76,8 @@ def box(
     taper_axis: str = "z",
     bevel: float | None = None,
     color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
 ) -> Any:
     """A box.
 
@@ -95,8 +97,12 @@ def box(
         Width of the bevelled edges, drawn only.
     color
         `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("box", center, size, rotation, taper, taper_axis, bevel, color)
+    return _make("box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness)
 
 
 def cylinder(
@@ -108,6 +114,8 @@ def cylinder(
     rotation: Rotation | None = None,
     bevel: float | None = None,
     color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
 ) -> Any:
     """A cylinder, or a cone cut off when `top_radius` is given.
 
@@ -129,8 +137,14 @@ def cylinder(
         Width of the bevelled edges, drawn only.
     color
         `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("cylinder", center, radius, length, axis, top_radius, rotation, bevel, color)
+    return _make(
+        "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness
+    )
 
 
 def limb(
@@ -141,6 +155,8 @@ def limb(
     start_normal: VecLike | None = None,
     end_normal: VecLike | None = None,
     color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
 ) -> Any:
     """A tapering, bending segment between two rings; limbs that share a ring only touch.
 
@@ -154,8 +170,14 @@ def limb(
         Their directions; from `start` to `end` when left out.
     color
         `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("limb", start, end, start_radius, end_radius, start_normal, end_normal, color)
+    return _make(
+        "limb", start, end, start_radius, end_radius, start_normal, end_normal, color, metalness, roughness
+    )
 
 
 def segment(
@@ -164,6 +186,8 @@ def segment(
     end: Frame,
     onto: Bark | None = None,
     color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
 ) -> Any:
     """A bent, tapering segment of a tree: a wedge from `start` to `split`, a clean cone from there to `end`.
 
@@ -178,8 +202,12 @@ def segment(
         What the base lies on, `(low, low_radius, high, high_radius)`.
     color
         `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("segment", start, split, end, onto, color)
+    return _make("segment", start, split, end, onto, color, metalness, roughness)
 
 
 def mesh(
@@ -189,6 +217,8 @@ def mesh(
     rotation: Rotation | None = None,
     scale: float = 1.0,
     color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
 ) -> Any:
     """A closed mesh of triangles.
 
@@ -206,8 +236,12 @@ def mesh(
         Factor on all lengths, greater than 0.
     color
         `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("mesh", vertices, faces, center, rotation, scale, color)
+    return _make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness)
 
 
 def stroke(
@@ -267,12 +301,28 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
     return _make("disc", center, radius, color)
 
 
-def painted(shape: Any, color: Color, over: bool = False) -> Any:
-    """A shape in this colour, where it has none of its own or `over` is given; what is no shape is given back."""
-    if not isinstance(shape, _engine.Shape) or (shape.color is not None and not over):
+#: What an `emit` gives to those of its shapes that do not have it: colours to all, the others to solids.
+LOOKS = ("color", "metalness", "roughness")
+#: Kinds of shapes of the plane.
+FLAT = ("stroke", "ellipse")
+
+
+def worn(shape: Any, look: Mapping[str, Any], over: bool = False) -> Any:
+    """A shape with a look, where it has none of its own or `over` is given; what is no shape is given back."""
+    if not isinstance(shape, _engine.Shape):
         return shape
-    checked = _engine.Shape.disc((0.0, 0.0, 0.0), 1.0, tuple(color)).color
-    return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), "color": checked}))
+    names = ("color",) if shape.kind in FLAT else LOOKS
+    given = {
+        name: value
+        for name, value in look.items()
+        if value is not None and name in names and (over or getattr(shape, name) is None)
+    }
+    if not given:
+        return shape
+    # Checked as the words check them.
+    named = _engine.Shape.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), **given)
+    checked = {name: getattr(named, name) for name in given}
+    return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), **checked}))
 
 
 #: The functions for shapes; the engine has one of the same name for each.

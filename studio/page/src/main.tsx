@@ -164,5 +164,6 @@ Object.assign(window, {
       return found === null ? null : [frame.at[0] + found[0] * frame.at[2], frame.at[1] + found[1] * frame.at[3]];
     },
     pointOf: (address: string) => stage.pointOf(address),
+    pin: (name: string) => store.pinOrFree(name),
   },
 });

@@ -150,7 +150,13 @@ export interface Drag {
   id?: number;
 }
 
-/** Write a change of the model's file that the last drag has offered; the difference is the one that was shown. */
+/** Ask for the change of the model's file that makes the arguments, as they are set, its defaults. */
+export interface Propose {
+  kind: "propose";
+  id?: number;
+}
+
+/** Write a change of the model's file that was offered last; the difference is the one that was shown. */
 export interface Rewrite {
   kind: "rewrite";
   difference: string;
@@ -338,6 +344,7 @@ export interface View {
   undo: number;
   redo: number;
   note: string;
+  losses: string;
 }
 
 /** The whole state; `rev` counts the patches. */
@@ -410,7 +417,7 @@ export interface Shifted {
   after: any;
 }
 
-/** A change of the model's file that explains a drag. */
+/** A change of the model's file: one that explains a drag, or arguments as defaults. */
 export interface Offer {
   says: string;
   difference: string;
@@ -425,6 +432,13 @@ export interface Dragged {
   share: number;
   reason: string;
   changes: Shifted[];
+  offers: Offer[];
+}
+
+/** A change of the model's file that was asked for. */
+export interface Offered {
+  kind: "offered";
+  id: number;
   offers: Offer[];
 }
 
@@ -532,6 +546,7 @@ export type Command =
   | Reroll
   | Choose
   | Drag
+  | Propose
   | Rewrite
   | Describe
   | Show
@@ -549,6 +564,7 @@ export type Event =
   | Described
   | Shape
   | Dragged
+  | Offered
   | Difference
   | Done
   | File

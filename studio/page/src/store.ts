@@ -25,7 +25,7 @@ export const hovered = signal<string | null>(null);
 export const notices = signal<{ id: number; text: string; isError: boolean }[]>([]);
 /** A line of text at the foot of the scene: why a part that is dragged is not at the pointer. */
 export const quiet = signal("");
-/** Changes of the model's file that the last drag has offered. */
+/** Changes of the model's file that were offered last. */
 export const offers = signal<Offer[]>([]);
 /** Whether the last drag has changed choices. */
 export const hasDragged = signal(false);
@@ -67,7 +67,19 @@ export const theme = signal<"light" | "dark">(
 export const kind = computed(() => view.value?.model?.kind ?? "scene");
 export const isSearching = computed(() => view.value?.searching != null);
 export const picked = computed(() => view.value?.picked ?? null);
-export const pinned = computed(() => new Set((view.value?.pins ?? []).map((one) => one.part)));
+/** Whether parts are held, of those whose pin waits for an answer. */
+const asked = signal<ReadonlyMap<string, { isHeld: boolean }>>(new Map());
+let held: ReadonlySet<string> = new Set();
+/** The parts that are held: as the studio tells, and at once as they are asked for. Equal sets are the same one. */
+export const pinned = computed(() => {
+  const found = new Set((view.value?.pins ?? []).map((one) => one.part));
+  for (const [part, { isHeld }] of asked.value) {
+    if (isHeld) found.add(part);
+    else found.delete(part);
+  }
+  if (found.size !== held.size || [...found].some((part) => !held.has(part))) held = found;
+  return held;
+});
 
 export const sameKey = (a: Key | null | undefined, b: Key | null | undefined): boolean =>
   a != null && b != null && a.run === b.run && (a.number ?? 0) === (b.number ?? 0);
@@ -120,8 +132,13 @@ function heard(event: Event): void {
 
 const link = connect(heard, framed, (open) => (isOpen.value = open));
 
+/** Commands that pins do not change: the others wait until a pin that is shown is held. */
+const UNHELD = new Set<string>(["show", "describe", "judge", "difference", "export", "stop"]);
+let holding: Promise<unknown> = Promise.resolve();
+
 /** Sends a command, and shows why it was refused. */
 export async function tell(command: Parameters<typeof link.send>[0]): Promise<Event | undefined> {
+  if (!UNHELD.has(command.kind) && asked.peek().size > 0) await holding;
   try {
     return await link.send(command);
   } catch (problem) {
@@ -163,9 +180,21 @@ export function select(address: string | null): void {
   part.value = address;
   level.value = address === null ? null : address.split("/").slice(0, -1).join("/");
 }
+/** Pins a part or frees it: shown at once, and taken back if the studio refuses it. */
 export function pinOrFree(name: string): void {
-  if (pinned.value.has(name)) void tell({ kind: "free", parts: [name] });
-  else void tell({ kind: "pin", parts: [name] });
+  const one = { isHeld: !pinned.value.has(name) };
+  const answer = tell({ kind: one.isHeld ? "pin" : "free", parts: [name] });
+  asked.value = new Map(asked.value).set(name, one);
+  holding = answer.then(() => {
+    if (asked.value.get(name) === one) asked.value = new Map([...asked.value].filter(([part]) => part !== name));
+  });
+}
+/** Asks for the change of the model's file that makes the arguments its defaults. */
+export async function propose(): Promise<void> {
+  const found = await tell({ kind: "propose" });
+  if (found?.kind !== "offered") return;
+  offers.value = found.offers;
+  if (found.offers.length === 0) note("Its file does not write these defaults as numbers or texts.");
 }
 export function reroll(name: string, count: number): void {
   void tell({ kind: "reroll", part: name, count, strength: count > 1 ? strength.value : null });

@@ -7,6 +7,7 @@ import json
 import struct
 from pathlib import Path
 
+import niwaki as nw
 import numpy as np
 import pytest
 import trimesh
@@ -99,3 +100,39 @@ def test_only_print_formats_are_scaled(tmp_path: Path) -> None:
         with pytest.raises(FileError, match=f"`{setting}` cannot be 2.0"):
             scene().export(tmp_path / "ship.glb", **{setting: 2.0})
     assert list(tmp_path.iterdir()) == []
+
+
+@nw.model
+def bell():
+    """A block of steel, in which one side has a look of its own, on paint."""
+    nw.emit(
+        nw.box((0.0, 1.0, 0.0), (1.0, 1.0, 1.0)),
+        nw.box((2.0, 1.0, 0.0), (1.0, 1.0, 1.0), roughness=0.75),
+        color=(0.5, 0.5, 0.5),
+        metalness=1.0,
+        roughness=0.25,
+    )
+    nw.emit(nw.box((0.0, -1.0, 0.0), (1.0, 1.0, 1.0), color=(1.0, 0.0, 0.0)))
+
+
+def test_metalness_and_roughness_of_a_model_are_those_of_its_materials() -> None:
+    scene = nw.run(bell, seed=1).best.scene
+    data = glb(scene)
+    document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
+    of = [
+        (one["metallicFactor"], one["roughnessFactor"])
+        for one in (material["pbrMetallicRoughness"] for material in document["materials"])
+    ]
+    assert sorted(of)[1:] == [(1.0, 0.25), (1.0, 0.75)] and sorted(of)[0][0] == 0.0
+    plain = nw.run_python(bell, seed=1).scene
+    assert [list(shapes) for _, shapes in plain] == [list(part.shapes) for part in scene]
+
+
+def test_a_metalness_out_of_range_is_refused() -> None:
+    with pytest.raises(nw.ModelFault, match="metalness is 2, expected a number from 0 to 1"):
+        nw.run(_shiny, 2.0, seed=1)
+
+
+@nw.model
+def _shiny(much: float):
+    nw.emit(nw.box((0, 0, 0), (1, 1, 1)), metalness=much)

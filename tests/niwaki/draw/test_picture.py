@@ -105,6 +105,6 @@ def test_bad_settings_are_refused() -> None:
             picture(block(), **settings)
     vertices, faces, normals = _engine.fine_mesh(block().parts[0].shapes[0])
     with pytest.raises(ValueError, match="mesh 0: vertex 0 is not finite"):
-        _engine.render([(vertices * np.nan, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))])
+        _engine.render([(vertices * np.nan, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])
     with pytest.raises(ValueError, match="beyond the last"):
-        _engine.render([(vertices, faces + 10_000, None, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0))])
+        _engine.render([(vertices, faces + 10_000, None, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])

@@ -191,6 +191,8 @@ def test_every_method_and_sketch_goes_through_json():
         nw.mh(50, "cache", kernels.anneal(kernels.repeat(2, kernels.block()), 20), thin=2),
         nw.hmc(20, 5, jitter=0.5),
         nw.nuts(20, metric="low-rank"),
+        nw.nuts(20, metric=[[2.0, 0.5], [0.5, 1.0]]),
+        nw.vi("full-rank", draws=20, tolerance=0.1),
         nw.explore(4),
         nw.enumerate_all(50),
         nw.rejection(4, -1),

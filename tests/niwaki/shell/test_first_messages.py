@@ -127,7 +127,7 @@ def test_losses_are_named_when_some_runs_survive(place: Path) -> None:
     with pytest.warns(UserWarning, match="runs became impossible") as found:
         run(*words, "--runs", "8", "--seed", "1")
     lost = next(str(one.message) for one in found if "became impossible" in str(one.message))
-    assert "line 5 runs into another part in 1 of 1 runs (the other part: line 6)" in lost
+    assert "`cable` (line 6) runs into `road` (line 5) in 1 of 1; put parts" in lost
     assert "put parts that belong together into one `emit`" in lost and "particles" not in lost
 
 

@@ -129,3 +129,23 @@ def test_a_default_that_explains_a_drag_is_written_when_accepted(connected, pile
     connected.ask("rewrite", difference=first["difference"])
     assert pile.read_text() == text.replace("height: float = 3.0", "height: float = 3.5")
     pile.write_text(text)
+
+
+def test_arguments_are_offered_as_defaults_and_written_when_accepted(connected, pile):
+    text = pile.read_text()
+    connected.ask("model", reference=str(pile))
+    # The same as the default is no change.
+    connected.ask("set", arguments={"height": 3.0})
+    assert connected.ask("propose")["offers"] == []
+    connected.ask("set", arguments={"height": 4, "count": 6})
+    (offer,) = connected.ask("propose")["offers"]
+    assert offer["says"] == "line 7: 3.0 becomes 4.0; line 7: 4 becomes 6"
+    assert pile.read_text() == text
+    connected.ask("rewrite", difference=offer["difference"])
+    assert pile.read_text() == text.replace(
+        "height: float = 3.0, count: int = 4", "height: float = 4.0, count: int = 6"
+    )
+    pile.write_text(text)
+    # A model of the gallery is not the user's to change.
+    connected.ask("model", reference="spaceship")
+    assert connected.ask("propose")["offers"] == []

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import json
+import shutil
+from pathlib import Path
 
 import pytest
 
 pytest.importorskip("msgspec")
 
+from niwaki import studio
 from niwaki.errors import InputError
 from niwaki.studio.journal import Journal
+from studio_process import serving
+
+#: A session as the first format has it: two colourings of a bug, the second starred and picked, one region pinned.
+STORED = Path(__file__).parents[2] / "golden" / "studio-session"
 
 
 @pytest.fixture
@@ -87,3 +94,49 @@ def test_a_line_that_is_wrong_is_named(session, tmp_path):
         file.write(json.dumps({"nothing": 1}) + "\n")
     with pytest.raises(InputError, match="line 2"):
         session()
+
+
+def test_a_session_of_the_first_format_is_opened_with_its_results_and_its_way_back(tmp_path):
+    pytest.importorskip("starlette")
+    shutil.copytree(STORED, tmp_path / "stored")
+    with serving(tmp_path / "stored") as served, studio.connect(served.url, served.key) as one:
+        while one.view["model"] is None:
+            one.read(10)
+        first, second = one.view["results"]
+        assert one.view["model"]["reference"] == "drawing:bug" and one.view["picked"] == second["key"]
+        assert one.view["stars"] == [second["key"]] and (one.view["undo"], one.view["redo"]) == (7, 1)
+        (pin,) = one.view["pins"]
+        colors = one.ask("describe", key=second["key"])["colors"]
+        assert colors[pin["part"]] == pin["choices"][pin["part"]]
+        one.ask("redo")
+        assert one.view["pins"] == []
+        for _ in range(8):
+            one.ask("undo")
+        assert one.view["results"] == [] and one.view["stars"] == []
+        # A search goes on from what it had.
+        for _ in range(7):
+            one.ask("redo")
+        one.ask("run")
+        assert one.view["results"][0]["key"] == second["key"] and len(one.view["results"]) > 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason"),
+    [
+        ("session.json", '{"format": 2, "session": "a"}', "it has format 2, this version reads 1"),
+        ("session.json", '{"session": "a"}', "it has format None"),
+        (
+            "journal.jsonl",
+            '{"step":1,"parent":0,"name":"set","changes":{"results":3}}\n',
+            "a step of it is not one of this version",
+        ),
+        ("journal.jsonl", "[]\n", "line 1"),
+    ],
+)
+def test_a_session_that_cannot_be_opened_says_why(tmp_path, name, text, reason):
+    shutil.copytree(STORED, tmp_path / "stored")
+    (tmp_path / "stored" / name).write_text(text)
+    with pytest.raises(InputError, match=reason):
+        opened = Journal(tmp_path / "stored")
+        opened.close()
+        opened.document()

@@ -212,8 +212,31 @@ def test_blocks_that_fall_are_named_and_pinned_calls_stay(served, connected):
     parts = [one["address"] for one in described(connected)["parts"]]
     assert not judged["holds"] and judged["stands"] is False
     assert judged["loose"] and judged["fallen"] and {*judged["loose"], *judged["fallen"]} <= set(parts)
-    with pytest.raises(studio.StudioError, match="as a whole"):
+    with pytest.raises(studio.StudioError, match="no choices of its own that are free"):
         connected.ask("reroll", part="pile/piece")
+
+
+def test_a_call_of_a_structure_is_grown_again_and_the_rest_stays(served, connected):
+    connected.ask("free")
+    connected.ask("model", reference="stack:cut_stack")
+    connected.ask("set", settings={"count": 1, "seed": 1})
+    connected.ask("run")
+    before = {one["address"]: one["value"] for one in described(connected)["choices"]}
+    part = "pile/piece"
+    connected.ask("reroll", part=part, count=4, strength=1.0)
+    found = [one for one in connected.view["results"] if one["origin"] == "regrow"]
+    assert 1 <= len(found) <= 4
+    for one in found:
+        after = {own["address"]: own["value"] for own in connected.ask("describe", key=one["key"])["choices"]}
+        outside = {
+            name: value
+            for name, value in before.items()
+            if not name.startswith(f"{part}/") and "/balance/" not in name
+        }
+        assert len(outside) > 20
+        assert {name: after[name] for name in outside} == outside and after != before
+        judged = connected.ask("judge", key=one["key"])
+        assert judged["holds"] and one["note"] == f"stands to {judged['tilt']:.1f}°"
 
 
 def test_a_model_of_a_file_that_uses_stacks_is_a_structure(tmp_path):

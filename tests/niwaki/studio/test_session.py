@@ -61,7 +61,7 @@ def test_a_shape_has_its_parts_and_lies_in_its_bounds(connected):
     until(connected, lambda: connected.shapes)
     header, payload = connected.shapes[-1]
     n, m = header.vertices, header.triangles
-    assert len(payload) == n * (12 + 12 + 4) + m * 16
+    assert len(payload) == n * (12 + 12 + 4 + 2) + m * 16
     points = np.frombuffer(payload, "<f4", 3 * n).reshape(n, 3)
     corners = np.frombuffer(payload, "<u4", 3 * m, n * 28)
     owners = np.frombuffer(payload, "<u4", m, n * 28 + 12 * m)

@@ -28,8 +28,8 @@ def test_arguments_go_by_position_or_name_and_others_are_refused() -> None:
     assert by_name == _engine.Shape.cylinder((0, 0, 0), 1.0, 2.0, color=(1, 0, 0))
     with pytest.raises(TypeError, match="`box` has no parameter side"):
         _engine.Shape.box((0, 0, 0), side=1.0)  # type: ignore[call-arg]
-    with pytest.raises(TypeError, match="`box` takes 2 to 7 arguments, found 8"):
-        _engine.Shape.box(*[(0, 0, 0)] * 8)  # type: ignore[call-arg, arg-type]
+    with pytest.raises(TypeError, match="`box` takes 2 to 9 arguments, found 10"):
+        _engine.Shape.box(*[(0, 0, 0)] * 10)  # type: ignore[call-arg, arg-type]
     with pytest.raises(ValueError, match="argument 2 of `box` cannot be None") as missing:
         _engine.Shape.box((0, 0, 0))  # type: ignore[call-arg]
     assert missing.value.code == "bad-argument"  # type: ignore[attr-defined]

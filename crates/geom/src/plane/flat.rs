@@ -167,7 +167,7 @@ mod tests {
         assert!(skew.message.contains("expected the same"), "{skew}");
         let solid = Solid::Ellipse { size: [1.0, 1.0] };
         let turned = Placement { rotation: Mat3::rotation(Vec3::AXES[0], 1.0), translation: a };
-        assert!(Shape::new(solid, turned, None, None).is_err());
+        assert!(Shape::new(solid, turned, &Look::default()).is_err());
         assert!(Shape::stroke(a, a, (0.0, 1.0), &look).is_err());
         assert!(Shape::ellipse(a, (1.0, -1.0), 0.0, &look).is_err());
         assert!(Shape::stroke(a, a, (1.0, 1.0), &look).is_ok(), "a dot");

@@ -40,6 +40,8 @@ pub struct Surface {
     pub color: [f32; 3],
     /// From 0 (chalk) to 1 (lacquer).
     pub gloss: f32,
+    /// From 0 (paint) to 1 (metal), which has no colour of its own but tints what it mirrors.
+    pub metal: f32,
     /// How rough it looks, from 0 (smooth) to 1 (foliage): bumps in the shading only.
     pub rough: f32,
     /// Size of those bumps, scene units.
@@ -180,7 +182,8 @@ fn check(surface: &Surface) -> Result<(), String> {
     if let Some(k) = surface.normals.iter().position(|v| !finite(v)) {
         return Err(format!("normal {k} is not finite"));
     }
-    if !finite(&surface.color) || !(surface.gloss + surface.rough + surface.pitch).is_finite() {
+    if !finite(&surface.color) || !(surface.gloss + surface.metal + surface.rough + surface.pitch).is_finite()
+    {
         return Err("its colour, gloss, roughness or pitch is not finite".into());
     }
     Ok(())

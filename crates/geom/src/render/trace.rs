@@ -22,10 +22,14 @@ use std::ops::Range;
 /// Share of the paint's colour that a blocking part sends back: one bounce, roughly.
 const BOUNCE: f32 = 0.42;
 
+/// Share of a metal's paint that is not seen: a little is left, for what its rough grains scatter.
+const METAL: f32 = 0.8;
+
 /// A surface's look.
 struct Paint {
     color: V3,
     gloss: f32,
+    metal: f32,
     rough: f32,
     pitch: f32,
 }
@@ -154,6 +158,7 @@ impl Stage {
                 .map(|s| Paint {
                     color: tone::linear(s.color),
                     gloss: s.gloss.clamp(0.0, 1.0),
+                    metal: s.metal.clamp(0.0, 1.0),
                     rough: if s.pitch > 0.0 { s.rough.clamp(0.0, 1.0) } else { 0.0 },
                     pitch: s.pitch,
                 })
@@ -248,10 +253,15 @@ impl Stage {
         let half = (light.sun - direction).unit();
         let grazing = (1.0 + direction.dot(normal)).clamp(0.0, 1.0);
         let fresnel = look.gloss * (0.05 + 0.55 * grazing.powi(4));
+        // Metal mirrors by its colour, but for grazing light, and has no paint.
+        let tinted = paint.lerp(V3::splat(1.0), grazing.powi(5)) * (0.6 + 0.4 * look.gloss);
+        let mirror = V3::splat(fresnel).lerp(tinted, look.metal);
         let mirrored = direction - normal * (2.0 * direction.dot(normal));
         let highlight =
             if facing > 0.0 { 0.45 * look.gloss * normal.dot(half).max(0.0).powi(48) } else { 0.0 };
-        let sunlit = (paint * facing + V3::splat(highlight)).tint(light.strength);
+        let highlight = V3::splat(highlight).lerp(paint * (4.0 * highlight), look.metal);
+        let paint = paint * (1.0 - METAL * look.metal);
+        let sunlit = (paint * facing + highlight).tint(light.strength);
         let open = paint.tint(light.open_sky(normal));
         let bright = (sunlit + open).luminance();
         body.darkest = if body.count == 0.0 { bright } else { least(body.darkest, bright) };
@@ -260,7 +270,7 @@ impl Stage {
         body.paint = body.paint + paint;
         body.sunlit = body.sunlit + sunlit;
         body.open = body.open + open;
-        body.shine = body.shine + light.sky(mirrored) * fresnel;
+        body.shine = body.shine + light.sky(mirrored).tint(mirror);
     }
 
     /// Adds the sun and sky that this sample sees from a point.

@@ -19,7 +19,8 @@ use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::once::Once;
 use crate::primitive::Primitive;
-use crate::voxel::{Grid, Voxels};
+use crate::shape::Shape;
+use crate::voxel::{CellBox, Grid, Voxels};
 use crate::window::solid::{Sums, Volume, sums_of};
 use crate::window::{Place, WindowForm};
 use std::sync::{Arc, OnceLock};
@@ -90,6 +91,22 @@ impl Target {
                 .sum::<u64>();
         });
         shared
+    }
+
+    /// Calls `fill` with each cell that shapes fill, those of several more than once: the cells that the score counts.
+    pub fn visit_filled(&self, shapes: &[Shape], mut fill: impl FnMut([usize; 3])) {
+        for voxels in shapes.iter().filter_map(|shape| Voxels::of(shape, &self.grid)) {
+            let CellBox { low, high } = voxels.cells;
+            for (z, y) in (low[2]..=high[2]).flat_map(|z| (low[1]..=high[1]).map(move |y| (z, y))) {
+                for column in low[0] / 64..=high[0] / 64 {
+                    let mut word = voxels.word(column, y, z);
+                    while word != 0 {
+                        fill([64 * column + word.trailing_zeros() as usize, y, z]);
+                        word &= word - 1;
+                    }
+                }
+            }
+        }
     }
 
     /// True when the target fills the cell.

@@ -9,7 +9,7 @@ use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
 use crate::hamiltonian::climb::climb_in_lanes;
-use crate::hamiltonian::{Cause, Chain, Draws, Settings, lanes};
+use crate::hamiltonian::{Cause, Chain, Draws, Metric, Settings, lanes};
 use crate::replay::{Choice, Missing, Source, replay};
 use crate::{Failure, Task};
 use niwaki_grad::{Continuous, Live, Model, Recorded, Wide};
@@ -83,13 +83,13 @@ const FEW: usize = 16;
 const LEAST: usize = 12;
 
 /// A chain before it runs.
-struct Member {
-    number: usize,
-    target: Live,
+pub(super) struct Member {
+    pub(super) number: usize,
+    pub(super) target: Live,
     /// The path of its first run, which its target may leave.
-    recorded: Arc<Recorded>,
+    pub(super) recorded: Arc<Recorded>,
     /// The coordinates of that run.
-    start: Vec<f64>,
+    pub(super) start: Vec<f64>,
 }
 
 /// Draws from a task's distribution. `watch` is called regularly with the transitions of all chains; when it returns
@@ -110,11 +110,16 @@ pub fn explore(
     if plan.chains == 0 {
         return Ok(vec![]);
     }
-    let first = start(task, &model, plan, 0, None)?;
-    let others: Vec<Result<Member, Failure>> = (1..plan.chains)
-        .into_par_iter()
-        .map(|number| start(task, &model, plan, number, Some(&first.target)))
-        .collect();
+    let from = |number: usize, first: Option<&Live>| {
+        let streams = Streams::new(plan.seed, number as u64);
+        start(task, &model, streams, (plan.tries, plan.known), number, first)
+    };
+    let first = from(0, None)?;
+    if let Some(metric) = &plan.settings.metric {
+        fits(metric, first.start.len())?;
+    }
+    let others: Vec<Result<Member, Failure>> =
+        (1..plan.chains).into_par_iter().map(|number| from(number, Some(&first.target))).collect();
     let mut members = vec![Some(first)];
     for other in others {
         members.push(Some(other?));
@@ -130,6 +135,17 @@ pub fn explore(
         explored.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
     explored.sort_by_key(|(number, _)| *number);
     Ok(explored.into_iter().map(|(_, chain)| chain).collect())
+}
+
+/// Refuses a metric of another number of coordinates.
+fn fits(metric: &Metric, dim: usize) -> Result<(), Failure> {
+    if metric.dim() == dim {
+        return Ok(());
+    }
+    let message = format!("the `metric` is of {} coordinates, but there are {dim}", metric.dim());
+    Err(Fault::new("bad-setting", message)
+        .with_help("give the `metric` of a result of `vi` of this model")
+        .into())
 }
 
 /// Chains that move together: those of one structure, in lanes; the others each alone.
@@ -152,15 +168,17 @@ fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// The density around a chain's first run: that of the first chain, where the run is on its path.
-fn start(
+/// The density around a chain's first run, the first possible one of at most `tries`, with the values that are known: that
+/// of the first chain, where the run is on its path.
+pub(super) fn start(
     task: &Task,
     model: &Model,
-    plan: &Plan<'_>,
+    streams: Streams,
+    (tries, known): (u64, Option<&HashMap<u128, Value>>),
     number: usize,
     first: Option<&Live>,
 ) -> Result<Member, Failure> {
-    let (state, _) = State::start(task, Streams::new(plan.seed, number as u64), plan.tries, plan.known)?;
+    let (state, _) = State::start(task, streams, tries, known)?;
     let choices = state.choices(&task.program).collect();
     drop(state);
     let (target, start) = match first.and_then(|first| first.beside(&choices)) {
@@ -279,7 +297,7 @@ fn fixed(task: &Task, recorded: &Recorded, start: &[f64]) -> Result<Vec<Choice>,
 }
 
 /// Why a chain could not start.
-fn no_slope(target: &Live, start: &[f64]) -> Failure {
+pub(super) fn no_slope(target: &Live, start: &[f64]) -> Failure {
     match reason(target, start) {
         Some(fault) => Failure::Run(fault),
         None => Failure::Setting(

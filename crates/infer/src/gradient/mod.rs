@@ -2,8 +2,10 @@
 //!
 //! * [`follow`]: that density as a target of chains, with the reasons for which it refuses a point;
 //! * [`positions`]: where its shapes are, with their derivatives;
-//! * [`explore`]: chains of a task, each from its own possible run.
+//! * [`explore`]: chains of a task, each from its own possible run;
+//! * [`approximate`]: normals near a task's distribution.
 
+pub mod approximate;
 pub mod explore;
 pub mod follow;
 pub mod positions;

@@ -62,6 +62,8 @@ pub struct Settings {
     pub target_accept: f64,
     /// What shape of metric is fitted.
     pub shape: Shape,
+    /// The metric to begin with; the identity when left out.
+    pub metric: Option<Metric>,
     /// A step size to keep throughout; adapted when left out.
     pub step_size: Option<f64>,
     /// An energy error above this many nats is a divergence.
@@ -79,6 +81,7 @@ impl Settings {
             thin: 1,
             target_accept: 0.8,
             shape: Shape::Diagonal,
+            metric: None,
             step_size: None,
             max_energy_error: MAX_ENERGY_ERROR,
         }
@@ -134,7 +137,7 @@ pub struct Chain<P> {
 }
 
 impl<P: Potential> Chain<P> {
-    /// A chain at `start`, or uphill from it, with the identity as its metric.
+    /// A chain at `start`, or uphill from it, with the settings' metric.
     ///
     /// # Errors
     /// The target's refusal of `start`.
@@ -163,7 +166,7 @@ impl<P: Potential> Chain<P> {
         number: u64,
     ) -> Result<Self, Stop> {
         let phase = Phase::at(&mut target, start)?;
-        let metric = Metric::unit(start.len());
+        let metric = settings.metric.clone().unwrap_or_else(|| Metric::unit(start.len()));
         let (kernel, step_size) = (settings.kernel(), settings.step_size.unwrap_or(1.0));
         Ok(Chain { target, phase, metric, step_size, kernel, seed, number, visit: 0, climbed })
     }

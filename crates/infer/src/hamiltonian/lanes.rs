@@ -30,7 +30,9 @@ pub trait Wide<const L: usize> {
 
 /// Whether chains of these settings can go in lanes: trajectories of a fixed length, a scale for each coordinate.
 pub fn suits(settings: &Settings) -> bool {
-    matches!(settings.kernel(), Kernel::Hmc(_)) && matches!(settings.shape, Shape::Unit | Shape::Diagonal)
+    matches!(settings.kernel(), Kernel::Hmc(_))
+        && matches!(settings.shape, Shape::Unit | Shape::Diagonal)
+        && matches!(settings.metric, None | Some(Metric::Diagonal { .. }))
 }
 
 /// With more than this share of points outside of the wide density, its chains go on alone.
@@ -114,7 +116,7 @@ impl<const L: usize> Rows<'_, L> {
 }
 
 /// Which lanes have only finite numbers.
-pub(super) fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
+pub(crate) fn finite<const L: usize>(rows: &[[f64; L]]) -> [bool; L] {
     match Vectors::here() {
         // SAFETY: the processor has AVX-512.
         #[cfg(target_arch = "x86_64")]

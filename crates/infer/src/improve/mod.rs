@@ -23,6 +23,7 @@ pub use rounds::{Kind, Round};
 use crate::chain::form::Form;
 use crate::checkpoint::Checkpoint;
 use crate::failure::Attempt;
+use crate::losses::Lost;
 use crate::particles::distinct::Choices;
 use crate::particles::{Progress, Watch, side_by_side};
 use crate::proposal::Proposal;
@@ -91,6 +92,8 @@ pub struct Improved {
     pub searches: usize,
     /// Whether it was stopped.
     pub interrupted: bool,
+    /// Particles of the first population that lived which became impossible.
+    pub lost: Lost,
 }
 
 impl Improve {
@@ -216,7 +219,8 @@ impl Improve {
             Some(left) => left.search(self, task, seed)?,
             None => {
                 let mut info = Improved { searches: 1, ..Improved::default() };
-                let first = self.start(task, seed, &mut info.attempts, watch, &|| !is_late())?;
+                let mut first = self.start(task, seed, &mut info.attempts, watch, &|| !is_late())?;
+                info.lost = std::mem::take(&mut first.losses).explained(task);
                 let (work, is_stopped) = (first.steps, first.interrupted);
                 let tried = info.attempts.last().map_or(self.particles, |attempt| attempt.particles);
                 let unit = (work * self.particles as u64 / tried as u64).max(1);

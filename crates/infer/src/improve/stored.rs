@@ -4,6 +4,7 @@ use super::rounds::{self, Round, Search};
 use super::start::name_of;
 use super::{Improve, Improved};
 use crate::failure::Attempt;
+use crate::losses::Lost;
 use crate::run::Run;
 use crate::{Failure, Task};
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,7 @@ pub(super) struct Stored<R> {
     /// Since the search began, without pauses between processes.
     pub time: Duration,
     invalid: Vec<(String, u64)>,
+    lost: Lost,
 }
 
 impl<'r> Stored<&'r Run> {
@@ -33,7 +35,8 @@ impl<'r> Stored<&'r Run> {
     ) -> Option<Stored<&'r Run>> {
         let attempts = info.attempts.iter().map(|one| (one.form.to_string(), one.particles, one.died_at));
         let (attempts, rounds) = (attempts.collect(), info.rounds.clone());
-        Some(Stored { search: search.stored()?, attempts, rounds, number, idle, time, invalid })
+        let lost = info.lost.clone();
+        Some(Stored { search: search.stored()?, attempts, rounds, number, idle, time, invalid, lost })
     }
 }
 
@@ -54,7 +57,8 @@ impl Stored<Run> {
             died_at: *died_at,
         });
         let attempts = attempts.collect();
-        let info = Improved { attempts, rounds: self.rounds, searches: 1, interrupted: false };
+        let info =
+            Improved { attempts, rounds: self.rounds, searches: 1, interrupted: false, lost: self.lost };
         let search = Search::restored(own, task, seed, self.search)?;
         task.invalid.add(self.invalid);
         Ok((search, info, self.number, self.idle))

@@ -42,6 +42,7 @@
 use super::rejuvenation::MoveCounts;
 use super::settings::Settings;
 use super::smc::{Outcome, Progress, Result, run};
+use crate::losses::Losses;
 use crate::streams::Reserved;
 use crate::{Failure, Task};
 use niwaki_math::log_sums::log_sum_exp;
@@ -286,6 +287,7 @@ fn combine(
         plan: plan.to_vec(),
         died: deaths,
         moved: MoveCounts::default(),
+        losses: Losses::default(),
         powers: std::mem::take(&mut lived[0].1.powers),
     };
     for ((_, mut one), shift) in lived.into_iter().zip(shifts) {
@@ -296,6 +298,7 @@ fn combine(
         whole.resampled += one.resampled;
         whole.ancestors += one.ancestors;
         whole.moved += one.moved;
+        whole.losses.add(one.losses);
     }
     Ok(whole)
 }

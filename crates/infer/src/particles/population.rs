@@ -7,9 +7,10 @@ use super::resident::{Growth, Resident, counted, too_large};
 use super::settings::{Anneal, Order, Settings, Weights, When};
 use super::shared::share;
 use super::tempered::Tempered;
-use crate::blame::RUNS;
+use crate::blame::{Dead, RUNS};
 use crate::chooser::Prior;
 use crate::guide::bound::Sight;
+use crate::losses::Losses;
 use crate::particle::Particle;
 use crate::proposal::ByProposal;
 use crate::record::{AllInvalid, Record};
@@ -54,6 +55,8 @@ pub(super) struct Population<'a> {
     pub mover: Option<Mover>,
     /// Moves so far.
     pub moved: MoveCounts,
+    /// Particles that became impossible so far.
+    pub losses: Losses,
     /// Whether it uses several threads.
     pub parallel: bool,
     /// The task for each thread, with its own copy of the program.
@@ -119,6 +122,7 @@ impl<'a> Population<'a> {
             weights: Normalised::default(),
             mover: Mover::of(&task, settings)?,
             moved: MoveCounts::default(),
+            losses: Losses::default(),
             parallel,
             apart: task.program.apart(if parallel { threads } else { 0 }).into_iter().map(own).collect(),
             copies: Copies::default(),
@@ -234,6 +238,9 @@ impl<'a> Population<'a> {
             let score = p.record.score();
             best = best.max(score.value());
             ended += usize::from(p.state.has_ended());
+            if score.is_impossible() && !p.weighed.is_impossible() {
+                self.losses.note(&p.record);
+            }
             match self.settings.weights {
                 Weights::Ratio => p.log_weight += log_step(next, &score, self.power, &p.weighed),
                 Weights::Absolute => p.log_weight = self.settings.power * score.value(),
@@ -377,10 +384,14 @@ fn one(task: &Task, n: usize) -> Task {
 }
 
 fn impossible(particles: &[Particle], barrier: usize) -> Failure {
-    let causes = particles.iter().map(|p| (p.record.cause.as_deref().unwrap_or("weights"), 1));
-    let mut failure = Failure::impossible(barrier, causes);
+    let named = particles.iter().map(|p| p.record.cause.as_deref().unwrap_or("weights"));
+    let mut failure = Failure::impossible(barrier, named.clone().map(|cause| (cause, 1)));
     if let Failure::Impossible { dead, .. } = &mut failure {
-        *dead = particles.iter().take(RUNS).map(|p| p.record.log.entries()).collect();
+        let of = |(p, cause): (&Particle, &str)| Dead {
+            cause: cause.to_string(),
+            entries: p.record.log.entries(),
+        };
+        *dead = particles.iter().zip(named).take(RUNS).map(of).collect();
     }
     failure
 }

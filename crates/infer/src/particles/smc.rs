@@ -3,6 +3,7 @@
 use super::population::Population;
 use super::rejuvenation::MoveCounts;
 use super::settings::{Anneal, Settings, Weights};
+use crate::losses::Losses;
 use crate::particle::Particle;
 use crate::record::Record;
 use crate::run::Run;
@@ -72,6 +73,8 @@ pub struct Result {
     pub powers: Vec<f64>,
     /// Moves of rejuvenation.
     pub moved: MoveCounts,
+    /// Particles that became impossible at barriers where others lived.
+    pub losses: Losses,
 }
 
 /// The progress of a run, for `watch`.
@@ -145,6 +148,7 @@ pub(super) fn run(
         plan: vec![settings.particles],
         died: 0,
         moved: population.moved,
+        losses: population.losses,
         powers: match settings.anneal {
             Anneal::Constant => Vec::new(),
             Anneal::Schedule(_) | Anneal::Adaptive(_) => population.powers,

@@ -236,11 +236,11 @@ table! {
     "polygon_disc_area" 3 3 polygons::disc_area;
     "polygon_inset" 2 2 polygons::inset;
 
-    "box" 2 7 shapes::cuboid;
-    "cylinder" 3 8 shapes::cylinder;
-    "limb" 4 7 shapes::limb;
-    "segment" 3 5 shapes::segment;
-    "mesh" 2 6 shapes::mesh;
+    "box" 2 9 shapes::cuboid;
+    "cylinder" 3 10 shapes::cylinder;
+    "limb" 4 9 shapes::limb;
+    "segment" 3 7 shapes::segment;
+    "mesh" 2 8 shapes::mesh;
     "stroke" 3 5 shapes::stroke;
     "ellipse" 3 5 shapes::ellipse;
     "disc" 2 3 shapes::disc;

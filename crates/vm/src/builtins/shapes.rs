@@ -19,11 +19,41 @@ use crate::value::{Scalar, Value, same};
 
 /// The words that make shapes, and their parameters in order; those of `niwaki.words` are the same.
 pub const WORDS: &[(&str, &[&str])] = &[
-    ("box", &["center", "size", "rotation", "taper", "taper_axis", "bevel", "color"]),
-    ("cylinder", &["center", "radius", "length", "axis", "top_radius", "rotation", "bevel", "color"]),
-    ("limb", &["start", "end", "start_radius", "end_radius", "start_normal", "end_normal", "color"]),
-    ("segment", &["start", "split", "end", "onto", "color"]),
-    ("mesh", &["vertices", "faces", "center", "rotation", "scale", "color"]),
+    (
+        "box",
+        &["center", "size", "rotation", "taper", "taper_axis", "bevel", "color", "metalness", "roughness"],
+    ),
+    (
+        "cylinder",
+        &[
+            "center",
+            "radius",
+            "length",
+            "axis",
+            "top_radius",
+            "rotation",
+            "bevel",
+            "color",
+            "metalness",
+            "roughness",
+        ],
+    ),
+    (
+        "limb",
+        &[
+            "start",
+            "end",
+            "start_radius",
+            "end_radius",
+            "start_normal",
+            "end_normal",
+            "color",
+            "metalness",
+            "roughness",
+        ],
+    ),
+    ("segment", &["start", "split", "end", "onto", "color", "metalness", "roughness"]),
+    ("mesh", &["vertices", "faces", "center", "rotation", "scale", "color", "metalness", "roughness"]),
     ("stroke", &["start", "end", "width", "end_width", "color"]),
     ("ellipse", &["center", "length", "width", "angle", "color"]),
     ("disc", &["center", "radius", "color"]),
@@ -113,12 +143,17 @@ impl<S: Scalar> Arguments<'_, S> {
         real(self.word, self.needed(at)?)
     }
 
-    fn look(&self, rotation: Option<usize>, bevel: Option<usize>, color: usize) -> Result<Look, Fault> {
+    /// The look; of solids, metalness and roughness come after the colour.
+    fn look(&self, rotation: Option<usize>, bevel: Option<usize>, first: usize) -> Result<Look, Fault> {
         let rotation = rotation.map_or(Ok(None), |at| self.rotation(at))?;
         let bevel = bevel.and_then(|at| self.given(at)).map(|arg| real(self.word, arg).map(Scalar::value));
         let color =
-            self.given(color).map(|arg| three(self.word, arg).map(|c| c.map(|part| part.value() as f32)));
-        Ok(Look { rotation, bevel: bevel.transpose()?, color: color.transpose()? })
+            self.given(first).map(|arg| three(self.word, arg).map(|c| c.map(|part| part.value() as f32)));
+        let share = |at: usize| {
+            self.given(at).map(|arg| real(self.word, arg).map(|share| share.value() as f32)).transpose()
+        };
+        let (metalness, roughness) = (share(first + 1)?, share(first + 2)?);
+        Ok(Look { rotation, bevel: bevel.transpose()?, color: color.transpose()?, metalness, roughness })
     }
 }
 

@@ -147,6 +147,14 @@ INPUTS = (
         cure="log_density of a model with a gaussian",
     ),
     Message(
+        "no-normal-fits",
+        "a normal distribution does not suit `{name}`",
+        why="a normal is over the same real numbers in every run, and this model {found}",
+        help="use `smc()`, with a guide of `train_guide` as its `proposal` where it should learn, or `mh()`",
+        example="run(tree, method=vi())",
+        cure="run(tree, method=smc())",
+    ),
+    Message(
         "out-of-time",
         "the search had no result within its time",
         help="give it more time or fewer particles",

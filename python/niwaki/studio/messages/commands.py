@@ -147,8 +147,12 @@ class Drag(Command, tag="drag"):
     follow: bool = False
 
 
+class Propose(Command, tag="propose"):
+    """Ask for the change of the model's file that makes the arguments, as they are set, its defaults."""
+
+
 class Rewrite(Command, tag="rewrite"):
-    """Write a change of the model's file that the last drag has offered; the difference is the one that was shown."""
+    """Write a change of the model's file that was offered last; the difference is the one that was shown."""
 
     difference: Annotated[str, Meta(max_length=200_000)]
 
@@ -227,6 +231,7 @@ AnyCommand = (
     | Reroll
     | Choose
     | Drag
+    | Propose
     | Rewrite
     | Describe
     | Show

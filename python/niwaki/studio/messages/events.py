@@ -116,6 +116,8 @@ class View(Struct):
     redo: int
     #: Of a drawing: which rules cannot all hold, and by how much; empty where they can.
     note: str = ""
+    #: Which partial runs of the last search became impossible, and by which parts; empty where none did.
+    losses: str = ""
 
 
 class Event(Struct, tag_field="kind"):
@@ -189,7 +191,7 @@ class Shifted(Struct):
 
 
 class Offer(Struct):
-    """A change of the model's file that explains a drag.
+    """A change of the model's file: one that explains a drag, or arguments as defaults.
 
     Attributes
     ----------
@@ -217,6 +219,12 @@ class Dragged(Event, tag="dragged"):
     share: float = 0.0
     reason: str = ""
     changes: list[Shifted] = []
+    offers: list[Offer] = []
+
+
+class Offered(Event, tag="offered"):
+    """A change of the model's file that was asked for."""
+
     offers: list[Offer] = []
 
 

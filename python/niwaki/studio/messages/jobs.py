@@ -7,7 +7,7 @@ from typing import Any, Literal
 from msgspec import Struct
 
 from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
-from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Problem, Shape
+from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Offered, Problem, Shape
 from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
@@ -133,8 +133,14 @@ class DragPart(Job, tag="drag"):
     file: str = ""
 
 
+class ProposeDefaults(Job, tag="propose"):
+    """The change of the model's file that makes its arguments its defaults."""
+
+    question: Question
+
+
 class RewriteFile(Job, tag="rewrite"):
-    """Write a change that the last drag has offered."""
+    """Write a change that was offered last."""
 
     difference: str
 
@@ -204,6 +210,7 @@ AnyJob = (
     | Regrow
     | Change
     | DragPart
+    | ProposeDefaults
     | RewriteFile
     | Hold
     | DescribeRun
@@ -225,7 +232,7 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     pins: list[Pin] = []
     path: str = ""
     interrupted: bool = False
-    #: What windows see as `View.note`.
+    #: What windows see as `View.note`; of a search, as `View.losses`.
     note: str = ""
 
 
@@ -239,5 +246,15 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
 
 
 AnyReport = (
-    Answer | Progressed | Shape | Described | Difference | Dragged | Palette | Judged | Picture | Regions
+    Answer
+    | Progressed
+    | Shape
+    | Described
+    | Difference
+    | Dragged
+    | Offered
+    | Palette
+    | Judged
+    | Picture
+    | Regions
 )

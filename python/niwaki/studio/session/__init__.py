@@ -12,6 +12,7 @@ clicked, a slider, a file) is the other worker's, so a search never makes the pa
 - `holding`    pinned parts
 - `reshaping`  a part grown again, a choice with another value: results in the place of a result
 - `dragging`   a part that is dragged
+- `rewriting`  changes of the model's file
 - `showing`    choices and shapes of a result; whether a structure stands
 - `exporting`  files
 """

@@ -48,11 +48,6 @@ async def drag(session: Session, window: Window, command: m.Drag) -> m.Answer | 
     return answer
 
 
-async def rewrite(session: Session, window: Window, command: m.Rewrite) -> m.Answer:
-    """Write a change of the model's file; it is read again as after any edit."""
-    return await session.desk.do(m.RewriteFile(difference=command.difference))
-
-
 async def _follow(session: Session, picked: m.Key, question: m.Question, pins: list[m.Pin]) -> None:
     """Grow the rest again around the part; where that gives nothing, the result stays."""
     if session.searching is not None:

@@ -40,6 +40,7 @@ def choose_model(session: Session, window: Window, command: m.ChooseModel) -> No
     if not is_listed and not session.drawing_file(command.reference):
         text = f"`{command.reference}` is no model of the gallery, and was not named at the start"
         raise Refused("unknown-model", text)
+    session.losses = ""
     fresh = {"model": command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
     session.step("model", {**fresh, "results": session.document.starred(), "picked": None})
     session.start(load(session))

@@ -17,7 +17,7 @@ def run(session: Session, window: Window, command: m.Run) -> Awaitable[m.Answer]
     is_running = session.search is not None and not session.search.done()
     if session.search is not None:
         session.search.cancel()
-    session.is_interrupted = False
+    session.is_interrupted, session.losses = False, ""
     number = session.journal.run()
     session.searching = m.Searching(number)
     session.tell_all()
@@ -41,7 +41,7 @@ async def _searched(session: Session, number: int, is_other_running: bool) -> m.
         file=str(session.journal.runs_file(number)),
     )
     answer = await session.searcher.do(job, session.reported)
-    session.searching = None
+    session.searching, session.losses = None, answer.note
     session.journal.ended()
     found = of_model(answer.outcomes, job.question.model)
     if found:

@@ -46,8 +46,8 @@ class Session:
         What can be chosen.
     model
         The present one, as it was last read.
-    problem, note
-        The error of its file; what is said of what is asked.
+    problem, note, losses
+        The error of its file; what is said of what is asked, and of the runs that the last search lost.
     searching
         How far the search is that runs.
     search
@@ -72,7 +72,7 @@ class Session:
         self.targets: list[str] = []
         self.model: m.ModelInfo | None = None
         self.problem: m.Problem | None = None
-        self.note = ""
+        self.note = self.losses = ""
         self.searching: m.Searching | None = None
         self.search: asyncio.Task[m.Answer] | None = None
         self.is_interrupted = self.journal.running is not None
@@ -121,6 +121,7 @@ class Session:
             undo=self.journal.undoable,
             redo=self.journal.redoable,
             note=self.note,
+            losses=self.losses,
         )
 
     def welcome(self, window: Window, command: int) -> None:

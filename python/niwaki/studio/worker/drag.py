@@ -4,18 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from niwaki.errors import InputError
 from niwaki.result import Result
 from niwaki.search.data import Writer
 from niwaki.search.drag import Dragging
-from niwaki.search.source import SourceChange
-from niwaki.studio.messages import Answer, Dragged, DragPart, Key, Offer, Pin, RewriteFile, Shifted
-from niwaki.studio.worker import jobs, models, runs, shapes
+from niwaki.studio.messages import Answer, Dragged, DragPart, Key, Pin, Shifted
+from niwaki.studio.worker import jobs, models, rewriting, runs, shapes
 
 #: The drag that goes on, with what it began with: of a pointer that moves only the first command prepares it.
 _going: list[tuple[Any, Dragging]] = []
-#: The changes of the model's file that the last drag has offered.
-_offered: list[SourceChange] = []
 
 
 def drag(job: DragPart, send: Any) -> Answer:
@@ -39,8 +35,7 @@ def drag(job: DragPart, send: Any) -> Answer:
     found = dragging.to(job.to)
     best = found.best
     _going.clear()
-    _offered[:] = dragging.source(job.to)
-    offers = [Offer(one.says, one.difference(), not one.choices) for one in _offered]
+    offers = rewriting.offered(dragging.source(job.to))
     if best is None or best.sample.cause is not None:
         share = 1.0 if best is None else best.share
         send(Dragged(job.id, job.part, share, found.reason, offers=offers))
@@ -56,15 +51,6 @@ def drag(job: DragPart, send: Any) -> Answer:
     return Answer(
         outcomes=outcomes, pins=[Pin(best.part, {name: write(value) for name, value in best.holds.items()})]
     )
-
-
-def rewrite(job: RewriteFile) -> Answer:
-    """Write a change of the model's file."""
-    for one in _offered:
-        if one.difference() == job.difference:
-            one.apply()
-            return Answer()
-    raise InputError("nothing-offered")
 
 
 def _dragging(job: DragPart) -> Dragging:

@@ -143,4 +143,5 @@ def _answered(
     outcomes = runs.store(result, found, run, file, origin)
     for one, outcome in zip(result.samples, outcomes, strict=True):
         send(*shape(one, "result", job, outcome.key))
-    return Answer(outcomes=outcomes, interrupted=result.interrupted)
+    losses = str(getattr(result.info, "losses", ""))
+    return Answer(outcomes=outcomes, interrupted=result.interrupted, note=losses)

@@ -22,7 +22,7 @@ from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import allowed, differences, drag, kinds, offers, structures, values
+from niwaki.studio.worker import allowed, differences, drag, kinds, offers, rewriting, structures, values
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -113,8 +113,10 @@ def _done(job: messages.AnyJob, send: Send, stopped: Stopped) -> Any:
             return kinds.asked(job.question).change(job, send)
         case messages.DragPart():
             return drag.drag(job, send)
+        case messages.ProposeDefaults():
+            return rewriting.propose(job, send)
         case messages.RewriteFile():
-            return drag.rewrite(job)
+            return rewriting.rewrite(job)
         case messages.Hold():
             return kinds.stored(job.source).hold(job)
         case messages.DescribeRun():

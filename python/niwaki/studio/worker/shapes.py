@@ -3,7 +3,7 @@
 The payload of a frame, for n vertices and m triangles, little-endian:
 
     positions (n, 3) float32 | normals (n, 3) float32, only if fine | colours (n, 4) uint8, sRGB
-    corners (m, 3) uint32 | parts (m,) uint32
+    corners (m, 3) uint32 | parts (m,) uint32 | metalness and roughness (n, 2) uint8, of 255
 
 The light mesh is the one that scores see; it comes without normals and is shown with flat faces.
 """
@@ -15,14 +15,15 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.draw.palette import paints
+from niwaki.draw.palette import Paint, paints
 from niwaki.draw.parts import part_meshes
 from niwaki.draw.scene import Scene
 from niwaki.studio.messages import Shape
 
-GHOST_COLOR = (0.36, 0.55, 0.80)
+GHOST = Paint("ghost", (0.36, 0.55, 0.80), 0.0)
 
-Arrays = tuple[NDArray[Any], NDArray[Any] | None, NDArray[Any], NDArray[Any], NDArray[Any]]
+#: Part, paint, vertices, normals, faces.
+Piece = tuple[int, Paint, NDArray[Any], NDArray[Any] | None, NDArray[Any]]
 
 
 def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tuple[Shape, bytes]:
@@ -39,43 +40,42 @@ def ghost(
     **header: Any,
 ) -> tuple[Shape, bytes]:
     """The header and the payload of a target or an obstacle."""
-    described, data = _packed([], [(0, GHOST_COLOR, vertices, None, faces)], pivot=pivot, **header)
+    described, data = _packed([], [(0, GHOST, vertices, None, faces)], pivot=pivot, **header)
     low, high = bounds.tolist()
     described.low, described.high = tuple(low), tuple(high)
     return described, data
 
 
-def _fine(scene: Scene) -> list[tuple[int, Any, NDArray[Any], NDArray[Any] | None, NDArray[Any]]]:
+def _fine(scene: Scene) -> list[Piece]:
     numbers = {part.address: number for number, part in enumerate(scene.parts)}
     return [
-        (numbers[part.address], piece.paint.color, piece.vertices, piece.normals, piece.faces)
+        (numbers[part.address], piece.paint, piece.vertices, piece.normals, piece.faces)
         for part in part_meshes(scene)
         for piece in part.pieces
     ]
 
 
-def _light(scene: Scene) -> list[tuple[int, Any, NDArray[Any], NDArray[Any] | None, NDArray[Any]]]:
+def _light(scene: Scene) -> list[Piece]:
     return [
-        (number, paint.color, one.vertices(), None, one.faces())
+        (number, paint, one.vertices(), None, one.faces())
         for number, (part, worn) in enumerate(zip(scene.parts, paints(scene), strict=True))
         for one, paint in zip(part.shapes, worn, strict=True)
     ]
 
 
-def _packed(parts: list[str], pieces: list[Any], **header: Any) -> tuple[Shape, bytes]:
-    """Pieces (part, colour, vertices, normals or None, faces) one after the other."""
+def _packed(parts: list[str], pieces: list[Piece], **header: Any) -> tuple[Shape, bytes]:
+    """Pieces one after the other."""
     counts = [len(vertices) for _, _, vertices, _, _ in pieces]
     starts = np.cumsum([0, *counts])
     points = _joined([vertices for _, _, vertices, _, _ in pieces], 3, "<f4")
     faces = _joined([f + start for (_, _, _, _, f), start in zip(pieces, starts, strict=False)], 3, "<u4")
-    colors = np.concatenate(
-        [np.tile(_bytes(color), (n, 1)) for (_, color, _, _, _), n in zip(pieces, counts, strict=True)]
-        or [np.zeros((0, 4), np.uint8)]
-    )
+    colors = _tiled([(*paint.color, 1.0) for _, paint, *_ in pieces], counts, 4)
+    finishes = _tiled([(paint.metalness, paint.roughness) for _, paint, *_ in pieces], counts, 2)
     owners = np.repeat([p for p, *_ in pieces], [len(f) for *_, f in pieces]).astype("<u4")
-    arrays = [points, colors, faces, owners]
-    if pieces and pieces[0][3] is not None:
-        arrays.insert(1, _joined([normals for _, _, _, normals, _ in pieces], 3, "<f4"))
+    arrays = [points, colors, faces, owners, finishes]
+    normals = [one for _, _, _, one, _ in pieces if one is not None]
+    if normals:
+        arrays.insert(1, _joined(normals, 3, "<f4"))
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(3), np.zeros(3))
     described = Shape(
         vertices=len(points),
@@ -92,5 +92,7 @@ def _joined(arrays: list[NDArray[Any]], width: int, kind: str) -> NDArray[Any]:
     return np.concatenate([np.zeros((0, width)), *arrays]).astype(kind)
 
 
-def _bytes(color: tuple[float, float, float]) -> NDArray[np.uint8]:
-    return np.array([*(round(255 * min(max(c, 0.0), 1.0)) for c in color), 255], dtype=np.uint8)
+def _tiled(shares: list[tuple[float, ...]], counts: list[int], width: int) -> NDArray[np.uint8]:
+    """Shares in [0, 1] as bytes, those of a piece for each of its vertices."""
+    rows = np.clip(np.array(shares).reshape(len(shares), width), 0.0, 1.0)
+    return np.repeat(np.round(255.0 * rows).astype(np.uint8), counts, axis=0)

@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 import niwaki as nw
 from niwaki import stacks
 from niwaki.draw.scene import Scene
-from niwaki.errors import FileError
+from niwaki.errors import FileError, NiwakiError
 from niwaki.errors.files import ensure_folder
 from niwaki.methods import explore
 from niwaki.result import Progress, Result, Sample
+from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import (
     Answer,
     Arrow,
@@ -36,10 +37,12 @@ from niwaki.studio.messages import (
     WriteFile,
 )
 from niwaki.studio.refused import Refused
-from niwaki.studio.worker import jobs, models, runs, shapes
+from niwaki.studio.worker import jobs, models, runs, shapes, variety
 
 #: Chains for each result: those are kept that stand most surely.
 CHAINS = 2
+#: The call whose choices are the forces between blocks (`niwaki.stacks`).
+FORCES = "balance"
 #: A force below this share of a block's mean weight is not shown.
 SMALL = 1e-3
 
@@ -67,15 +70,29 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         **question.arguments,
     )
     tilts = sorted(((_tilt_of(one), -number) for number, one in enumerate(drawn)), reverse=True)
-    kept = [(tilt, drawn[-number]) for tilt, number in tilts[: settings.count]]
-    if not kept:
-        return Answer(interrupted=drawn.interrupted)
-    result = Result(drawn.search, [one for _, one in kept], job.seed)
-    outcomes = runs.store(result, found, job.run, job.file, "run")
-    for (_, one), outcome in zip(kept, outcomes, strict=True):
+    kept = [drawn[-number] for _, number in tilts[: settings.count]]
+    return _answered(Result(drawn.search, kept, job.seed), found, job, "run", send, drawn.interrupted)
+
+
+def _answered(
+    result: Result,
+    found: ModelReference,
+    job: Grow | Regrow,
+    origin: str,
+    send: Any,
+    interrupted: bool = False,
+) -> Answer:
+    """Store results, show them, and say of each whether it stands."""
+    if not result.samples:
+        return Answer(interrupted=interrupted)
+    outcomes = runs.store(result, found, job.run, job.file, origin)
+    for one, outcome in zip(result.samples, outcomes, strict=True):
         send(*shapes.shape(one.scene, "light", what="result", id=job.id, key=outcome.key))
-    noted = [replace(outcome, note=_said(tilt)) for (tilt, _), outcome in zip(kept, outcomes, strict=True)]
-    return Answer(outcomes=noted, interrupted=drawn.interrupted)
+    noted = [
+        replace(outcome, note=_said(_tilt_of(one)))
+        for one, outcome in zip(result.samples, outcomes, strict=True)
+    ]
+    return Answer(outcomes=noted, interrupted=interrupted)
 
 
 def change(job: Change, send: Any) -> Answer:
@@ -94,9 +111,42 @@ ghost = jobs.ghost
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
-    """Refused: a structure balances as a whole."""
-    text = "a structure balances as a whole: pin the calls that shall stay as they are, and grow the rest"
-    raise Refused("structure-whole", text)
+    """Grow a part again so that the whole balances: chains over its choices and the forces, with all others held."""
+    found, one = models.reference(job.question.model), runs.sample(job.source, job.number)
+    choices = one.held()
+    own = {address for address in choices if address == job.part or address.startswith(f"{job.part}/")}
+    held = {
+        address: value
+        for address, value in choices.items()
+        if address not in own and FORCES not in address.split("/")
+    }
+    lock = {**held, **runs.given(job.question.lock)}
+    if own <= set(lock):
+        raise Refused("no-other-form", f"`{job.part}` has no choices of its own that are free")
+    wanted = job.count if job.strength is None else 2 * job.count
+    try:
+        drawn = nw.run(
+            found.model,
+            explore(draws=1, chains=CHAINS * wanted),
+            seed=job.seed,
+            lock=lock,
+            **job.question.arguments,
+        )
+    except NiwakiError as error:
+        text = (
+            f"`{job.part}` has no other form in which the structure balances, while the rest stays as it is"
+        )
+        raise Refused("no-other-form", text) from error
+    standing = sorted(
+        ((tilt, -number) for number, other in enumerate(drawn) if (tilt := _tilt_of(other)) >= 0.0),
+        reverse=True,
+    )
+    samples = [drawn[-number] for _, number in standing[:wanted]]
+    if not samples:
+        raise Refused("no-other-form", f"in no other form that was tried of `{job.part}` does it balance")
+    if job.strength is not None:
+        samples = variety.ordered(one, samples, job.count, job.strength)
+    return _answered(Result(drawn.search, samples, job.seed), found, job, "regrow", send)
 
 
 def judge(job: JudgeRun, send: Any) -> Answer:

@@ -1,19 +1,19 @@
-// The difference to a target: the cells that border on another kind, as small cubes in the colours of the legend.
+// The difference to a target: its cells, in the colours of the legend.
 
 import {
-  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
   Color,
   DataTexture,
   Group,
-  InstancedMesh,
-  Matrix4,
+  LinearFilter,
+  LinearMipmapLinearFilter,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
   NearestFilter,
   PlaneGeometry,
   SRGBColorSpace,
-  Vector3,
 } from "three";
 import type { Difference } from "../messages";
 
@@ -23,45 +23,84 @@ export const KINDS = {
   dark: [0, 0x6d6e73, 0x6aa9e6, 0xf08a4b],
 };
 
+/** The sides of a cell: the step to its neighbour, and the corners, counter-clockwise from outside. */
+const SIDES = [0, 1, 2].flatMap((axis) =>
+  [0, 1].map((end) => {
+    const corner = (u: number, v: number) => {
+      const found = [0, 0, 0];
+      [found[axis], found[(axis + 1) % 3], found[(axis + 2) % 3]] = [end, u, v];
+      return found;
+    };
+    const step = [0, 0, 0];
+    step[axis] = 2 * end - 1;
+    const around = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+    return { step, corners: end === 1 ? around : around.reverse() };
+  }),
+);
+/** Where the corners of a side are in its picture. */
+const EDGES = [0, 0, 1, 0, 1, 1, 0, 1];
+
+/** The sides of cells that can be seen: those beside an empty cell. */
 export function cubes({ size, low, high }: Difference, marks: Uint8Array, colors: number[]): Group {
   const [nx, ny, nz] = size;
-  const step = new Vector3(...high).sub(new Vector3(...low)).divide(new Vector3(nx, ny, nz));
   const at = (x: number, y: number, z: number) =>
     x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz ? 0 : marks[(z * ny + y) * nx + x];
-  const places: number[][] = [[], [], [], []];
+  const seen: number[] = [];
   for (let z = 0, k = 0; z < nz; z++) {
     for (let y = 0; y < ny; y++) {
       for (let x = 0; x < nx; x++, k++) {
-        const kind = marks[k];
-        if (kind === 0) continue;
-        const isInner =
-          at(x - 1, y, z) === kind &&
-          at(x + 1, y, z) === kind &&
-          at(x, y - 1, z) === kind &&
-          at(x, y + 1, z) === kind &&
-          at(x, y, z - 1) === kind &&
-          at(x, y, z + 1) === kind;
-        if (!isInner) places[kind].push(x, y, z);
+        if (marks[k] === 0) continue;
+        SIDES.forEach(({ step }, side) => {
+          if (at(x + step[0], y + step[1], z + step[2]) === 0) seen.push(x, y, z, side);
+        });
       }
     }
   }
-  const group = new Group();
-  const matrix = new Matrix4();
-  for (const kind of [1, 2, 3]) {
-    const found = places[kind];
-    const cube = new BoxGeometry(0.9 * step.x, 0.9 * step.y, 0.9 * step.z);
-    const mesh = new InstancedMesh(cube, new MeshLambertMaterial({ color: colors[kind] }), found.length / 3);
-    for (let k = 0; k < found.length / 3; k++) {
-      matrix.makeTranslation(
-        low[0] + (found[3 * k] + 0.5) * step.x,
-        low[1] + (found[3 * k + 1] + 0.5) * step.y,
-        low[2] + (found[3 * k + 2] + 0.5) * step.z,
-      );
-      mesh.setMatrixAt(k, matrix);
-    }
-    group.add(mesh);
+  const n = seen.length / 4;
+  const [places, normals, shades, edges] = [12, 12, 12, 8].map((one) => new Float32Array(one * n));
+  const corners = new Uint32Array(6 * n);
+  const widths = high.map((end, axis) => (end - low[axis]) / size[axis]);
+  const paint = colors.map((one) => new Color(one));
+  for (let k = 0; k < n; k++) {
+    const [x, y, z, side] = seen.slice(4 * k, 4 * k + 4);
+    const color = paint[at(x, y, z)];
+    SIDES[side].corners.forEach((corner, c) => {
+      const first = 12 * k + 3 * c;
+      [x, y, z].forEach((cell, axis) => (places[first + axis] = low[axis] + (cell + corner[axis]) * widths[axis]));
+      normals.set(SIDES[side].step, first);
+      shades.set([color.r, color.g, color.b], first);
+    });
+    edges.set(EDGES, 8 * k);
+    corners.set([0, 1, 2, 0, 2, 3].map((one) => 4 * k + one), 6 * k);
   }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(places, 3));
+  geometry.setAttribute("normal", new BufferAttribute(normals, 3));
+  geometry.setAttribute("color", new BufferAttribute(shades, 3));
+  geometry.setAttribute("uv", new BufferAttribute(edges, 2));
+  geometry.setIndex(new BufferAttribute(corners, 1));
+  const group = new Group();
+  group.add(new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true, map: TILE })));
   return group;
+}
+
+/** The picture of a side: a darker edge, so that cells can be told apart. */
+const TILE = tile();
+
+function tile(): DataTexture {
+  const n = 16;
+  const bytes = new Uint8Array(4 * n * n).fill(255);
+  for (let k = 0; k < n * n; k++) {
+    const isEdge = k % n === 0 || k % n === n - 1 || k < n || k >= n * n - n;
+    if (isEdge) bytes.fill(205, 4 * k, 4 * k + 3);
+  }
+  const found = new DataTexture(bytes, n, n);
+  found.colorSpace = SRGBColorSpace;
+  found.generateMipmaps = true;
+  found.minFilter = LinearMipmapLinearFilter;
+  found.magFilter = LinearFilter;
+  found.needsUpdate = true;
+  return found;
 }
 
 /** The pixels of a drawing in the plane, before it. */

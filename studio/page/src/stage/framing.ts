@@ -1,9 +1,20 @@
 // Where a camera stands to see a box, along the direction of our pictures.
 
-import { PerspectiveCamera, Vector3 } from "three";
+import { Box3, PerspectiveCamera, Vector3 } from "three";
 
 export const ALONG = new Vector3(0.62, 0.44, 0.78).normalize();
 const FRONT = new Vector3(0, 0, 1);
+
+const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7];
+
+/** Whether a camera sees all of a box. */
+export function isSeen(camera: PerspectiveCamera, { min, max }: Box3): boolean {
+  camera.updateMatrixWorld();
+  return CORNERS.every((k) => {
+    const at = new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z).project(camera);
+    return Math.max(Math.abs(at.x), Math.abs(at.y), Math.abs(at.z)) <= 1;
+  });
+}
 
 /** Puts the camera where the box just fits, with a margin (a share of the view). */
 export function frame(camera: PerspectiveCamera, low: Vector3, high: Vector3, isFlat: boolean, margin = 0.06): Vector3 {

@@ -33,7 +33,11 @@ export function unpacked(header: Shape, payload: ArrayBuffer): Piece {
   geometry.setAttribute("color", new BufferAttribute(colors, 3));
   geometry.setIndex(new BufferAttribute(new Uint32Array(payload, at, 3 * m), 1));
   at += 12 * m;
-  return { header, geometry, owners: new Uint32Array(payload, at, m) };
+  const owners = new Uint32Array(payload, at, m);
+  at += 4 * m;
+  // Metalness and roughness.
+  geometry.setAttribute("finish", new BufferAttribute(new Uint8Array(payload, at, 2 * n), 2, true));
+  return { header, geometry, owners };
 }
 
 /** The triangles of some parts, sharing the vertices of the whole. */

@@ -1,7 +1,8 @@
 // The scene in three.js: the shape, the ghost of the target, marks of selected and pinned parts, the camera.
 //
 // Nothing is drawn unless something has changed. The camera moves when the user moves it, and when a window shows its
-// first content or another model; never because of a search, a reload or an undo.
+// first content or another model; and once more for the first shape of a model that does not fit into the view, where the
+// user has not moved it and draws nothing over it. Never because of a later search, a reload or an undo.
 
 import {
   AmbientLight,
@@ -19,7 +20,6 @@ import {
   Material,
   Mesh,
   MeshBasicMaterial,
-  MeshStandardMaterial,
   PCFShadowMap,
   PerspectiveCamera,
   Plane,
@@ -35,7 +35,8 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
 import { cubes, KINDS, sheet } from "./cells";
 import { arrowMeshes } from "./arrows";
-import { frame } from "./framing";
+import { solid } from "./finish";
+import { frame, isSeen } from "./framing";
 import { type Order, sorted } from "./growth";
 import { subset, unpacked } from "./meshes";
 import { kindOf, type Mode, Things } from "./things";
@@ -68,6 +69,8 @@ export class Stage {
   private theme: "light" | "dark" = "light";
   private isAsked = false;
   private isFramed = false;
+  /** The first shape of the model has come, or the user has moved the camera. */
+  private isSettled = false;
   /** Pixels may be drawn again. */
   frames = 0;
 
@@ -101,6 +104,7 @@ export class Stage {
     this.camera.position.set(14, 9, 18);
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.enableDamping = false;
+    this.orbit.addEventListener("start", () => (this.isSettled = true));
     this.orbit.addEventListener("change", () => {
       this.draw();
       this.onLook();
@@ -117,6 +121,7 @@ export class Stage {
     const colors = new Float32Array(9);
     for (const flatShading of [true, false]) {
       const geometry = new BufferGeometry();
+      geometry.setAttribute("finish", new BufferAttribute(new Float32Array(6), 2));
       for (const name of ["position", "normal", "color"]) geometry.setAttribute(name, new BufferAttribute(colors, 3));
       const mesh = new Mesh(geometry, solid(flatShading));
       mesh.castShadow = mesh.receiveShadow = true;
@@ -337,7 +342,9 @@ export class Stage {
   /** Look at what has come, where nothing of this model was looked at before. */
   private come(): void {
     this.settle();
-    if (!this.isFramed) this.fit();
+    const isFirst = this.piece !== null && !this.isSettled;
+    this.isSettled ||= isFirst;
+    if (!this.isFramed || (isFirst && this.ask.sketch == null && !isSeen(this.camera, this.bounds()))) this.fit();
     this.draw();
   }
 
@@ -374,7 +381,7 @@ export class Stage {
 
   /** The next content is looked at. */
   forget(): void {
-    this.isFramed = false;
+    this.isFramed = this.isSettled = false;
   }
 
   /** The camera as a sketch keeps it. */
@@ -496,7 +503,6 @@ export class Stage {
   }
 }
 
-const solid = (flatShading: boolean) => new MeshStandardMaterial({ vertexColors: true, roughness: 0.72, flatShading });
 const round = (value: number): number => Math.round(value * 1e3) / 1e3;
 
 /** A geometry with the vertices of its own triangles only, for edges. */

@@ -1,4 +1,4 @@
-// Changes of the model's file that explain the last drag: shown as differences, written when accepted.
+// Changes of the model's file that explain the last drag, or arguments as defaults: shown as differences, written when accepted.
 
 import type { Offer } from "../messages";
 import * as store from "../store";

@@ -16,7 +16,7 @@ export function Palette() {
         <h2>Colours</h2>
         <ul class="regions">
           {model.regions.map((one) => (
-            <Region key={one.name} name={one.name} color={colors[one.name] ?? held.get(one.name) ?? one.color} isHeld={held.has(one.name)} />
+            <Region key={one.name} name={one.name} color={colors[one.name] ?? held.get(one.name) ?? one.color} isHeld={store.pinned.value.has(one.name)} />
           ))}
         </ul>
         {model.regions.length === 0 && <p class="quiet">…</p>}

@@ -1,6 +1,6 @@
 // The left side: the model and its arguments, what to grow into, how to search.
 
-import type { ModelInfo, Parameter, Settings } from "../messages";
+import type { ModelInfo, Parameter, Settings, View } from "../messages";
 import * as store from "../store";
 import { Drop } from "./drop";
 import { Field } from "./fields";
@@ -49,6 +49,11 @@ export function Setup() {
           .map((one) => (
             <Argument key={one.name} parameter={one} />
           ))}
+        {view.model?.is_file && isAnyChanged(view) && (
+          <button class="button small" onClick={() => void store.propose()} title="Show how the model's file changes; nothing is written yet">
+            Make these the defaults
+          </button>
+        )}
         {store.kind.value === "coloring" && <Drop what="drawing" />}
       </section>
       {store.kind.value === "scene" && <Target />}
@@ -57,6 +62,10 @@ export function Setup() {
     </aside>
   );
 }
+
+/** Whether an argument is not its default. */
+const isAnyChanged = ({ model, arguments: given }: View): boolean =>
+  (model?.parameters ?? []).some((one) => one.default !== null && (given[one.name] ?? one.default) !== one.default);
 
 function Argument({ parameter }: { parameter: Parameter }) {
   const value = store.view.value!.arguments[parameter.name] ?? parameter.default;
@@ -208,7 +217,7 @@ function Search({ settings }: { settings: Settings }) {
       </label>
       {running === null ? (
         <button class="primary" disabled={cannot} onClick={store.run} title={`${verb} (Enter)`}>
-          {view.pins.length > 0 ? `${verb} the rest` : verb}
+          {store.pinned.value.size > 0 ? `${verb} the rest` : verb}
         </button>
       ) : (
         <button class="primary stop" onClick={store.stop} title="Stop and keep what is there (Esc)">
@@ -218,19 +227,16 @@ function Search({ settings }: { settings: Settings }) {
           </small>
         </button>
       )}
-      {view.pins.length > 0 && (
+      {view.losses !== "" && <p class="quiet losses">{view.losses.replaceAll("`", "")}</p>}
+      {store.pinned.value.size > 0 && (
         <ul class="pins" aria-label="Pinned parts">
-          {view.pins.map((pin) => (
-            <li key={pin.part}>
+          {[...store.pinned.value].map((part) => (
+            <li key={part}>
               <Icon name="pin" filled />
-              <button class="address" onClick={() => (store.level.value = pin.part)}>
-                {pin.part}
+              <button class="address" onClick={() => (store.level.value = part)}>
+                {part}
               </button>
-              <button
-                class="icon-button tiny"
-                title={`Free ${pin.part}`}
-                onClick={() => void store.tell({ kind: "free", parts: [pin.part] })}
-              >
+              <button class="icon-button tiny" title={`Free ${part}`} onClick={() => store.pinOrFree(part)}>
                 <Icon name="close" />
               </button>
             </li>

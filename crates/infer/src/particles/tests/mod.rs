@@ -365,3 +365,19 @@ fn a_population_that_dies_says_where_and_why() {
     assert_eq!(barrier, 2);
     assert_eq!(causes, [("`condition` at line 0".to_string(), 100)]);
 }
+
+#[test]
+fn each_loss_is_counted_once() {
+    let task = task(
+        r#"(module (fn "m" (params) (do (factor 0.0)) (set $x (sample (dist bernoulli 0.5)))
+           (do (condition $x)) (do (factor 0.0)) (set $y (sample (dist bernoulli 0.5))) (do (factor 0.0))
+           (return 1)) (entry "m"))"#,
+    );
+    // Without resampling those that died are in the final set.
+    let settings = Settings { when: When::EffectiveBelow(0.0), ..Settings::default() };
+    let result = smc(&task, &settings, &mut |_| true).unwrap();
+    let dead = result.particles.iter().filter(|p| p.record.score().is_impossible()).count();
+    assert!(0 < dead && dead < 100);
+    let lost = result.losses.explained(&task);
+    assert_eq!((lost.causes, lost.looked_at), (vec![("`condition` at line 0".to_string(), dead)], dead));
+}

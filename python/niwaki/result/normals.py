@@ -1,0 +1,187 @@
+"""Results of variational inference: normals, their evidence bounds, and the weights of their draws."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from niwaki import _engine
+from niwaki.errors import ModelFault
+from niwaki.lang.compiled import as_fault
+from niwaki.methods import Vi
+from niwaki.result.diagnostics import psis
+from niwaki.result.drawn import DrawnInfo, Reals
+from niwaki.result.hmc import say
+
+if TYPE_CHECKING:
+    from niwaki.search import Search
+
+#: Above this k, the weights are too uneven for estimates (Vehtari, Simpson, Gelman, Yao & Gabry 2024, section 3.2.4).
+UNEVEN = 0.7
+#: Where this share of the draws is effective, weights hardly differ, and the shape of their tail does not matter.
+EVEN = 0.95
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ViInfo(DrawnInfo):
+    """Of `vi`: the normals, with the draws from them as numbers.
+
+    There is one normal, or with `family="pathfinder"` one for each path. Draws of density zero are counted, and are not
+    among the samples. `log_evidence` is estimated by the draws' weights.
+
+    Attributes
+    ----------
+    search, seed, sizes, log_weights
+        As of all draws that are numbers: see `DrawnInfo`. The weights are smoothed.
+    log_evidence_bound : float
+        The evidence bound of the best normal, nats, estimated by its draws: below the log evidence by the divergence
+        `KL(q || p)`. Minus infinity where some draws have density zero.
+    bound_error : float
+        Its standard error, nats.
+    k_hat : float
+        Pareto's k of the weights. Above 0.7 the normal misses too much, and estimates by weight are not to be trusted;
+        unless nearly all draws are `effective`.
+    log_ratios : array of shape (n,)
+        `log p - log q` of the draws over coordinates, nats: the logs of the weights before they are smoothed.
+    bounds : list of array
+        Of each normal, estimates of the bound by step, nats: of the ascent of the bound, or along the path.
+    means : list of array of shape (dim,)
+        The mean of each normal, in coordinates.
+    covariances : list of array of shape (dim,) or (dim, dim)
+        Variances of independent coordinates, or the covariance.
+    best_normal : int
+        Which has the highest bound.
+    converged : bool
+        Whether the ascent ended by its tolerance.
+    impossible : int
+        Draws of density zero.
+    gradients : int
+        Gradients taken.
+    broke : int or None
+        The step at which the ascent broke off, because the bound was no number or fell; the best before is the result.
+    fault : ModelFault or None
+        The fault, with its line, of a draw without a finite density there.
+    """
+
+    log_evidence_bound: float
+    bound_error: float
+    k_hat: float
+    log_ratios: Reals
+    bounds: list[Reals]
+    means: list[Reals]
+    covariances: list[Reals]
+    best_normal: int
+    converged: bool
+    impossible: int
+    gradients: int
+    broke: int | None
+    fault: ModelFault | None
+
+    @classmethod
+    def of(cls, search: Search, seed: int, found: _engine.Normals) -> ViInfo:
+        """The results of the engine."""
+        normals = range(found.chains)
+        counts = [found.counters(one) for one in normals]
+        ratios = [p - q for p, q in (found.densities(one) for one in normals)]
+        bounds = [_bound(own, count["impossible"]) for own, count in zip(ratios, counts, strict=True)]
+        best = int(np.argmax([mean for mean, _ in bounds]))
+        every = np.concatenate(ratios)
+        log_weights, k_hat = psis(every)
+        lost = sum(count["impossible"] for count in counts)
+        moments = [found.moments(one) for one in normals]
+        faults = (found.fault(one) for one in normals)
+        first = next((fault for fault in faults if fault is not None), None)
+        return cls(
+            log_evidence=_log_mean(every, len(every) + lost),
+            search=search,
+            seed=seed,
+            sizes=tuple(map(len, ratios)),
+            fixed=[{} for _ in normals],
+            log_weights=log_weights,
+            log_evidence_bound=bounds[best][0],
+            bound_error=bounds[best][1],
+            k_hat=k_hat,
+            log_ratios=every,
+            bounds=[found.bounds(one) for one in normals],
+            means=[mean for mean, _ in moments],
+            covariances=[covariance for _, covariance in moments],
+            best_normal=best,
+            converged=all(count["converged"] for count in counts),
+            impossible=lost,
+            gradients=sum(count["gradients"] for count in counts),
+            broke=next((count["broke"] for count in counts if count["broke"] is not None), None),
+            fault=as_fault(first, search.model.name, f"seed={seed}"),
+            _engine=found,
+        )
+
+    @property
+    def metric(self) -> tuple[float | tuple[float, ...], ...]:
+        """The best normal's variances, or its covariance by rows, as the `metric` of `hmc` and `nuts`."""
+        covariance = self.covariances[self.best_normal].tolist()
+        return tuple(tuple(row) if isinstance(row, list) else row for row in covariance)
+
+    @property
+    def effective(self) -> float:
+        """How many draws of equal weight would say as much."""
+        logs = self.log_weights
+        if logs is None or not len(logs):
+            return 0.0
+        shares = np.exp(logs - logs.max())
+        return float(shares.sum() ** 2 / np.square(shares).sum())
+
+    def statistics(self) -> dict[str, Reals]:
+        """Numbers of each draw, (normals, draws)."""
+        least, ends = min(self.sizes), np.cumsum([0, *self.sizes])[:-1]
+        logs = {"log_ratio": self.log_ratios, "log_weight": self.log_weights}
+        return {
+            name: np.array([values[first : first + least] for first in ends])
+            for name, values in logs.items()
+            if values is not None
+        }
+
+    def warn(self, method: Vi, interrupted: bool) -> None:
+        """Warn about what affects the use of the draws."""
+        name = self.search.model.name
+        if self.broke is not None:
+            why = f":\n{self.fault.render()}" if self.fault else ""
+            say(
+                f"the ascent of the bound of `{name}` broke off at step {self.broke}, because the bound was no number "
+                f"or fell far; the best normal before that is kept{why}"
+            )
+        elif not self.converged and not interrupted:
+            say(
+                f"the bound of `{name}` still grew after {method.steps} steps, by {method.tolerance:g} nats or more in "
+                f"a round; give more `steps`, or a larger `tolerance`"
+            )
+        total = len(self.log_ratios) + self.impossible
+        if self.impossible:
+            say(
+                f"{self.impossible} of {total} draws from the normal of `{name}` have density zero, so that its "
+                f"evidence bound is minus infinity; they are left out, and the weights of the others are right"
+            )
+        if self.k_hat > UNEVEN and self.effective < EVEN * len(self.log_ratios):
+            wider = "" if method.family == "full-rank" else ' take `family="full-rank"`, or'
+            say(
+                f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f}, above {UNEVEN}: the normal misses a part "
+                f"of the distribution, and estimates by weight are not to be trusted;{wider} use "
+                f"`nuts(metric=result.metric)` from `choices=result.best.choices`"
+            )
+
+
+def _bound(ratios: Reals, impossible: int) -> tuple[float, float]:
+    """The mean of the log ratios and its standard error."""
+    if impossible or not len(ratios):
+        return -math.inf, math.nan
+    spread = float(ratios.std(ddof=1)) if len(ratios) > 1 else math.nan
+    return float(ratios.mean()), spread / math.sqrt(len(ratios))
+
+
+def _log_mean(logs: Reals, count: int) -> float | None:
+    """Log of the mean of `exp(logs)` and zeros up to `count` numbers."""
+    if not len(logs):
+        return None
+    most = float(logs.max())
+    return most + math.log(float(np.exp(logs - most).sum()) / count)

@@ -1,0 +1,25 @@
+"""Changes of the model's file: offered, and written when one is accepted."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+from niwaki.studio import messages as m
+from niwaki.studio.session.state import Session
+from niwaki.studio.window import Window
+
+
+async def propose(session: Session, window: Window, command: m.Propose) -> m.Answer:
+    """Offer the arguments as defaults."""
+
+    def report(found: Any, payload: bytes) -> None:
+        window.tell(msgspec.structs.replace(found, id=command.id))
+
+    return await session.desk.do(m.ProposeDefaults(question=session.question()), report)
+
+
+async def rewrite(session: Session, window: Window, command: m.Rewrite) -> m.Answer:
+    """Write a change of the model's file; it is read again as after any edit."""
+    return await session.desk.do(m.RewriteFile(difference=command.difference))

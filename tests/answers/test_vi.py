@@ -1,0 +1,252 @@
+"""Claim: bounds, moments and evidence of variational inference are those of the model, or Pareto's k warns.
+
+Of conjugate models the evidence, the best bound of each family and the moments are known in closed form. Estimates
+by weight lie within 4.5 standard errors of them, the errors by the weights themselves: once in 150,000 a true
+estimate does not, and about fifteen are judged. Where the family has the posterior among its members, the bound is
+the evidence, without noise.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import niwaki as nw
+import numpy as np
+import pytest
+from niwaki import model
+from niwaki.errors import InputError
+from niwaki.result.hmc import GradientWarning
+from niwaki.words import Bernoulli, Gaussian, Poisson
+
+X = np.array([-1.1, -0.3, 0.4, 0.8, 1.6])
+Y = np.array([-0.4, 0.4, 1.0, 2.1, 2.3])
+NOISE = 0.5
+COINS = [True, False, True, True, False, True, True]
+
+
+@model
+def line(xs, ys):
+    slope = nw.gaussian(0.0, 2.0)
+    height = nw.gaussian(1.0, 3.0)
+    for i in range(len(xs)):
+        nw.observe(Gaussian(height + slope * xs[i], 0.5), ys[i])
+    return slope
+
+
+@model
+def share_of_coins(data):
+    share = nw.beta(2.0, 3.0)
+    for y in data:
+        nw.observe(Bernoulli(share), y)
+    return share
+
+
+@model
+def funnel():
+    v = nw.gaussian(0.0, 3.0)
+    for _i in range(8):
+        nw.gaussian(0.0, math.exp(0.5 * v))
+    return v
+
+
+@model
+def two_modes():
+    x = nw.gaussian(0.0, 3.0)
+    nw.factor(-2.0 * (x * x - 4.0) ** 2)
+    return x
+
+
+@model
+def rooms():
+    size = nw.gaussian(0.0, 1.0)
+    if size > 0.5:
+        nw.gaussian(0.0, 1.0)
+    return size
+
+
+@model
+def counted():
+    rate = nw.gamma(2.0, 1.0)
+    return nw.sample(Poisson(rate))
+
+
+@model
+def walled():
+    x = nw.gaussian(0.0, 1.0)
+    nw.condition(x > -1.0)
+    return x
+
+
+def line_answers() -> tuple[float, np.ndarray, np.ndarray]:
+    """Log evidence, mean and covariance of (slope, height)."""
+    design = np.column_stack([X, np.ones_like(X)])
+    prior, mean = np.diag([4.0, 9.0]), np.array([0.0, 1.0])
+    cover = design @ prior @ design.T + NOISE**2 * np.eye(len(X))
+    rest = Y - design @ mean
+    solved = np.linalg.solve(cover, rest)
+    evidence = -0.5 * (rest @ solved + np.linalg.slogdet(2 * math.pi * cover)[1])
+    gain = prior @ design.T
+    return (
+        float(evidence),
+        mean + gain @ solved,
+        prior - gain @ np.linalg.solve(cover, gain.T),
+    )
+
+
+def weighted(result: nw.Result, values: np.ndarray) -> tuple[float, float]:
+    """The mean by weight, and its standard error."""
+    w = result.weights
+    mean = float(w @ values)
+    return mean, float(np.sqrt(np.square(w * (values - mean)).sum()))
+
+
+def near(result: nw.Result, values: np.ndarray, truth: float, least: float) -> None:
+    """Hold an estimate against the truth; its error must be small enough to mean something."""
+    mean, error = weighted(result, values)
+    assert error < least, (mean, error)
+    assert abs(mean - truth) < 4.5 * error, (mean, truth, error)
+
+
+def quiet(*args, **settings) -> nw.Result:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", GradientWarning)
+        return nw.run(*args, **settings)
+
+
+def test_the_full_rank_has_the_evidence_for_its_bound():
+    evidence, mean, cover = line_answers()
+    found = nw.run(line, X.tolist(), Y.tolist(), method=nw.vi("full-rank", tolerance=1e-6), seed=1)
+    assert found.converged
+    assert abs(found.log_evidence_bound - evidence) < 2e-3
+    assert found.bound_error < 2e-3
+    assert abs(found.log_evidence - evidence) < 2e-3
+    assert found.k_hat < 0.7
+    assert np.allclose(found.means[0], mean, atol=0.01)
+    assert np.allclose(found.covariances[0], cover, rtol=0.03, atol=1e-3)
+
+
+def test_the_mean_field_has_the_bound_of_the_best_diagonal():
+    evidence, mean, cover = line_answers()
+    precision = np.linalg.inv(cover)
+    best = evidence - 0.5 * (np.log(np.diag(precision)).sum() - np.linalg.slogdet(precision)[1])
+    found = quiet(line, X.tolist(), Y.tolist(), method=nw.vi(draws=20_000), seed=2)
+    assert found.bound_error < 0.02
+    # The optimum is flat: parameters an error of e away cost e^2.
+    assert best - 0.02 - 4.5 * found.bound_error < found.log_evidence_bound < best + 4.5 * found.bound_error
+    assert found.log_evidence_bound < evidence - 0.01
+    slope = found.draws["slope"][0]
+    near(found, slope, mean[0], 0.02)
+    near(found, slope**2, mean[0] ** 2 + cover[0, 0], 0.05)
+    ratios = np.exp(found.log_ratios - evidence)
+    assert abs(ratios.mean() - 1.0) < 4.5 * ratios.std() / math.sqrt(len(ratios))
+
+
+@pytest.mark.parametrize("family", ["mean-field", "full-rank", "pathfinder"])
+def test_a_bounded_choice(family):
+    a, b = 2.0 + sum(COINS), 3.0 + len(COINS) - sum(COINS)
+
+    def log_beta(a: float, b: float) -> float:
+        return math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b)
+
+    evidence = log_beta(a, b) - log_beta(2.0, 3.0)
+    found = nw.run(share_of_coins, COINS, method=nw.vi(family, draws=10_000, paths=2), seed=3)
+    assert found.log_evidence_bound < evidence + 4.5 * found.bound_error
+    assert evidence - found.log_evidence_bound < 0.1
+    ratios = np.exp(found.log_ratios - evidence)
+    assert abs(ratios.mean() - 1.0) < 4.5 * ratios.std() / math.sqrt(len(ratios))
+    share = np.concatenate([one["share"] for one in found.values])
+    near(found, share, a / (a + b), 0.005)
+    near(found, share**2, a * (a + 1) / ((a + b) * (a + b + 1)), 0.005)
+
+
+def test_the_funnel_is_not_fitted_and_k_says_so():
+    with pytest.warns(GradientWarning, match="Pareto's k"):
+        found = nw.run(funnel, method=nw.vi(draws=4000), seed=4)
+    assert found.k_hat > 0.7
+    # The evidence is 1: the bound is below it.
+    assert found.log_evidence_bound < -0.3
+
+
+def test_paths_find_both_modes():
+    found = quiet(two_modes, method=nw.vi("pathfinder", paths=8, draws=1000), seed=5)
+    signs = {float(np.sign(mean[0])) for mean in found.means}
+    assert signs == {-1.0, 1.0}
+    x = np.concatenate([one["x"] for one in found.values])
+    assert np.abs(np.abs(x).mean() - 2.0) < 0.1
+
+
+def test_draws_of_density_zero_are_left_out_and_the_evidence_is_right():
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", GradientWarning)
+        found = nw.run(walled, method=nw.vi(start="run", draws=20_000), seed=6)
+    assert any("density zero" in str(one.message) for one in said)
+    assert found.impossible > 0
+    assert found.log_evidence_bound == -math.inf
+    assert len(found) == 20_000 - found.impossible
+    ratios = np.concatenate([np.exp(found.log_ratios), np.zeros(found.impossible)])
+    truth = 0.5 * (1.0 + math.erf(1.0 / math.sqrt(2.0)))
+    assert abs(ratios.mean() - truth) < 4.5 * ratios.std() / math.sqrt(len(ratios))
+
+
+def test_same_seed_same_bits_on_any_number_of_threads():
+    for family in ("mean-field", "full-rank", "pathfinder"):
+        one, four = (
+            quiet(share_of_coins, COINS, method=nw.vi(family, draws=50, steps=200), seed=7, threads=threads)
+            for threads in (1, 4)
+        )
+        assert np.array_equal(one.log_ratios, four.log_ratios)
+        assert all(np.array_equal(a, b) for a, b in zip(one.positions, four.positions, strict=True))
+    other = quiet(share_of_coins, COINS, method=nw.vi(draws=50, steps=200), seed=8)
+    assert not np.array_equal(other.positions[0], one.positions[0])
+
+
+@pytest.mark.parametrize("wrong", [rooms, counted])
+def test_a_structure_that_changes_is_refused(wrong):
+    for family in ("mean-field", "pathfinder"):
+        with pytest.raises(InputError, match="no-normal-fits"):
+            nw.run(wrong, method=nw.vi(family), seed=1)
+
+
+def test_a_result_is_a_start_and_a_metric():
+    _, mean, cover = line_answers()
+    data = X.tolist(), Y.tolist()
+    for family in ("mean-field", "full-rank"):
+        found = quiet(line, *data, method=nw.vi(family, draws=200), seed=9)
+        (start,) = found.resampled(1)
+        chains = nw.run(
+            line,
+            *data,
+            method=nw.nuts(draws=1000, warmup=100, metric=found.metric),
+            choices=start.choices,
+            seed=9,
+        )
+        slope = chains.draws["slope"]
+        error = nw.diagnostics.mcse_mean(slope)
+        assert error < 0.03
+        assert abs(slope.mean() - mean[0]) < 4.5 * error
+    with pytest.raises(InputError, match="3 coordinates"):
+        nw.run(line, *data, method=nw.nuts(metric=[1.0, 1.0, 1.0]), seed=9)
+
+
+def test_resampled_draws_have_equal_weight():
+    found = nw.run(share_of_coins, COINS, method=nw.vi(draws=2000), seed=10)
+    share = np.array([sample.value for sample in found.resampled(2000)])
+    mean, error = weighted(found, found.draws["share"][0])
+    assert abs(share.mean() - mean) < error
+
+
+def test_bad_settings():
+    for settings, message in (
+        ({"family": "normal"}, "one of"),
+        ({"start": "top"}, "one of"),
+        ({"family": "pathfinder", "start": "run"}, "pathfinder"),
+        ({"tolerance": 0.0}, "above 0"),
+        ({"samples": 0}, "above 0"),
+        ({"draws": -3}, "above 0"),
+    ):
+        with pytest.raises(InputError, match=message):
+            nw.vi(**settings)
+    for metric in ("round", [0.0, 1.0], [[1.0, 2.0]], [[1.0], ["a"]], [float("nan")]):
+        with pytest.raises(InputError, match="metric"):
+            nw.nuts(metric=metric)
