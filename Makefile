@@ -235,7 +235,7 @@ licences: $(STAMPS)/venv
 docs: $(STAMPS)/engine $(STAMPS)/docs $(STAMPS)/test
 	$(PY) docs/running/snippets.py docs/made $(ONLY)
 	$(PY) docs/running/reference.py docs/made
-	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+	$(VENV)/bin/sphinx-build -W --keep-going -q -j auto -b html docs docs/_build/html
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --workspace --exclude niwaki-py --no-deps
 	@echo "the manual: docs/_build/html/index.html; the engine: target/doc/niwaki_vm/index.html"
 
