@@ -32,7 +32,7 @@
 #   make wheel    the wheel of this machine, into dist/; one for Python 3.11 and later
 #   make sdist    the sources that build a wheel, into dist/
 #   make package  both, and their tests: empty environments without a toolchain, one for each Python of the machine
-#                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (10 minutes)
+#                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (15 minutes)
 #   make licences write THIRD-PARTY again, after a change of Cargo.lock; `make lint` compares it
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc; runs every snippet of the
 #                 manual first (ONLY="files chains": those pages; minutes)

@@ -31,7 +31,7 @@ def tilted():
 @model
 def funnel():
     x = nw.gaussian(0.0, 1.5)
-    nw.gaussian(0.0, math.exp(x))
+    nw.gaussian(0.0, math.exp(1.7 * x))
     return x
 
 
@@ -65,7 +65,7 @@ def main() -> None:
             axes[2].axhline(-0.5 * math.log(25.0), color="black", lw=0.8, ls="--", label="log evidence")
             axes[2].set(title="bound by step, tilted, nats", xlabel="step")
             axes[2].legend(fontsize=7, loc="lower right")
-    figure.savefig(file, dpi=80)
+    figure.savefig(file, dpi=72)
     print(f"{file}: {file.stat().st_size} bytes")
 
 

@@ -175,8 +175,9 @@ def _bound(ratios: Reals, impossible: int) -> tuple[float, float]:
     """The mean of the log ratios and its standard error."""
     if impossible or not len(ratios):
         return -math.inf, math.nan
-    spread = float(ratios.std(ddof=1)) if len(ratios) > 1 else math.nan
-    return float(ratios.mean()), spread / math.sqrt(len(ratios))
+    with np.errstate(over="ignore"):
+        spread = float(ratios.std(ddof=1)) if len(ratios) > 1 else math.nan
+        return float(ratios.mean()), spread / math.sqrt(len(ratios))
 
 
 def _log_mean(logs: Reals, count: int) -> float | None:

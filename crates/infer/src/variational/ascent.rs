@@ -4,8 +4,8 @@
 //! In rounds. In a round the steps have one length, until the bound of a block of steps is no longer above that of the
 //! block before by more than its noise. The iterates then move around an optimum, and their mean over the block is
 //! nearer to it than the last (Dhaka et al. 2020, section 3). Means of two rounds are compared by the same draws. The ascent
-//! ends when a round gains less than the tolerance, its error counted; else the next round takes shorter steps. The
-//! result is the best of the means and the start.
+//! ends when a round gains less than the tolerance, its error counted. The next round takes shorter steps where a round
+//! gained nothing that its error lets one see. The result is the best of the means and the start.
 //!
 //! Where half of a step's draws have no finite density, or a block falls far below the best, the ascent goes back to the
 //! best and takes shorter steps; after some such returns it ends there.
@@ -25,8 +25,9 @@ const FIRST: f64 = 0.1;
 const FINER: f64 = 0.4;
 /// A round with steps this short is the last.
 const LAST: f64 = 1e-4;
-/// Steps of a block in the first round; each round adds as many.
+/// Steps of a block in the first round; each round adds as many, up to so many times.
 const BLOCK: u32 = 40;
+const LONGEST: u32 = 8;
 /// Draws by which means of rounds are compared.
 const CHECKS: usize = 256;
 /// Returns to the best after which an ascent ends.
@@ -120,7 +121,7 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
     };
     let mut before: Option<Block> = None;
     loop {
-        let block = ascent.block(batch, rate, BLOCK * round, watch)?;
+        let block = ascent.block(batch, rate, BLOCK * round.min(LONGEST), watch)?;
         let fell = block.mean < best.1.mean - FALL * (1.0 + 0.1 * start.dim() as f64)
             && before.as_ref().is_some_and(|before| block.mean < before.mean);
         match block.end {
@@ -154,16 +155,18 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
         if is_better {
             best = (ascent.member.clone(), check);
         }
-        if gain + 2.0 * error < settings.tolerance && settled && round > 1 || rate < LAST {
-            return Ok(fit(&mut ascent, &best, settled, None, false));
-        }
-        if is_last {
-            return Ok(fit(&mut ascent, &best, false, None, false));
+        let has_ended = settled && gain + 2.0 * error < settings.tolerance;
+        if has_ended && rate < FIRST || rate < LAST || is_last {
+            return Ok(fit(&mut ascent, &best, has_ended, None, false));
         }
         if !is_better {
             ascent.member.parameters = last;
         }
-        (rate, round, before) = (rate * FINER, round + 1, None);
+        // Steps are not too long while a round gains by them.
+        if gain < settings.tolerance.max(2.0 * error) {
+            rate *= FINER;
+        }
+        (round, before) = (round + 1, None);
     }
 }
 
@@ -171,7 +174,7 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
     Whole,
-    /// A step had too few draws with a finite density.
+    /// A step had too few draws with a finite density, or the bound left the range of numbers.
     Refused,
     Interrupted,
 }
@@ -269,6 +272,10 @@ impl Ascent<'_> {
         center.iter_mut().for_each(|c| *c /= count);
         let mean = taken.iter().sum::<f64>() / count;
         let variance = taken.iter().map(|b| (b - mean).powi(2)).sum::<f64>() / count;
+        // A bound that grows without end leaves the range of numbers.
+        if end == End::Whole && !variance.is_finite() {
+            end = End::Refused;
+        }
         Ok(Block { center, mean, noise: (variance / count).sqrt(), end })
     }
 
@@ -419,17 +426,27 @@ mod tests {
 
     #[test]
     fn a_target_that_stops_being_a_number_keeps_the_best_and_says_where() {
+        // The bound grows with the normal's width, until most draws lie where there is no number.
         let mut target = By(1, |x: &[f64], g: &mut [f64]| {
-            g[0] = 3.0;
-            if x[0] > 2.0 { Ok(f64::NAN) } else { Ok(3.0 * x[0]) }
+            g[0] = 2.0 * x[0];
+            if x[0].abs() > 5.0 { Ok(f64::NAN) } else { Ok(x[0] * x[0]) }
         });
         let (mut nothing, start) = (Nothing, Normal::diagonal(vec![0.0], vec![0.1]));
         let mut batch = Batch::new(&mut target, &mut nothing);
         let longer = Settings { steps: 20_000, ..settings(Family::MeanField) };
         let fit = ascend(&mut batch, &start, &longer, 1, 0, &|_| true).expect("one structure");
-        let broke = fit.broke.expect("the ascent runs against a wall");
-        assert!(broke.x.is_some_and(|x| x[0] > 2.0) && broke.step > 0);
+        let broke = fit.broke.expect("the ascent leaves the numbers");
+        assert!(broke.x.is_some_and(|x| x[0].abs() > 5.0) && broke.step > 0);
         assert!(fit.normal.mean[0].is_finite() && !fit.converged);
+        // A bound that leaves the range of numbers.
+        let mut target = By(1, |x: &[f64], g: &mut [f64]| {
+            g[0] = 4.0 * x[0].powi(3);
+            Ok(x[0].powi(4))
+        });
+        let mut batch = Batch::new(&mut target, &mut nothing);
+        let longer = Settings { steps: 200_000, ..settings(Family::MeanField) };
+        let fit = ascend(&mut batch, &start, &longer, 1, 0, &|_| true).expect("one structure");
+        assert!(fit.broke.is_some() && fit.normal.log_det.is_finite());
         let stop = Stop { cause: Cause::Guard, place: 0 };
         let mut elsewhere = By(1, |_: &[f64], _: &mut [f64]| Err(stop));
         let mut batch = Batch::new(&mut elsewhere, &mut nothing);
