@@ -32,9 +32,10 @@
 #   make wheel    the wheel of this machine, into dist/; one for Python 3.11 and later
 #   make sdist    the sources that build a wheel, into dist/
 #   make package  both, and their tests: empty environments without a toolchain, one for each Python of the machine
-#                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (10 minutes)
+#                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (15 minutes)
 #   make licences write THIRD-PARTY again, after a change of Cargo.lock; `make lint` compares it
-#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc
+#   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc; runs every snippet of the
+#                 manual first (ONLY="files chains": those pages; minutes)
 #   make format   format the sources
 #   make locks    pin the newest versions of the packages in pyproject.toml
 #   make clean    remove everything that these targets created
@@ -59,7 +60,7 @@ LIMIT := --manifest-path benches/limit/Cargo.toml --target-dir benches/.cache/li
 FUZZERS := --manifest-path fuzz/Cargo.toml --target-dir fuzz/target/lint
 
 RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
-PYTHON_SOURCES := python tests benches integrations docs/conf.py
+PYTHON_SOURCES := python tests benches integrations docs/conf.py docs/running
 
 PARTS :=
 PYTHONS :=
@@ -230,8 +231,11 @@ package: $(STAMPS)/engine $(STAMPS)/test wheel sdist
 licences: $(STAMPS)/venv
 	$(PY) tests/house/licences.py --write
 
-docs: $(STAMPS)/engine $(STAMPS)/docs
-	$(VENV)/bin/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+# The test extra has the libraries that pages about printing, colours and structures need.
+docs: $(STAMPS)/engine $(STAMPS)/docs $(STAMPS)/test
+	$(PY) docs/running/snippets.py docs/made $(ONLY)
+	$(PY) docs/running/reference.py docs/made
+	$(VENV)/bin/sphinx-build -W --keep-going -q -j auto -b html docs docs/_build/html
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CARGO_FLAGS) --workspace --exclude niwaki-py --no-deps
 	@echo "the manual: docs/_build/html/index.html; the engine: target/doc/niwaki_vm/index.html"
 
@@ -257,5 +261,5 @@ locks: $(STAMPS)/venv
 	done
 
 clean:
-	rm -rf $(VENV) target out dist docs/_build benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf $(VENV) target out dist docs/_build docs/made benches/.cache fuzz/target fuzz/corpus fuzz/artifacts
 	find python tests benches \( -name __pycache__ -o -name '*.so' \) -prune -exec rm -rf {} +

@@ -30,6 +30,7 @@ What a scene should be like:
 The results of a search:
 
     Result, Sample                              all runs, and one: its value, choices, scores, picture, files
+    view                                        results to turn, in a notebook or as a page of one file
     run_python                                  one run as plain Python, for a debugger
     doctor                                      what is installed, what works, what is missing for what
 
@@ -45,6 +46,7 @@ Everything else:
     niwaki.gallery    models
     niwaki.errors     every error
     niwaki.stacks     structures of blocks that stand
+    niwaki.notebook   results to turn, in a notebook or as a page of one file
     niwaki.letters    words in vines or lightning
     niwaki.color      colours for drawings
 

@@ -35,6 +35,7 @@ from .methods import pimh as pimh
 from .methods import rejection as rejection
 from .methods import smc as smc
 from .methods import vi as vi
+from .notebook import view as view
 from .result import Result as Result
 from .result import Sample as Sample
 from .result import diagnostics as diagnostics

@@ -17,5 +17,15 @@ await build({
   loader: { ".css": "css" },
   external: ["/inter.woff2"],
 });
+// The stage alone, for notebooks and for pages of one file.
+await build({
+  entryPoints: { view: "src/view.ts" },
+  outdir: out,
+  bundle: true,
+  minify: true,
+  format: "esm",
+  target: "es2022",
+  legalComments: "eof",
+});
 copyFileSync("src/index.html", `${out}/index.html`);
 copyFileSync("node_modules/@fontsource-variable/inter/files/inter-latin-wght-normal.woff2", `${out}/inter.woff2`);

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import trimesh
 from niwaki import _engine
@@ -202,3 +204,45 @@ def test_growth_goes_part_by_part_where_motion_is_not_wanted(open_page, served):
         button.click()
         page.wait_for_timeout(200)
         assert page.evaluate("window.__studio.drawn.length") == count
+
+
+def test_a_first_shape_that_is_larger_than_its_target_is_looked_at_once(open_page, served, pile):
+    page = open_page(served)
+    choose(page, "spaceship", 1)
+    page.select_option("select[aria-label=Model]", str(pile))
+    until(page, f"window.__studio.view.model.reference == {json.dumps(str(pile))}")
+    page.select_option("select[aria-label=Target]", "box")
+    until(page, "window.__studio.isGhostShown && window.__studio.ghost == 12")
+    first = camera(page)
+    assert page.evaluate("window.__studio.seesAll")
+    grow(page)
+    at_rest(page)
+    second = camera(page)
+    assert page.evaluate("window.__studio.seesAll") and not (first == second).all()
+    # Once: from then on it is the user's.
+    page.get_by_label("height").fill("30")
+    page.get_by_label("height").blur()
+    until(page, "window.__studio.bounds.high?.[1] > 20")
+    assert (camera(page) == second).all() and not page.evaluate("window.__studio.seesAll")
+    page.get_by_label("height").fill("3")
+    page.get_by_label("height").blur()
+    until(page, "window.__studio.bounds.high?.[1] < 20")
+
+
+def test_arguments_are_written_as_defaults_by_one_button(open_page, served, pile):
+    page = open_page(served)
+    text = pile.read_text()
+    choose(page, str(pile), 1, seed=4)
+    button = page.get_by_role("button", name="Make these the defaults")
+    page.get_by_label("height").fill("4")
+    page.get_by_label("height").blur()
+    button.click()
+    page.get_by_text("line 7: 3.0 becomes 4.0").click()
+    assert pile.read_text() == text
+    try:
+        page.get_by_role("button", name="Write it").click()
+        until(page, "window.__studio.view.model.parameters[0].default == 4")
+        assert pile.read_text() == text.replace("3.0", "4.0")
+        assert button.count() == 0
+    finally:
+        pile.write_text(text)

@@ -104,7 +104,7 @@ class Growing:
         self._worker = Worker(*words, environment=environment())
         self._job = job
         self._loop = asyncio.new_event_loop()
-        self._is_searching, self._is_stopping = True, False
+        self._is_searching, self._is_stopping, self._is_abandoned = True, False, False
         self._thread = threading.Thread(target=self._carry_out, daemon=True)
         self._thread.start()
 
@@ -123,6 +123,13 @@ class Growing:
             self._is_stopping = True
             asyncio.run_coroutine_threadsafe(self._stop(), self._loop)
 
+    def abandon(self) -> None:
+        """End the search, and leave nothing of it."""
+        self._is_abandoned = True
+        self.stop()
+        if self.has_ended:
+            self.clear()
+
     def clear(self) -> None:
         """Remove the files."""
         shutil.rmtree(self._folder, ignore_errors=True)
@@ -138,6 +145,8 @@ class Growing:
             self._is_searching = False
             self._loop.run_until_complete(self._end())
             self._loop.close()
+            if self._is_abandoned:
+                self.clear()
 
     async def _end(self) -> None:
         """End the worker, and wait for a `stop` that is still trying."""

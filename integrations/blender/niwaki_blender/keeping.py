@@ -14,6 +14,8 @@ from . import growing
 
 #: Custom properties of a run's collection, and of a result's.
 RUN, ORIGIN, NUMBER = "niwaki_run", "niwaki_origin", "niwaki_number"
+#: Custom properties of a run's collection: the file of its model, and the hash of its bytes.
+FILE, FILE_HASH = "niwaki_file", "niwaki_file_sha256"
 #: Custom properties of a part: its address, which comes from the file, and whether it is held.
 ADDRESS, HELD = "address", "niwaki_held"
 
@@ -22,6 +24,9 @@ def keep_run(collection: bpy.types.Collection, grown: growing.Grown, origin: Seq
     """Write a search into its collection, and where the model's origin stands."""
     collection[RUN] = grown.run
     collection[ORIGIN] = tuple(origin)
+    file = growing.model_file(grown.run)
+    if file is not None:
+        collection[FILE], collection[FILE_HASH] = str(file[0]), file[1]
 
 
 def keep_result(collection: bpy.types.Collection, grown: growing.Grown, number: int) -> None:

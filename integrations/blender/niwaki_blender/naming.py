@@ -9,6 +9,9 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+from niwaki.errors import NiwakiError
+from niwaki.inputs import bytes_of
+
 _named: set[Path] = set()
 
 
@@ -30,8 +33,8 @@ class Unnamed(Exception):
 def digest(path: Path) -> str:
     """SHA-256 of the bytes of a file, in hexadecimal; empty where it cannot be read."""
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    except OSError:
+        return hashlib.sha256(bytes_of(path, "model")).hexdigest()
+    except (OSError, NiwakiError):
         return ""
 
 

@@ -95,6 +95,11 @@ class _Grows:
         _running.clear()
         return self._ended(context)
 
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Called by Blender, where it loads another file or closes the window."""
+        _running.clear()
+        self._growing.abandon()
+
     def _begun(self, context: bpy.types.Context) -> bool:
         try:
             self._growing = self.begin(context)
@@ -112,7 +117,11 @@ class _Grows:
                     text = "The model calls Python functions of its file. Read that file, then press Trust"
                 self.report({"ERROR"}, text)
                 return {"CANCELLED"}
-            self.end(context, grown)
+            try:
+                self.end(context, grown)
+            except ValueError as error:
+                self.report({"ERROR"}, str(error))
+                return {"CANCELLED"}
             if grown.interrupted:
                 self.report({"INFO"}, "Cancelled: the best until then")
             return {"FINISHED"}
@@ -160,19 +169,26 @@ class _Repeats(_Grows):
 
     def begin(self, context: bpy.types.Context) -> growing.Growing:
         """Start the search of the active result."""
-        self._result = keeping.result_of(context.object)
+        self._name = keeping.result_of(context.object).name
         return growing.Growing(self.stored(context), naming.words())
 
+    def result(self) -> bpy.types.Collection:
+        """The result that was active, by its name: undo makes other objects of Python of everything."""
+        found = bpy.data.collections.get(self._name)
+        if found is None:
+            raise ValueError(f"{self._name} was removed while its search was done again")
+        return found
+
     def run(self) -> bpy.types.Collection:
-        """The collection of the active result's run."""
-        run = keeping.run_of(self._result)
+        """The collection of its run."""
+        run = keeping.run_of(self.result())
         if run is None:
-            raise ValueError(f"{self._result.name} is outside of the collection that has its search")
+            raise ValueError(f"{self._name} is outside of the collection that has its search")
         return run
 
     def place(self) -> Sequence[float]:
         """Where the active result stands."""
-        handle = placing.handle_of(self._result)
+        handle = placing.handle_of(self.result())
         return self.run()[keeping.ORIGIN] if handle is None else handle.location
 
 
@@ -187,14 +203,15 @@ class NIWAKI_OT_reroll(_Repeats, bpy.types.Operator):
     def stored(self, context: bpy.types.Context) -> growing.Again:
         """Its search with another seed, and what is held."""
         seed = self.seed if self.seed >= 0 else random.randrange(2**31)
-        self._held = keeping.held(self._result)
-        number = self._result[keeping.NUMBER]
+        self._held = keeping.held(self.result())
+        number = self.result()[keeping.NUMBER]
         return growing.Again(self.run()[keeping.RUN], number, seed, 1, self._held)
 
     def end(self, context: bpy.types.Context, grown: growing.Grown) -> None:
         """Place it where the old one stands."""
         run = placing.place(context, grown, _name(grown), self._held, self.place())
-        self._result.hide_viewport = self._result.hide_render = True
+        old = self.result()
+        old.hide_viewport = old.hide_render = True
         context.view_layer.objects.active = placing.handle_of(run.children[0])
 
 
@@ -288,6 +305,7 @@ class NIWAKI_OT_trust(bpy.types.Operator):
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Show what is agreed to."""
+        self.sha256 = self.sha256 or naming.digest(Path(self.filepath))
         return context.window_manager.invoke_props_dialog(self, width=520)
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -54,7 +54,7 @@ class NIWAKI_PT_panel(bpy.types.Panel):
         else:
             layout.prop(settings, "function")
             if not naming.named(file):
-                _trust(layout, file, naming.digest(file))
+                _trust(layout, file)
         layout.prop(settings, "arguments")
 
     def _progress(self, layout: Any, found: growing.Growing) -> None:
@@ -77,13 +77,12 @@ class NIWAKI_PT_panel(bpy.types.Panel):
         for name in ("hold", "reroll", "again"):
             row.operator(f"niwaki.{name}")
         run = keeping.run_of(result)
-        file = None if run is None else growing.model_file(run[keeping.RUN])
-        if file is not None and not naming.named(file[0]):
-            _trust(box, *file)
+        if run is not None and keeping.FILE in run and not naming.named(Path(run[keeping.FILE])):
+            _trust(box, Path(run[keeping.FILE]), run[keeping.FILE_HASH])
 
 
-def _trust(layout: Any, file: Path, sha256: str) -> None:
-    """A button that agrees to a file with these bytes."""
+def _trust(layout: Any, file: Path, sha256: str = "") -> None:
+    """A button that agrees to a file with these bytes; with those that it has, where there is no hash."""
     button = layout.operator("niwaki.trust", text=f"Trust {file.name}", icon="QUESTION")
     button.filepath, button.sha256 = str(file), sha256
 

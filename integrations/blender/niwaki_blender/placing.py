@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
+import addon_utils
 import bpy
 import numpy as np
 
@@ -99,6 +100,10 @@ def _result(
 
 def _imported(context: bpy.types.Context, file: Path) -> list[bpy.types.Object]:
     """The objects of a GLB, with materials that the .blend may have already."""
+    if not addon_utils.check("io_scene_gltf2")[1]:
+        addon_utils.enable("io_scene_gltf2")
+    if context.object is not None and context.object.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
     things, materials = set(bpy.data.objects), set(bpy.data.materials)
     before = context.scene.get("niwaki")
     bpy.ops.import_scene.gltf(filepath=str(file))

@@ -13,7 +13,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from niwaki import _engine
+from niwaki import _engine, draw
 from niwaki.errors import InputError, NiwakiError
 from niwaki.errors.schema import Unfit, fitted
 from niwaki.lang.compiled import translated
@@ -184,6 +184,12 @@ class Outcome:
     def _refused(self, error: Exception) -> InputError:
         where = f"the result of case {self.case}, seed {self.seed}"
         return InputError("bad-batch", path=where, reason=str(error))
+
+    def _repr_html_(self) -> str:
+        rows = {**self.labels, "seed": self.seed}
+        if self.fault is not None:
+            return draw.card.card(f"Outcome: {self.fault}", {**rows, "message": self.message})
+        return draw.card.card("Outcome", {**rows, **self.best.numbers}, self.best._repr_png_())
 
     def __repr__(self) -> str:
         named = "".join(f"{name}={value!r}, " for name, value in self.labels.items())

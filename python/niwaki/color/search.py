@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import draw
 from niwaki.color import lab
 from niwaki.color.drawing import OWN, Drawing
 from niwaki.color.kept import SCORED, Kept, kept
@@ -64,6 +65,12 @@ class Coloring:
     def image(self, size: int = 512) -> Image.Image:
         """The coloured drawing; the longer side of an SVG has `size` pixels."""
         return self.drawing.picture(self.colors, size)
+
+    def _repr_html_(self) -> str:
+        rules = {str(k): one for k, one in enumerate(self.kept, 1)}
+        return draw.card.card(
+            "Coloring", {"log score": self.log_score, **rules}, draw.picture.png(self.image(360))
+        )
 
     @cached_property
     def residuals(self) -> Residuals:

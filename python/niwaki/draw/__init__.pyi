@@ -1,4 +1,5 @@
 from . import animation as animation
+from . import card as card
 from . import files as files
 from . import flat as flat
 from . import glb as glb

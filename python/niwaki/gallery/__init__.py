@@ -16,7 +16,7 @@ from pkgutil import iter_modules
 from typing import Any
 
 import niwaki as nw
-from niwaki import targets
+from niwaki import draw, targets
 from niwaki.targets.sketches import Window
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
@@ -69,6 +69,15 @@ class Entry:
     def particles(self) -> int:
         """How many particles do it well."""
         return int(self.usual["particles"])
+
+    def _repr_html_(self) -> str:
+        rows = {
+            "name": self.name,
+            "target": self.target_name,
+            "voxel": self.voxel,
+            "particles": self.particles,
+        }
+        return draw.card.card(self.title, {**rows, "drawing": self.drawing_name})
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""

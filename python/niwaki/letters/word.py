@@ -122,6 +122,9 @@ class Word:
         count("width", width, most=LARGEST)
         return drawing(self.scene, size=self.size(width), style=self.style, window=self.window)
 
+    def _repr_png_(self) -> bytes:
+        return draw.picture.png(self.picture(800))
+
     def svg(self) -> str:
         """The page as SVG, a group for each part."""
         return svg(self.scene, style=self.style, window=self.window)

@@ -374,12 +374,12 @@ class Result(Sequence[Sample]):
         """Draw the best scene into an image file."""
         return self.best.save(path, **settings)
 
-    def sheet(self, **settings: Any) -> Any:
-        """All samples side by side, best first, each with its number, from 1, and its scores.
+    def sheet(self, *, most: int | None = None, **settings: Any) -> Any:
+        """All samples side by side, or the best so many; best first, each with its number, from 1, and its scores.
 
         Where an image or a shadow is matched and no volume, they are seen from its camera.
         """
-        ranked = sorted(enumerate(self.samples, 1), key=lambda one: -one[1].log_score)
+        ranked = sorted(enumerate(self.samples, 1), key=lambda one: -one[1].log_score)[:most]
         scenes = [sample.scene for _, sample in ranked]
         captions = [caption(sample, number) for number, sample in ranked]
         if self.score.window is not None:
@@ -390,6 +390,23 @@ class Result(Sequence[Sample]):
 
     def _repr_png_(self) -> bytes | None:
         return self.best._repr_png_() if self.samples else None
+
+    def _repr_html_(self) -> str:
+        """The best sample and the numbers of the search; a small sheet where each sample is a run of its own."""
+        rows: dict[str, Any] = {"method": self.method.NAME, "samples": len(self)}
+        png = None
+        if self.samples or isinstance(self.info, MhInfo):
+            rows |= {f"best {name}": value for name, value in self.best.numbers.items() if name != "seed"}
+            png = self.best._repr_png_()
+        if (
+            png is not None
+            and len(self) > 1
+            and (self.method.NAME == "improve" or len(self) == self.search.runs)
+        ):
+            png = draw.picture.png(self.sheet(most=6, size=(240, 180), samples=1))
+        rows |= {"log evidence": self.log_evidence, "seed": self.seed, "seconds": f"{self.seconds:.2f}"}
+        rows |= {"invalid": sum(self.invalid.values()) or None, "interrupted": self.interrupted or None}
+        return draw.card.card(f"Result of {self.model.name}", rows, png)
 
     def _outside(self) -> list[str]:
         """The part of the summary about runs in which a distribution was invalid."""

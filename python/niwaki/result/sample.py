@@ -301,8 +301,23 @@ class Sample:
             return self.target if target else None
         return target
 
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """What is worth knowing about the run, by name; None for what it does not have."""
+        return {
+            "log score": self.log_score,
+            "log prior": self.log_prior,
+            "fit": self.fit,
+            "primitives": self.primitives or None,
+            "cause": self.cause,
+            "seed": self.seed,
+        }
+
     def _repr_png_(self) -> bytes | None:
-        return draw.picture.png(self.picture(size=(800, 600))) if self.primitives else None
+        return draw.picture.png(self.picture(**draw.card.QUICK)) if self.primitives else None
+
+    def _repr_html_(self) -> str:
+        return draw.card.card(f"Sample of {self.search.model.name}", self.numbers, self._repr_png_())
 
     def __repr__(self) -> str:
         parts = [f"log score {self.log_score:.2f}", f"log prior {self.log_prior:.2f}"]

@@ -74,9 +74,11 @@ class Pictures:
             return
         self.best(result.best, folder, style)
         styled: dict[str, Any] = {} if style is None else {"style": style}
-        draft = {"samples": 1} if self.quick else {}
+        draft: dict[str, Any] = {"samples": 1} if self.quick else {}
         if "sheet.png" in names:
-            small = {"size": CELL} if self.quick and (result.score.target or not result.score.views) else {}
+            small: dict[str, Any] = (
+                {"size": CELL} if self.quick and (result.score.target or not result.score.views) else {}
+            )
             draw.picture.save_image(lambda: result.sheet(**styled, **draft, **small), folder / "sheet.png")
         high = {"height": PANEL} if self.quick else {}
         for view in result.score.views:

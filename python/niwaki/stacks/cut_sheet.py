@@ -103,6 +103,9 @@ class Sheet:
             )
         return svg_page(width, height, body)
 
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
     def dxf(self, board: int = 0) -> str:
         """One board as DXF in millimetres, with the layers CUT, NUMBERS and BOARD.
 
@@ -275,6 +278,9 @@ class Assembly:
     def svg(self) -> str:
         """The drawing as SVG in millimetres."""
         return self.page
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
 
     def save(self, path: str | PathLike[str]) -> list[Path]:
         """Write the drawing into an `.svg` file.

@@ -146,6 +146,9 @@ Object.assign(window, {
       const { low, high } = stage.piece?.header ?? {};
       return { low, high };
     },
+    get seesAll() {
+      return stage.seesAll;
+    },
     get palette() {
       return store.palette.value;
     },

@@ -194,6 +194,8 @@ def test_a_reroll_keeps_the_part_that_is_held(scene: bpy.types.Scene) -> None:
     (old,) = results()
     before = parts(old)
     activate(before["while[0]/emit"])
+    # Its mesh is being edited.
+    bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.niwaki.hold() == {"FINISHED"}
     assert bpy.ops.niwaki.reroll(seed=11) == {"FINISHED"}
     new = next(one for one in results() if one != old)
@@ -253,9 +255,9 @@ def test_opening_runs_nothing_and_a_file_is_run_where_it_is_agreed_to(
     with pytest.raises(RuntimeError, match="SHA-256"):
         bpy.ops.niwaki.trust(filepath=str(file), sha256="0" * 64)
     assert not mark.exists() and len(results()) == 1
-    growing = inside().growing
-    named, sha256 = growing.model_file(bpy.data.collections["tower 1"]["niwaki_run"])
-    assert bpy.ops.niwaki.trust(filepath=str(named), sha256=sha256) == {"FINISHED"}
+    run = bpy.data.collections["tower 1"]
+    named, sha256 = run["niwaki_file"], run["niwaki_file_sha256"]
+    assert bpy.ops.niwaki.trust(filepath=named, sha256=sha256) == {"FINISHED"}
     assert bpy.ops.niwaki.again() == {"FINISHED"}
     (again,) = [one for one in results() if one != result]
     assert bits(again) == first
@@ -295,7 +297,7 @@ def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key
     )
     window = SimpleNamespace(screen=SimpleNamespace(areas=[]))
     context = SimpleNamespace(
-        window_manager=manager, window=window, scene=scene, view_layer=bpy.context.view_layer
+        window_manager=manager, window=window, scene=scene, view_layer=bpy.context.view_layer, object=None
     )
 
     class Button(extension.operators._Grows):
@@ -330,6 +332,12 @@ def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key
     assert extension.placing.BEST not in bpy.data.objects and len(results()) == 1
     assert extension.operators.running() is None and bpy.ops.niwaki.grow.poll()
     assert button.reports == (["Cancelled: the best until then"] if key == "ESC" else [])
+    # Blender loads another file.
+    assert button.invoke(context, None) == {"RUNNING_MODAL"}
+    folder = button._growing._folder
+    button.cancel(context)
+    button._growing.wait(20)
+    assert extension.operators.running() is None and not folder.exists()
 
 
 def test_messages_say_what_is_missing(scene: bpy.types.Scene) -> None:
@@ -414,6 +422,43 @@ def test_a_silhouette_and_a_shadow_are_matched(scene: bpy.types.Scene, tmp_path:
     (found,) = [one for one in results() if one != first]
     low, high = cloud(found).min(axis=0), cloud(found).max(axis=0)
     assert (high - low)[:2] == pytest.approx([1.6, 1.6], abs=0.2)
+
+
+def test_the_panel_is_drawn(scene: bpy.types.Scene, tmp_path: Path) -> None:
+    # By a layout that notes what is drawn; there is no window for a real one.
+    extension = inside()
+    from bl_ext.user_default.niwaki import panel
+
+    class Layout(SimpleNamespace):
+        drawn: list[str] = []
+
+        def __getattr__(self, name: str) -> Any:
+            def note(*words: Any, **settings: Any) -> Any:
+                if name == "prop":
+                    assert words[1] in words[0].bl_rna.properties
+                self.drawn.append(" ".join([name, *map(str, words[-1:]), *map(str, settings.values())]))
+                return Layout()
+
+            return note
+
+    def drawn() -> str:
+        Layout.drawn.clear()
+        fake = SimpleNamespace(layout=Layout())
+        for name in ("_model", "_progress", "_result"):
+            setattr(fake, name, getattr(panel.NIWAKI_PT_panel, name).__get__(fake))
+        panel.NIWAKI_PT_panel.draw(fake, bpy.context)
+        return "\n".join(Layout.drawn)
+
+    assert "prop target" in drawn() and "operator niwaki.grow" in drawn() and "Trust" not in drawn()
+    bpy.ops.niwaki.grow()
+    activate(next(iter(parts(results()[0]).values())))
+    bpy.ops.niwaki.hold()
+    assert "label spaceship 1 #0" in drawn() and "1 parts are held" in drawn() and "niwaki.reroll" in drawn()
+    scene.niwaki_settings.model_file = str(tmp_path / "none.py")
+    assert "Trust none.py" in drawn() and "prop function" in drawn()
+    extension.operators._running.append(SimpleNamespace(progress=None))
+    assert "Starting" in drawn() and "operator niwaki.cancel" in drawn()
+    extension.operators._running.clear()
 
 
 def test_it_is_switched_off_and_on() -> None:

@@ -16,6 +16,7 @@ from niwaki.batches import clusters, export
 from niwaki.color.raster import raster
 from niwaki.errors import FileError
 from niwaki.errors.extras import EXTRAS, optional
+from niwaki.notebook.viewer import View
 from niwaki.result import diagnostics
 from niwaki.shell.app import app
 from niwaki.stacks import judges
@@ -49,6 +50,7 @@ NEEDS: list[tuple[str, str, Callable[[Path], object]]] = [
     ("cluster", "distributed", on("dask")),
     ("cluster", "ray", on("ray")),
     ("color", "resvg_py", lambda _: raster("<svg/>", 8)),
+    ("notebook", "anywidget", lambda _: View([]).widget()),
     ("parquet", "pyarrow", lambda folder: export.write_parquet(folder / "a.parquet", cast(Any, None))),
     ("print", "manifold3d", printed),
     ("stacks", "scipy.sparse", lambda _: judges.need("scipy.sparse")),

@@ -81,6 +81,14 @@ def test_stop_ends_a_search_within_a_second_and_keeps_what_it_found(connected):
     assert connected.view["searching"] is None and len(connected.view["results"]) == 1
 
 
+def test_runs_that_became_impossible_are_told_with_their_parts(connected):
+    grown(connected, count=1)
+    said = connected.view["losses"]
+    assert said.startswith("lost on the way: ") and "no_self_intersection" in said and "(line " in said
+    connected.ask("model", reference="building")
+    assert connected.view["losses"] == ""
+
+
 def test_settings_can_change_during_a_search_and_the_newest_values_win(connected):
     connected.ask("model", reference="gnarly-tree")
     connected.ask("set", settings={"count": 1, "seed": 1, "effort": 64.0})

@@ -344,8 +344,13 @@ export class Stage {
     this.settle();
     const isFirst = this.piece !== null && !this.isSettled;
     this.isSettled ||= isFirst;
-    if (!this.isFramed || (isFirst && this.ask.sketch == null && !isSeen(this.camera, this.bounds()))) this.fit();
+    if (!this.isFramed || (isFirst && this.ask.sketch == null && !this.seesAll)) this.fit();
     this.draw();
+  }
+
+  /** Whether the camera sees all that is there. */
+  get seesAll(): boolean {
+    return isSeen(this.camera, this.bounds());
   }
 
   /** Look at everything, along the direction of our pictures. */

@@ -50,9 +50,11 @@ export function Setup() {
             <Argument key={one.name} parameter={one} />
           ))}
         {view.model?.is_file && isAnyChanged(view) && (
-          <button class="button small" onClick={() => void store.propose()} title="Show how the model's file changes; nothing is written yet">
-            Make these the defaults
-          </button>
+          <div class="actions">
+            <button class="button small" onClick={() => void store.propose()} title="Show how the model's file changes; nothing is written yet">
+              Make these the defaults
+            </button>
+          </div>
         )}
         {store.kind.value === "coloring" && <Drop what="drawing" />}
       </section>

@@ -1,0 +1,2 @@
+from .viewer import View as View
+from .viewer import view as view

@@ -1,0 +1,155 @@
+"""Scenes to turn and look at: meshes and the studio's stage, together in one page that asks for nothing from elsewhere.
+
+In a notebook the page is the content of a frame, so that no server and no extension is needed, and a notebook that is
+saved as HTML still shows it. Each page has the stage in it, 0.6 MB.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from collections.abc import Iterable
+from functools import cache
+from html import escape
+from importlib.resources import files
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from niwaki.draw.flat.marks import is_flat
+from niwaki.draw.scene import Scene
+from niwaki.errors.extras import optional
+from niwaki.errors.files import write_whole
+from niwaki.errors.settings import bad
+from niwaki.methods import at_least_one
+from niwaki.result import Result, Sample
+from niwaki.studio.frames import frame
+from niwaki.studio.worker import shapes
+from niwaki.targets.target import Target
+
+#: Pixels of the frame in a notebook: the stage and its line of buttons.
+HEIGHT = 470
+
+#: A browser that reads this fetches nothing, whatever the page says.
+POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
+
+
+def view(
+    shown: Result | Sample | Scene | Iterable[Sample | Scene],
+    *,
+    target: Target | bool = True,
+    most: int = 12,
+) -> View:
+    """Show results that can be turned, with the mouse or a finger; a click names the part that is under it.
+
+    Parameters
+    ----------
+    shown
+        A result (its samples, best first), a sample, a scene, or several.
+    target
+        Drawn as a ghost: that of the first sample, another one, or none where it is False.
+    most
+        How many at most. A ship of 20 parts takes 0.2 MB.
+
+    Returns
+    -------
+    View
+        A notebook shows it; `save("ship.html")` writes it as a page.
+
+    Raises
+    ------
+    InputError
+        There is nothing to show.
+    """
+    at_least_one("most", most)
+    listed: list[Sample | Scene]
+    if isinstance(shown, Result):
+        ranked = sorted(shown.samples, key=lambda one: -one.log_score)
+        listed = [*ranked] if ranked else [shown.best]
+    else:
+        listed = [shown] if isinstance(shown, Sample | Scene) else list(shown)
+    if not listed:
+        raise bad("shown", shown, "at least one sample or scene", "the result of a search")
+    chosen = [_frame(one) for one in listed[:most]]
+    if target is True:
+        target = getattr(listed[0], "target", None) or False
+    return View([*([_ghost(target)] if isinstance(target, Target) else []), *chosen])
+
+
+class View:
+    """Scenes that can be turned.
+
+    Attributes
+    ----------
+    frames : list of bytes
+        A mesh with its header each, as `niwaki.studio.frames` describes them.
+    """
+
+    def __init__(self, frames: list[bytes]) -> None:
+        self.frames = frames
+
+    def html(self) -> str:
+        """The page, whole."""
+        data = json.dumps([base64.b64encode(zlib.compress(one)).decode() for one in self.frames])
+        return (
+            '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Niwaki</title>'
+            f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+            "<style>body{margin:0}</style></head><body><div></div>"
+            f'<script type="application/json" id="niwaki-frames">{data}</script>'
+            f'<script type="module">{stage()}</script></body></html>'
+        )
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the page into a file that any browser opens, and that needs no other file."""
+        return write_whole(Path(path), self.html().encode())
+
+    def widget(self) -> Any:
+        """The same as an anywidget, whose `frames` can be given new values.
+
+        Raises
+        ------
+        FileError
+            anywidget is missing (extra `notebook`).
+        """
+        anywidget = optional("anywidget", "a widget", "notebook")
+        traitlets = optional("traitlets", "a widget", "notebook")
+        frames = traitlets.List(traitlets.Bytes()).tag(sync=True)
+        made = type("Viewer", (anywidget.AnyWidget,), {"_esm": stage(), "frames": frames})
+        return made(frames=self.frames)
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe srcdoc="{escape(self.html())}" sandbox="allow-scripts" title="Niwaki" '
+            f'style="width:100%;height:{HEIGHT}px;border:0"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<View: {len(self.frames)} meshes, {sum(map(len, self.frames)) / 1e6:.2f} MB>"
+
+
+@cache
+def stage() -> str:
+    """The script of the stage; what would end its element is written otherwise."""
+    script = files("niwaki.studio").joinpath("page", "view.js").read_text(encoding="utf-8")
+    return script.replace("</script", "<\\/script")
+
+
+def _frame(one: Sample | Scene) -> bytes:
+    if isinstance(one, Sample):
+        fit = "" if one.fit is None else f", {one.fit}"
+        scene, note = one.scene, f"log score {one.log_score:.2f}{fit}, {one.primitives} primitives"
+    else:
+        scene, note = one, f"{len(one)} parts"
+    header, payload = shapes.shape(scene, "fine", what="result", is_flat=is_flat(scene), note=note)
+    return frame(msgspec.json.encode(header), payload)
+
+
+def _ghost(target: Target) -> bytes:
+    bounds = target.bounds
+    (x, y, z), (u, v, w) = bounds.tolist()
+    pivot = ((x + u) / 2, (y + v) / 2, (z + w) / 2)
+    header, payload = shapes.ghost(target.vertices, target.faces, bounds, pivot, what="ghost")
+    return frame(msgspec.json.encode(header), payload)
