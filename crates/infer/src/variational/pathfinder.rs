@@ -101,7 +101,7 @@ pub fn pathfinder<P: Potential, W: Wide<LANES>>(
             None => f64::NEG_INFINITY,
         };
         path.bounds.push(bound);
-        if let Some(normal) = normal.filter(|_| !(bound <= path.bounds[path.best])) {
+        if let Some(normal) = normal.filter(|_| bound > path.bounds[path.best]) {
             (path.normal, path.best) = (normal, step as usize);
         }
         still = if gain < LITTLE.max(SHARE * at.log_density.abs()) { still + 1 } else { 0 };
