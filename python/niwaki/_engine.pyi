@@ -17,6 +17,7 @@ __all__ = [
     "EngineFault",
     "Guide",
     "Lessons",
+    "Normals",
     "Opaque",
     "Picture",
     "Placer",
