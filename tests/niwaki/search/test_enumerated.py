@@ -6,8 +6,9 @@ import math
 
 import niwaki as nw
 import pytest
-from niwaki import Geometric, condition, factor, flip, model, observe, poisson, sample, uniform
-from niwaki.errors import InputError
+from niwaki import condition, factor, flip, model, observe, poisson, sample, uniform
+from niwaki.errors import InputError, ModelFault
+from niwaki.words import Geometric, Poisson
 
 
 @model
@@ -16,7 +17,7 @@ def waves():
     a = poisson(2.0)
     b = sample(Geometric(0.3))
     condition((a + b) % 2 == 0)
-    observe(nw.words.Poisson(1.0 + a), 3)
+    observe(Poisson(1.0 + a), 3)
     return a > b
 
 
@@ -85,7 +86,7 @@ def test_what_cannot_be_listed_is_refused() -> None:
     def smooth():
         return uniform(0, 1)
 
-    with pytest.raises(InputError, match="not-enumerable"):
+    with pytest.raises(ModelFault, match="not-enumerable"):
         nw.run(smooth, method=nw.enumerate_all(likely=True))
     with pytest.raises(InputError, match="likeliest"):
         nw.run(model(lambda: condition(poisson(1.0) > 50)), method=nw.enumerate_all(max_runs=5, likely=True))
