@@ -141,7 +141,7 @@ class Table:
                 cure = "a batch has `seeds`, `processes` and `folder` instead"
                 raise InputError("unknown-setting", name=name, suggestion=cure)
         if "target" in axes:
-            axes["target"] = [one if isinstance(one, Target) else Target.load(one) for one in axes["target"]]
+            axes["target"] = [Target.of(one) for one in axes["target"]]
         searches, labels = [], []
         for values in product(*axes.values()):
             own = dict(zip(axes, values, strict=True))

@@ -229,8 +229,7 @@ def asked(
     if not drawn:
         product = no_self_intersection(rule) * product
     if target is not None:
-        aim = target if isinstance(target, Target) else Target.load(target)
-        product *= match_volume(aim, voxel, sigma)
+        product *= match_volume(target, voxel, sigma)
     elif len(product.asks) == (0 if drawn else 1):
         raise InputError("no-target", name=model.name)
     return Search(

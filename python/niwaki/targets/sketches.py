@@ -188,24 +188,25 @@ def no_self_intersection(rule: str = "solid") -> Score:
     return _score("no_self_intersection", {"rule": rule}, {"rule": rule})
 
 
-def match_volume(target: Target, voxel: float | None = None, sigma: float = 0.02) -> Score:
+def match_volume(target: Target | Place, voxel: float | None = None, sigma: float = 0.02) -> Score:
     """Scores a scene by how well it fills a target, cell by cell.
 
     Parameters
     ----------
     target
-        What to fill.
+        What to fill: a `Target`, or a mesh file.
     voxel
         Size of a cell, scene units; about 65 thousand cells around the target when left out.
     sigma
         Standard deviation of the share of cells that may be wrong: smaller is stricter.
     """
-    size = check_positive("voxel", automatic_voxel(target) if voxel is None else voxel)
+    solid = Target.of(target)
+    size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
     check_positive("sigma", sigma)
-    with geometry_errors(target, size):
-        grid = _engine.Target(target.vertices, target.faces, size)
-    given = {"target": target, "voxel": size, "sigma": sigma}
-    return _score("match_volume", given, {"sigma": sigma}, grid=grid, target=target)
+    with geometry_errors(solid, size):
+        grid = _engine.Target(solid.vertices, solid.faces, size)
+    given = {"target": solid, "voxel": size, "sigma": sigma}
+    return _score("match_volume", given, {"sigma": sigma}, grid=grid, target=solid)
 
 
 def match_image(
@@ -365,7 +366,7 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
         Size of a cell, scene units; the scene keeps up to two cells away. About 65 thousand cells around the obstacle
         when left out.
     """
-    solid = obstacle if isinstance(obstacle, Target) else Target.load(obstacle)
+    solid = Target.of(obstacle)
     size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
     with geometry_errors(solid, size):
         grid = _engine.Target(solid.vertices, solid.faces, size)

@@ -19,6 +19,7 @@ from niwaki import draw, targets
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
+from niwaki.errors.settings import bad
 from niwaki.inputs.guard import reason_of
 from niwaki.targets.camera import Camera
 from niwaki.targets.memory import BYTES_PER_TRIANGLE, check_memory
@@ -74,6 +75,25 @@ class Mesh:
         mesh = cls(vertices, faces, name=str(path))
         mesh.source = str(Path(path).resolve())
         return mesh
+
+    @classmethod
+    def of(cls, given: Self | str | PathLike[str]) -> Self:
+        """The same, or that of a mesh file.
+
+        Raises
+        ------
+        InputError
+            It is neither.
+        FileError
+            As for `load`.
+        """
+        if isinstance(given, cls):
+            return given
+        if not isinstance(given, str | PathLike):
+            raise bad(
+                cls.__name__.lower(), given, "a mesh, or the file of one", '`niwaki.Target.load("ship.obj")`'
+            )
+        return cls.load(given)
 
     @classmethod
     def find(cls, source: str) -> Self:

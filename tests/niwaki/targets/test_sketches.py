@@ -168,6 +168,8 @@ def test_messages(golden: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         refused(lambda: nw.match_shadow(ON, (0, float("nan"), 0), flat)),
         refused(lambda: nw.floor(float("inf"))),
         refused(lambda: nw.avoid(cube(), voxel=-1)),
+        refused(lambda: nw.avoid(3)),  # type: ignore[arg-type]
+        refused(lambda: nw.match_volume(None)),  # type: ignore[arg-type]
         refused(lambda: nw.overshoot(((0, 0, 0), (1, 0, 1)))),
         refused(lambda: nw.overshoot(3)),  # type: ignore[arg-type]
         refused(lambda: nw.run(tower, score=covered, method=nw.smc(particles=20), seed=1)),
@@ -199,3 +201,19 @@ def test_every_sketch_of_the_engine_has_a_public_function() -> None:
     named = set(re.findall(r"`(\w+)`", str(raised.value).split("expected one of")[1]))
     assert named == set(SKETCHES)
     assert named <= set(nw.__all__)
+
+
+def test_a_file_is_a_target(tmp_path: Path) -> None:
+    """What is grown into a file is, to the bit, what is grown into its mesh; another mesh scores otherwise."""
+
+    def tower() -> None:
+        nw.emit(nw.box((0, 0, 0), (1, nw.uniform(0.5, 3), 1)))
+
+    def best(target: Any) -> float:
+        score = nw.match_volume(target, voxel=0.25)
+        return nw.run(nw.model(tower), score=score, method=nw.smc(20), seed=1).best.log_score
+
+    solid, path = cube(), tmp_path / "cube.obj"
+    corners = "".join(f"v {x} {y} {z}\n" for x, y, z in solid.vertices)
+    path.write_text(corners + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in solid.faces))
+    assert best(path) == best(str(path)) == best(solid) != best(cube(size=3.0))

@@ -67,7 +67,8 @@ BATCHES = (
         "{count} of {total} searches have no result",
         why="the first is case {case}, seed {seed}; three workers were lost with it, or could not do it: {reason}",
         help="all others are stored. Look into the log for the rest of the message, and run the batch again: it tries "
-        "these anew. Where memory ran out, `--processes 1` leaves more to each",
+        "these anew. Where memory ran out, `--processes 1` leaves more to each. A script calls `batch` under `if __name__ == "
+        '"__main__":`, because each worker imports it',
         example="a model whose host function ends the process",
         cure="a host function that returns",
     ),
