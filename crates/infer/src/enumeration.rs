@@ -388,11 +388,12 @@ mod tests {
             let values: Vec<String> = found.outcomes.iter().map(|(value, _)| repr(value).unwrap()).collect();
             assert_eq!(values, (0..n).map(|i| i.to_string()).collect::<Vec<_>>());
             assert!((found.unseen - 0.5f64.powi(n as i32)).abs() < 1e-9);
-            // The rest of a run adds at most nothing: its branch has the score of the heads before it.
-            assert!((found.log_unseen - (n as f64 * 0.25f64.ln() + 2f64.ln())).abs() < 1e-9);
+            // The rest of a run adds at most nothing: its branch has the score of the heads before it. Sums are exact to
+            // parts of 2^-32, so each flip may add such an error.
+            assert!((found.log_unseen - (n as f64 * 0.25f64.ln() + 2f64.ln())).abs() < 1e-8 * n as f64);
             let whole = (2.0f64 / 3.0).ln();
-            assert!(found.log_evidence <= whole + 1e-9);
-            assert!(log_sum_exp([found.log_evidence, found.log_unseen].into_iter()) >= whole - 1e-9);
+            assert!(found.log_evidence <= whole + 1e-8);
+            assert!(log_sum_exp([found.log_evidence, found.log_unseen].into_iter()) >= whole - 1e-8);
         }
     }
 
