@@ -122,7 +122,12 @@ impl<S: Scalar> Dist<S> {
             }
             Family::Dirichlet => {
                 const EXPECTED: &str = "finite numbers above zero, at least one";
-                Dist::Dirichlet(r.vector_where(0, EXPECTED, |x| x > S::from_f64(0.0))?.into())
+                let concentrations = r.vector_where(0, EXPECTED, |x| x > S::from_f64(0.0))?;
+                // The logarithm of the gamma function, and so the density, overflows beyond.
+                if concentrations.iter().map(|a| a.value()).sum::<f64>() > vectors::MOST_CONCENTRATED {
+                    return r.refuse(0, "numbers above zero, whose sum is at most 1e300");
+                }
+                Dist::Dirichlet(concentrations.into())
             }
             Family::MultivariateGaussian => {
                 Dist::MultivariateGaussian(Arc::new(MultivariateGaussian::read(&r)?))

@@ -12,6 +12,9 @@ use rand_distr::{Distribution, StandardNormal};
 /// Largest distance from one of the sum of a simplex's entries: the rounding of a million additions.
 const SUM_TOLERANCE: f64 = 1e-9;
 
+/// The largest sum of a Dirichlet's concentrations.
+pub(super) const MOST_CONCENTRATED: f64 = 1e300;
+
 /// `sum (a_i - 1) ln x_i + ln gamma(sum a_i) - sum ln gamma(a_i)`, with respect to the first n - 1 entries.
 #[inline(never)]
 pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) -> S {
@@ -222,11 +225,16 @@ mod tests {
 
     #[test]
     fn huge_concentrations_draw_points_with_a_density() {
-        let d = Dist::new(Family::Dirichlet, &[Param::Vector(vec![1e308, 1e308, 1.0])]).unwrap();
+        let of = |a: &[f64]| Dist::new(Family::Dirichlet, &[Param::Vector(a.to_vec())]);
+        let d = of(&[4e299, 4e299, 1.0]).unwrap();
         for k in 0..100 {
             let x = d.sample(&mut stream(k));
             assert!((entry(&x, 0) - 0.5).abs() < 1e-6 && entry(&x, 2) > 0.0);
+            assert!(d.log_density(&x).is_finite());
         }
+        let corner = vector(&[1.0, f64::MIN_POSITIVE]);
+        assert!(of(&[1e300, 1.0]).unwrap().log_density(&corner).is_finite());
+        assert!(of(&[f64::MAX, 3.28]).is_err());
     }
 
     #[test]

@@ -208,7 +208,7 @@ FAULTS = (
             "| `student_t` | df and scale above 0 |\n"
             "| `von_mises` | concentration 0 or more |\n"
             "| `truncated_gaussian` | sd above 0, lo below hi |\n"
-            "| `dirichlet` | all concentrations above 0 |\n"
+            "| `dirichlet` | all concentrations above 0, at most 1e300 together |\n"
             "| `multivariate_gaussian` | covariance symmetric and positive definite, of the size of the mean |\n"
             "| `mixture` | weights as of `categorical`, one for each component |\n"
             "| `delta` | any value |"
