@@ -6,7 +6,7 @@
 //! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
 //! * [`scalar`]: the number that records its operations; [`mod@record`]: a run of a program, recorded;
-//! * [`positions`]: where the shapes of a run are, by its choices;
+//! * [`mod@positions`]: where the shapes of a run are, by its choices;
 //! * [`coordinates`]: from bounded values to coordinates without bounds and back;
 //! * [`compiled`]: the tape first, then machine code; [`live`]: records again where a guard fails;
 //! * [`jax`]: the same density as Python text.

@@ -23,6 +23,19 @@ fn score(below: f64, above: f64) -> f64 {
     if below <= above { normal_quantile(below) } else { -normal_quantile(above) }
 }
 
+/// The same from the sum towards the nearer end; of a value below the mean that most draws do not exceed, the other, which has
+/// more digits.
+fn nearer(is_below: bool, below: impl Fn() -> f64, above: impl Fn() -> f64) -> f64 {
+    if is_below {
+        let below = below();
+        if below <= 0.5 {
+            return score(below, 1.0 - below);
+        }
+    }
+    let above = above();
+    score(1.0 - above, above)
+}
+
 /// `first (1 + ratio(1) + ratio(1) ratio(2) + ...)`, for ratios that fall.
 fn series(first: f64, ratio: impl Fn(f64) -> f64) -> f64 {
     let (mut term, mut sum, mut j) = (first, 0.0, 1.0);
@@ -45,13 +58,9 @@ fn poisson(rate: f64, k: i64) -> f64 {
     if rate > LARGEST_SUM {
         return signed_root(x + 0.5, rate, deviance(x + 0.5, rate));
     }
-    if x < rate {
-        let below = series(poisson_log_density(rate, k).exp(), |j| (x - j + 1.0) / rate);
-        score(below, 1.0 - below)
-    } else {
-        let above = series(poisson_log_density(rate, k + 1).exp(), |j| rate / (x + 1.0 + j));
-        score(1.0 - above, above)
-    }
+    let below = || series(poisson_log_density(rate, k).exp(), |j| (x - j + 1.0) / rate);
+    let above = || series(poisson_log_density(rate, k + 1).exp(), |j| rate / (x + 1.0 + j));
+    nearer(x < rate, below, above)
 }
 
 /// The score of a binomial.
@@ -64,15 +73,10 @@ fn binomial(n: i64, p: f64, k: i64) -> f64 {
         return signed_root(success, mean, both);
     }
     let quotient = p / (1.0 - p);
-    if x < mean {
-        let first = binomial_log_density(n, p, k).exp();
-        let below = series(first, |j| (x - j + 1.0) / ((trials - x + j) * quotient));
-        score(below, 1.0 - below)
-    } else {
-        let first = binomial_log_density(n, p, k + 1).exp();
-        let above = series(first, |j| (trials - x - j) * quotient / (x + 1.0 + j));
-        score(1.0 - above, above)
-    }
+    let first = |k: i64| binomial_log_density(n, p, k).exp();
+    let below = || series(first(k), |j| (x - j + 1.0) / ((trials - x + j) * quotient));
+    let above = || series(first(k + 1), |j| (trials - x - j) * quotient / (x + 1.0 + j));
+    nearer(x < mean, below, above)
 }
 
 impl Dist {
@@ -177,12 +181,14 @@ mod tests {
     fn families() -> Vec<Dist> {
         vec![
             Dist::Poisson { rate: 0.0 },
+            Dist::Poisson { rate: 1e-59 },
             Dist::Poisson { rate: 0.3 },
             Dist::Poisson { rate: 99.0 },
             Dist::Poisson { rate: 5000.0 },
             Dist::Binomial { n: 0, p: 0.5 },
             Dist::Binomial { n: 9, p: 0.2 },
             Dist::Binomial { n: 9, p: 0.0 },
+            Dist::Binomial { n: 9, p: 1e-40 },
             Dist::Binomial { n: 9, p: 1.0 },
             Dist::Binomial { n: 3000, p: 0.99 },
             Dist::Binomial { n: 3000, p: 0.4 },

@@ -343,6 +343,8 @@ fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
             Some(fits(list.len().saturating_mul(count)).map(|()| Value::List(list.repeated(count))))
         }
         Value::Tuple(tuple) => Some(fits(tuple.items().len().saturating_mul(count)).map(|()| {
+            // Nothing, however often, takes no time.
+            let count = if tuple.items().is_empty() { 0 } else { count };
             let mut items = Vec::with_capacity(tuple.items().len() * count);
             (0..count).for_each(|_| items.extend_from_slice(tuple.items()));
             Value::tuple(items)
@@ -463,6 +465,14 @@ mod tests {
         assert_eq!(shown(shl(&V::Int(1), &V::Int(63))), "integer-overflow");
         assert_eq!(shown(shl(&V::Int(-1), &V::Int(63))), "-9223372036854775808");
         assert_eq!(shown(shl(&V::Int(0), &V::Int(1000))), "0");
+    }
+
+    #[test]
+    fn nothing_is_repeated_at_once() {
+        for empty in [V::list(vec![]), V::tuple(vec![])] {
+            let found = mul(&empty, &V::Int(i64::MAX)).unwrap();
+            assert!(matches!(found, V::List(_) | V::Tuple(_)));
+        }
     }
 
     #[test]
