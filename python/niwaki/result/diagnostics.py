@@ -196,7 +196,10 @@ def psis(log_ratios: ArrayLike) -> tuple[Reals, float]:
         excess = np.maximum(excess, np.finfo(np.float64).tiny)
     k, scale = _pareto(excess)
     shares = (np.arange(tail) + 0.5) / tail
-    quantiles = -scale * np.log1p(-shares) if k == 0.0 else scale * np.expm1(-k * np.log1p(-shares)) / k
+    # Of a tail as heavy as can be the last quantiles overflow; they become the largest weight.
+    with np.errstate(over="ignore"):
+        steps = np.log1p(-shares)
+        quantiles = -scale * steps if k == 0.0 else scale * np.expm1(-k * steps) / k
     logs[largest] = np.minimum(np.log(cut + quantiles), 0.0) + most
     return logs, k
 

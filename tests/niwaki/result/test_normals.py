@@ -104,14 +104,15 @@ def test_ctrl_c_keeps_the_best_so_far():
     timer = threading.Timer(0.7, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()
     method = nw.vi("full-rank", steps=10**6, samples=2000, tolerance=1e-12, draws=100)
-    result = nw.run(many, 60, method=method, seed=1)
+    result = nw.run(many, 300, method=method, seed=1)
     assert result.interrupted and len(result) == 100
     assert abs(result.log_evidence_bound) < 10.0
 
 
 def test_progress_is_reported():
     seen: list[int] = []
-    nw.run(many, 20, method=nw.vi(samples=500), seed=1, progress=lambda p: seen.append(p.done))
+    method = nw.vi("full-rank", samples=500, draws=100)
+    nw.run(many, 200, method=method, seed=1, progress=lambda p: seen.append(p.done))
     assert seen == sorted(seen) and seen[-1] > 0
 
 

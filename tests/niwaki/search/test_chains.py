@@ -14,10 +14,11 @@ from typing import Any
 
 import niwaki as nw
 import pytest
+from niwaki import _engine
 from niwaki import kernels as k
 from niwaki.lang import compiled
 from niwaki.shell.main import app
-from niwaki.words import Gaussian, box
+from niwaki.words import Gaussian
 from typer.testing import CliRunner
 
 GOLDEN = Path(__file__).parents[2] / "golden"
@@ -130,10 +131,9 @@ def test_the_best_is_kept_whether_it_was_sampled_or_not() -> None:
     "kernel", [k.prior(), k.regenerate(), k.cycle(k.block(share=0.5), k.prior())], ids=repr
 )
 def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
-    target = nw.Target.of(box((0, 2, 0), (1, 4, 1))) if hasattr(nw.Target, "of") else None
-    score = nw.no_self_intersection()
-    if target is not None:
-        score = score * nw.match_volume(target)
+    solid = _engine.Shape.box((0, 2, 0), (1, 4, 1))
+    target = nw.Target(solid.vertices(), solid.faces(), "tower")
+    score = nw.no_self_intersection() * nw.match_volume(target, sigma=0.5)
     result = nw.run(TOWER, nw.mh(steps=2000, keep=50, kernel=kernel), seed=2, score=score)
     for sample in [*result, result.best]:
         assert sample._trace.run.log_score == sample.log_score
