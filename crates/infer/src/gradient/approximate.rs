@@ -5,11 +5,10 @@
 
 use super::explore::{Member, start};
 use super::follow::reason;
-use super::model;
+use super::{model, rows};
 use crate::chain::streams::Streams;
 use crate::hamiltonian::Potential;
 use crate::hamiltonian::potential::evaluate;
-use crate::replay::{Missing, Source, replay};
 pub use crate::variational::Start;
 use crate::variational::ascent::{Broke, Settings, ascend, counts};
 use crate::variational::family::Family;
@@ -91,7 +90,7 @@ impl Approximated {
 
     /// How many numbers the choices of a draw have.
     pub fn width(&self) -> usize {
-        self.choices().iter().map(Continuous::width).sum()
+        rows::width(&self.recorded)
     }
 
     /// Of each draw, by running it: the log density of its choices without Jacobians, and its factors and observations,
@@ -100,13 +99,7 @@ impl Approximated {
     /// # Errors
     /// A fault of the program.
     pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
-        let width = self.width();
-        let score = |draw: usize| {
-            let values = self.recorded.values_of(&self.numbers[draw * width..(draw + 1) * width]);
-            let run = replay(task, Source::Addresses(values), Missing::Refuse)?.run;
-            Ok((run.log_prior, run.log_score))
-        };
-        (0..self.log_density.len()).into_par_iter().map(score).collect()
+        rows::scores(task, &self.recorded, &self.numbers, self.log_density.len())
     }
 }
 

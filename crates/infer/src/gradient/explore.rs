@@ -4,7 +4,7 @@
 //! refused, and its trajectory rejected.
 
 use super::follow::reason;
-use super::{live_of, model};
+use super::{live_of, model, rows};
 use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
@@ -43,7 +43,7 @@ impl Explored {
 
     /// How many numbers the continuous choices of a draw have.
     pub fn width(&self) -> usize {
-        self.choices().iter().map(Continuous::width).sum()
+        rows::width(&self.recorded)
     }
 
     /// Of each draw, by running it: the log density of its choices without Jacobians, and its factors and observations,
@@ -52,13 +52,7 @@ impl Explored {
     /// # Errors
     /// A fault of the program.
     pub fn scores(&self, task: &Task) -> Result<Vec<(f64, f64)>, Failure> {
-        let width = self.width();
-        let score = |draw: usize| {
-            let values = self.recorded.values_of(&self.numbers[draw * width..(draw + 1) * width]);
-            let run = replay(task, Source::Addresses(values), Missing::Refuse)?.run;
-            Ok((run.log_prior, run.log_score))
-        };
-        (0..self.draws.len()).into_par_iter().map(score).collect()
+        rows::scores(task, &self.recorded, &self.numbers, self.draws.len())
     }
 }
 

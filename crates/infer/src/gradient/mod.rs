@@ -9,6 +9,7 @@ pub mod approximate;
 pub mod explore;
 pub mod follow;
 pub mod positions;
+mod rows;
 
 use crate::Failure;
 use crate::task::Task;
