@@ -371,17 +371,8 @@ def trajectories(
         found = _engine.Trajectories(
             counted, method.text()[0], seed, start=start, threads=threads, watch=watch
         )
-    info, seconds = HmcInfo.of(search, seed, found), clock.read()
-    result = Result(
-        search,
-        Drawn(info, seconds),
-        seed,
-        info=info,
-        sizes=info.sizes,
-        interrupted=found.interrupted,
-        invalid=counted.invalid(),
-        seconds=seconds,
-    )
+    info = HmcInfo.of(search, seed, found)
+    result = _drawn(counted, info, found.interrupted, clock)
     info.warn(method)
     return result
 
@@ -398,19 +389,25 @@ def normals(
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         found = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
-    info, seconds = ViInfo.of(search, seed, found), clock.read()
-    result = Result(
-        search,
+    info = ViInfo.of(search, seed, found)
+    result = _drawn(counted, info, found.interrupted, clock)
+    info.warn(method, found.interrupted)
+    return result
+
+
+def _drawn(counted: _engine.Task, info: DrawnInfo, interrupted: bool, clock: Clock) -> Result:
+    """The result of a method whose draws are kept as numbers."""
+    seconds = clock.read()
+    return Result(
+        info.search,
         Drawn(info, seconds),
-        seed,
+        info.seed,
         info=info,
         sizes=info.sizes,
-        interrupted=found.interrupted,
+        interrupted=interrupted,
         invalid=counted.invalid(),
         seconds=seconds,
     )
-    info.warn(method, found.interrupted)
-    return result
 
 
 def regrown(

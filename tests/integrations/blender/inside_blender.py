@@ -28,23 +28,7 @@ ZIP = Path(os.environ["NIWAKI_ZIP"]).resolve()
 PICTURES = os.environ.get("NIWAKI_PICTURES")
 
 #: Leaves a mark when it is run; its host function keeps the model in its file.
-MODEL = """
-from pathlib import Path
-from niwaki import box, emit, host, model, uniform
-
-with Path({mark!r}).open("a") as file:
-    file.write("run ")
-
-@host
-def doubled(x):
-    return 2.0 * x
-
-@model
-def tower():
-    high = doubled(uniform(0.5, 1.5))
-    wide = uniform(0.5, 2.0)
-    emit(box((0, high / 2, 0), (wide, high, wide)), name="tower")
-"""
+MODEL = Path(__file__).with_name("marked_tower.txt").read_text()
 
 
 @pytest.fixture(scope="session", autouse=True)
