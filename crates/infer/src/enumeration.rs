@@ -6,20 +6,21 @@
 //! probability so far goes on first, until so many runs have been visited. The prior probability of what is left is known
 //! exactly, and where a run's later scores are bounded, so is what it could add to the evidence.
 
+mod frontier;
+
 use crate::Failure;
 use crate::chooser::{Chooser, Chosen, Context};
 use crate::forward::Forward;
 use crate::record::{AllInvalid, Record};
 use crate::task::Task;
+use frontier::{Branch, Frontier, Next};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::{Dist, Draw, Support};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
-use niwaki_vm::machine::state::State;
 use niwaki_vm::value::{Value, repr};
-use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::HashMap;
 
 /// The exact distribution of a program's value.
 pub struct Enumerated {
@@ -47,128 +48,6 @@ pub enum Visit {
         /// The most that the rest of a run adds to its log score, nats.
         rest: f64,
     },
-}
-
-/// A run up to an open choice, and how it goes on.
-struct Branch {
-    state: State,
-    record: Record,
-    next: Next,
-    /// Log of the prior probability of all its runs.
-    log_prior: f64,
-    /// The same with the scores so far.
-    log_joint: f64,
-    /// How many were made before it.
-    number: u64,
-}
-
-/// The value with which a run goes on.
-enum Next {
-    /// It has not begun.
-    Start,
-    /// This value.
-    Value(Chosen),
-    /// A whole number from here on, one by one; the probability of all of them.
-    From { dist: Dist, value: i64, left: f64 },
-}
-
-impl Next {
-    /// Log of its probability at the choice.
-    fn log(&self) -> f64 {
-        match self {
-            Next::Start => 0.0,
-            Next::Value(chosen) => chosen.log_prior,
-            Next::From { left, .. } => left.ln(),
-        }
-    }
-}
-
-/// In the order of their joint probability; of equals the last first.
-impl Ord for Branch {
-    fn cmp(&self, other: &Branch) -> Ordering {
-        self.log_joint.total_cmp(&other.log_joint).then(self.number.cmp(&other.number))
-    }
-}
-
-impl PartialOrd for Branch {
-    fn partial_cmp(&self, other: &Branch) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Branch {
-    fn eq(&self, other: &Branch) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Branch {}
-
-/// The branches that are open.
-struct Frontier {
-    visit: Visit,
-    last: Vec<Branch>,
-    likely: BinaryHeap<Branch>,
-    made: u64,
-    /// Logs of the prior and the joint probability of branches that were given up.
-    dropped: (Vec<f64>, Vec<f64>),
-}
-
-/// Of more open branches than this for each run that may be visited, and [`FEWEST`], the least likely are given up.
-const OPEN: usize = 4;
-const FEWEST: usize = 1000;
-
-impl Frontier {
-    fn new(visit: Visit) -> Frontier {
-        Frontier {
-            visit,
-            last: Vec::new(),
-            likely: BinaryHeap::new(),
-            made: 0,
-            dropped: (Vec::new(), Vec::new()),
-        }
-    }
-
-    fn push(&mut self, state: State, record: Record, next: Next) {
-        let log_prior = record.log_prior.value() + next.log();
-        let log_joint = log_prior + record.score().value();
-        let branch = Branch { state, record, next, log_prior, log_joint, number: self.made };
-        self.made += 1;
-        match self.visit {
-            Visit::All(_) => self.last.push(branch),
-            Visit::Likely { runs, .. } => {
-                self.likely.push(branch);
-                let most = runs.saturating_mul(OPEN).saturating_add(FEWEST);
-                if self.likely.len() > most {
-                    let mut sorted = std::mem::take(&mut self.likely).into_sorted_vec();
-                    for branch in sorted.drain(..most / 2) {
-                        self.give_up(&branch);
-                    }
-                    self.likely = sorted.into();
-                }
-            }
-        }
-    }
-
-    fn pop(&mut self) -> Option<Branch> {
-        self.last.pop().or_else(|| self.likely.pop())
-    }
-
-    fn give_up(&mut self, branch: &Branch) {
-        self.dropped.0.push(branch.log_prior);
-        self.dropped.1.push(branch.log_joint);
-    }
-
-    /// What is left: its prior probability, and the log of the most that it adds to the evidence.
-    fn unseen(mut self, rest: f64) -> (f64, f64) {
-        while let Some(branch) = self.likely.pop() {
-            self.give_up(&branch);
-        }
-        let (prior, joint) = self.dropped;
-        let sum =
-            |logs: Vec<f64>| if logs.is_empty() { f64::NEG_INFINITY } else { log_sum_exp(logs.into_iter()) };
-        (sum(prior).exp(), sum(joint) + rest)
-    }
 }
 
 /// Gives the next choice its value. At the choice after it the run pauses, with all values of that choice.
@@ -230,7 +109,11 @@ pub fn enumerate(
 pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> Result<Enumerated, Failure> {
     let mut machine = task.machine();
     let mut open = Frontier::new(what);
-    open.push(task.start(&machine, true)?, Record::start(&task.sketches), Next::Start);
+    open.push(Branch {
+        state: task.start(&machine, true)?,
+        record: Record::start(&task.sketches),
+        next: Next::Start,
+    });
     let (endless, rest) = match what {
         Visit::All(_) => (false, 0.0),
         Visit::Likely { rest, .. } => (true, rest),
@@ -251,10 +134,10 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
                 let others = left - log.exp();
                 if let (true, Some(value)) = (others > 0.0, value.checked_add(1)) {
                     let next = Next::From { dist, value, left: others };
-                    open.push(branch.state.clone(), branch.record.fork(), next);
+                    open.push(Branch { state: branch.state.clone(), record: branch.record.fork(), next });
                 }
                 if log > f64::NEG_INFINITY {
-                    open.push(branch.state, branch.record, Next::Value(chosen));
+                    open.push(Branch { next: Next::Value(chosen), ..branch });
                 }
                 continue;
             }
@@ -281,7 +164,7 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
         }
         // Reversed, so that outcomes appear in the order of the values.
         for next in values.into_iter().rev() {
-            open.push(branch.state.clone(), branch.record.fork(), next);
+            open.push(Branch { state: branch.state.clone(), record: branch.record.fork(), next });
         }
         if let Some(cause) = branch.record.cause {
             all.note(branch.record.invalid.as_ref());
