@@ -80,9 +80,12 @@ export function cubes({ size, low, high }: Difference, marks: Uint8Array, colors
   geometry.setAttribute("uv", new BufferAttribute(edges, 2));
   geometry.setIndex(new BufferAttribute(corners, 1));
   const group = new Group();
-  group.add(new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true, map: TILE })));
+  group.add(new Mesh(geometry, tiles()));
   return group;
 }
+
+/** What cells are drawn with. */
+export const tiles = (): MeshLambertMaterial => new MeshLambertMaterial({ vertexColors: true, map: TILE });
 
 /** The picture of a side: a darker edge, so that cells can be told apart. */
 const TILE = tile();

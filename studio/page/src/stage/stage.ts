@@ -33,7 +33,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Arrow, Ask, AskChange, Difference, Eye, Shape, TargetAsk } from "../messages";
-import { cubes, KINDS, sheet } from "./cells";
+import { cubes, KINDS, sheet, tiles } from "./cells";
 import { arrowMeshes } from "./arrows";
 import { solid } from "./finish";
 import { frame, isSeen } from "./framing";
@@ -67,6 +67,8 @@ export class Stage {
   private ask: Ask = {};
   private look = COLORS.light;
   private theme: "light" | "dark" = "light";
+  /** Materials that keep their programs compiled. */
+  readonly kept: Material[];
   private isAsked = false;
   private isFramed = false;
   /** The first shape of the model has come, or the user has moved the camera. */
@@ -113,22 +115,24 @@ export class Stage {
     this.things = new Things(this.camera, canvas, onPlaced, dragging, () => this.draw());
     this.scene.add(this.things.group, this.things.handles.getHelper());
     this.paint("light");
-    this.warm();
+    this.kept = this.warm();
   }
 
-  /** Compile what shapes are drawn with before the first one comes. */
-  private warm(): void {
-    const colors = new Float32Array(9);
-    for (const flatShading of [true, false]) {
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("finish", new BufferAttribute(new Float32Array(6), 2));
-      for (const name of ["position", "normal", "color"]) geometry.setAttribute(name, new BufferAttribute(colors, 3));
-      const mesh = new Mesh(geometry, solid(flatShading));
-      mesh.castShadow = mesh.receiveShadow = true;
-      this.shape.add(mesh);
-    }
+  /**
+   * Compile what is drawn with before it is wanted. The materials are kept: what no material uses is compiled again,
+   * and that takes longer than a frame.
+   */
+  private warm(): Material[] {
+    const glass = { transparent: true, opacity: 0.5 };
+    const [fill, line] = [new MeshBasicMaterial(glass), new LineBasicMaterial(glass)];
+    const meshes = [solid(true), solid(false), tiles(), fill].map((one) => new Mesh(triangle(), one));
+    for (const mesh of meshes) mesh.castShadow = mesh.receiveShadow = mesh.material !== fill;
+    const all = [...meshes, new LineSegments(triangle(), line)];
+    this.shape.add(...all);
     this.renderer.render(this.scene, this.camera);
-    clear(this.shape);
+    this.shape.clear();
+    for (const one of all) one.geometry.dispose();
+    return all.map((one) => one.material);
   }
 
   /** Draw with the next frame. */
@@ -516,6 +520,16 @@ function compact(geometry: BufferGeometry): BufferGeometry {
   plain.setAttribute("position", geometry.getAttribute("position"));
   plain.setIndex(geometry.index);
   return plain.toNonIndexed();
+}
+
+/** A triangle of no size, with all that a material may ask for. */
+function triangle(): BufferGeometry {
+  const geometry = new BufferGeometry();
+  const sizes = { position: 3, normal: 3, color: 3, finish: 2, uv: 2 };
+  for (const [name, size] of Object.entries(sizes)) {
+    geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * size), size));
+  }
+  return geometry;
 }
 
 function clear(group: Group): void {
