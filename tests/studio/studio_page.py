@@ -117,10 +117,10 @@ def picture(page, name):
     page.screenshot(path=OUT / f"{name}.png")
     kept = os.environ.get("NIWAKI_PICTURES")
     if kept is not None and name in KEPT:
-        # 256 colours are enough for a page, and take a third of the bytes.
+        # 128 colours are enough for a page, and take a third of the bytes.
         place = Path(kept) / KEPT[name]
         with Image.open(OUT / f"{name}.png") as full:
-            full.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(place, optimize=True)
+            full.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(place, optimize=True)
         assert place.stat().st_size < 100_000
 
 
