@@ -4,6 +4,7 @@ import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import "./style.css";
 import { easel, placeOf, plan } from "./pictures";
+import { later, warm } from "./stage/thumbs";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
 import { Canvas, drag, shown, stage } from "./ui/canvas";
@@ -87,6 +88,7 @@ function pressed(event: KeyboardEvent): void {
 }
 
 render(<App />, document.body);
+later(warm);
 
 // What tests look at: numbers, never pixels.
 Object.assign(window, {

@@ -40,6 +40,16 @@ export function unpacked(header: Shape, payload: ArrayBuffer): Piece {
   return { header, geometry, owners };
 }
 
+/** A triangle of no size, with all that a material may ask for. */
+export function triangle(): BufferGeometry {
+  const geometry = new BufferGeometry();
+  const sizes = { position: 3, normal: 3, color: 3, finish: 2, uv: 2 };
+  for (const [name, size] of Object.entries(sizes)) {
+    geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * size), size));
+  }
+  return geometry;
+}
+
 /** The triangles of some parts, sharing the vertices of the whole. */
 export function subset(piece: Piece, isIn: (address: string) => boolean): BufferGeometry | null {
   const chosen = new Set(piece.header.parts.flatMap((address, number) => (isIn(address) ? [number] : [])));

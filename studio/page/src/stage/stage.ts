@@ -38,7 +38,7 @@ import { arrowMeshes } from "./arrows";
 import { solid } from "./finish";
 import { frame, isSeen } from "./framing";
 import { type Order, sorted } from "./growth";
-import { subset, unpacked } from "./meshes";
+import { subset, triangle, unpacked } from "./meshes";
 import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
 
@@ -520,16 +520,6 @@ function compact(geometry: BufferGeometry): BufferGeometry {
   plain.setAttribute("position", geometry.getAttribute("position"));
   plain.setIndex(geometry.index);
   return plain.toNonIndexed();
-}
-
-/** A triangle of no size, with all that a material may ask for. */
-function triangle(): BufferGeometry {
-  const geometry = new BufferGeometry();
-  const sizes = { position: 3, normal: 3, color: 3, finish: 2, uv: 2 };
-  for (const [name, size] of Object.entries(sizes)) {
-    geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * size), size));
-  }
-  return geometry;
 }
 
 function clear(group: Group): void {

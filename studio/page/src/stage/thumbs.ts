@@ -1,9 +1,11 @@
 // Small pictures of results, all from one direction, by one renderer that draws one after the other.
 
 import {
+  BufferGeometry,
   Color,
   DirectionalLight,
   HemisphereLight,
+  Material,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
@@ -15,7 +17,7 @@ import {
 import type { Shape } from "../messages";
 import { frame } from "./framing";
 import { COLORS } from "./stage";
-import { unpacked } from "./meshes";
+import { triangle, unpacked } from "./meshes";
 
 const SHARP = Math.min(Math.max(devicePixelRatio, 1), 2);
 export const WIDTH = Math.round(148 * SHARP);
@@ -36,6 +38,19 @@ function next(): void {
 }
 
 let renderer: WebGLRenderer | null = null;
+// Kept: what no material uses is compiled again.
+const materials = {
+  flat: new MeshBasicMaterial({ vertexColors: true }),
+  fine: new MeshLambertMaterial({ vertexColors: true }),
+  coarse: new MeshLambertMaterial({ vertexColors: true, flatShading: true }),
+};
+
+/** Compiles what small pictures are drawn with, before the first one is wanted. */
+export function warm(): void {
+  const pen = document.createElement("canvas").getContext("2d")!;
+  // Reading the picture waits until it is drawn.
+  for (const material of Object.values(materials)) pen.drawImage(drawn(triangle(), material, "light", [0, 0, 0], [1, 1, 1]), 0, 0);
+}
 
 /** Draws a shape into a canvas; `low` and `high` are what all pictures of the gallery look at. */
 export function thumbnail(
@@ -51,23 +66,31 @@ export function thumbnail(
     pen.clearRect(0, 0, WIDTH, HEIGHT);
     return;
   }
+  const { geometry } = unpacked(header, payload);
+  const material = materials[header.is_flat ? "flat" : header.detail === "fine" ? "fine" : "coarse"];
+  pen.drawImage(drawn(geometry, material, theme, low, high), 0, 0, WIDTH, HEIGHT);
+}
+
+/** Draws a geometry, of which nothing is kept. */
+function drawn(
+  geometry: BufferGeometry,
+  material: Material,
+  theme: "light" | "dark",
+  low: number[],
+  high: number[],
+): HTMLCanvasElement {
   renderer ??= new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setSize(WIDTH, HEIGHT, false);
   const scene = new Scene();
   scene.background = new Color(COLORS[theme].paper);
-  const { geometry } = unpacked(header, payload);
-  const material = header.is_flat
-    ? new MeshBasicMaterial({ vertexColors: true })
-    : new MeshLambertMaterial({ vertexColors: true, flatShading: header.detail !== "fine" });
   const sun = new DirectionalLight(0xfff9ef, 2.3);
   sun.position.set(0.55, 1, 0.5);
   scene.add(new Mesh(geometry, material), new HemisphereLight(0xffffff, 0xdedad2, 1.85), sun);
   const from = new Vector3(...(low as [number, number, number]));
   const to = new Vector3(...(high as [number, number, number]));
   const camera = new PerspectiveCamera(28, WIDTH / HEIGHT, 0.1, 1000);
-  frame(camera, from, to, header.is_flat, 0.02);
+  frame(camera, from, to, material === materials.flat, 0.02);
   renderer.render(scene, camera);
-  pen.drawImage(renderer.domElement, 0, 0, WIDTH, HEIGHT);
   geometry.dispose();
-  material.dispose();
+  return renderer.domElement;
 }
