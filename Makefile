@@ -13,6 +13,7 @@
 #   make bench-hmc gradients and effective samples compared with JAX, NumPyro, nutpie and the limit (4 minutes; QUICK=1: one)
 #   make bench-vi  evidence bounds and seconds of variational inference, beside NumPyro and BlackJAX (QUICK=1: two models)
 #   make bench-wait  seconds from a command to its last byte for each gallery model, beside Embree's primary rays
+#   make bench-sketches  what a primitive costs in each sketch, beside loops by hand, parry3d and trimesh (three minutes)
 #   make bench-drag  random drags of parts of five gallery models: how many arrive, why not, how soon
 #   make bench-searches  the default search and others at equal CPU on many kinds of problems (QUICK=1: ten minutes)
 #   make bench-batch  a thousand searches, killed ten times: their bytes, and the CPU beyond the searches (2 minutes)
@@ -67,7 +68,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-vi bench-wait bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -136,6 +137,7 @@ blender-pictures:
 lint: $(STAMPS)/engine $(STAMPS)/lint
 	cargo fmt --all --check
 	cargo fmt --manifest-path benches/limit/Cargo.toml --check
+	cargo fmt --manifest-path benches/sketches/Cargo.toml --check
 	cargo fmt --manifest-path fuzz/Cargo.toml --check
 	cargo clippy $(CARGO_FLAGS) --workspace --all-targets -- -D warnings
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
@@ -178,6 +180,9 @@ bench-vi: $(STAMPS)/engine $(STAMPS)/bench-hmc
 
 bench-wait: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/wait.py
+
+bench-sketches: $(STAMPS)/engine $(STAMPS)/bench
+	$(PY) benches/primitives.py
 
 bench-drag: $(STAMPS)/engine
 	$(PY) benches/drag.py
@@ -242,6 +247,7 @@ docs: $(STAMPS)/engine $(STAMPS)/docs $(STAMPS)/test
 format: $(STAMPS)/lint
 	cargo fmt --all
 	cargo fmt --manifest-path benches/limit/Cargo.toml
+	cargo fmt --manifest-path benches/sketches/Cargo.toml
 	cargo fmt --manifest-path fuzz/Cargo.toml
 	$(VENV)/bin/ruff format $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check --fix $(PYTHON_SOURCES)

@@ -4,8 +4,9 @@
 //! In rounds. In a round the steps have one length, until the bound of a block of steps is no longer above that of the
 //! block before by more than its noise. The iterates then move around an optimum, and their mean over the block is
 //! nearer to it than the last (Dhaka et al. 2020, section 3). Means of two rounds are compared by the same draws. The ascent
-//! ends when a round gains less than the tolerance, its error counted. The next round takes shorter steps where a round
-//! gained nothing that its error lets one see. The result is the best of the means and the start.
+//! ends when a round is no worse than the best and gains less than the tolerance, its error counted. The next round takes
+//! shorter steps where a round gained nothing that its error lets one see, and begins at the best where it was worse: its
+//! steps were too long. The result is the best of the means and the start.
 //!
 //! Where half of a step's draws have no finite density, or a block falls far below the best, the ascent goes back to the
 //! best and takes shorter steps; after some such returns it ends there.
@@ -147,7 +148,7 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
             before = Some(block);
             continue;
         }
-        let last = std::mem::replace(&mut ascent.member.parameters, block.center);
+        ascent.member.parameters = block.center;
         let check = ascent.check(batch)?;
         let (gain, error) = check.gain(&best.1);
         // A mean that is as good as can be seen is taken: it has less noise than the one before.
@@ -155,12 +156,13 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
         if is_better {
             best = (ascent.member.clone(), check);
         }
-        let has_ended = settled && gain + 2.0 * error < settings.tolerance;
+        let has_ended = settled && is_better && gain + 2.0 * error < settings.tolerance;
         if has_ended && rate < FIRST || rate < LAST || is_last {
             return Ok(fit(&mut ascent, &best, has_ended, None, false));
         }
         if !is_better {
-            ascent.member.parameters = last;
+            ascent.member.parameters.clone_from(&best.0.parameters);
+            ascent.adam.forget();
         }
         // Steps are not too long while a round gains by them.
         if gain < settings.tolerance.max(2.0 * error) {
