@@ -1,11 +1,10 @@
 """Gradients go through an `infer` by enumeration: its probabilities are functions of the choices outside.
 
-Of models of different shape the density is the engine's own log joint at the same choices, to its grid, and its gradient is
-that of central differences of the engine's log joint, which know nothing of the recording. So is machine code. Chains and
-normals that follow the gradient are compared with quadrature of that log joint.
+Of models of different shape the density is the engine's own log joint at the same choices, to its grid, and its
+gradient is that of central differences of the engine's log joint, which know nothing of the recording. So is machine
+code. Chains and normals that follow the gradient are compared with quadrature of that log joint.
 
-The mutant forgets that the normaliser of the inner distribution varies (`nested-gradient-fixed-normaliser`), and gives other
-gradients in all models but those whose probabilities are compared with one another only.
+The mutant forgets that the normaliser of the inner distribution varies (`nested-gradient-fixed-normaliser`).
 """
 
 from __future__ import annotations
@@ -207,7 +206,9 @@ def mixtures_and_weights():
     x = nw.gaussian(0, 1)
 
     def drawn():
-        k = nw.sample(nw.words.Mixture([1.0, math.exp(x)], [nw.words.Binomial(3, 0.3), nw.words.DiscreteUniform(2, 5)]))
+        k = nw.sample(
+            nw.words.Mixture([1.0, math.exp(x)], [nw.words.Binomial(3, 0.3), nw.words.DiscreteUniform(2, 5)])
+        )
         j = nw.categorical([1.0, max(x, 0.0), x * x])
         return (k + j) % 4
 
@@ -381,7 +382,9 @@ def moments(of: Any, name: str, low: float, high: float) -> tuple[float, float, 
 
 
 @pytest.mark.parametrize("of", [data_inside, expectation, support_changes], ids=lambda of: of.__name__)
-@pytest.mark.parametrize("method", [nw.hmc(1500, steps=8, warmup=300, chains=2), nw.nuts(1500, warmup=300, chains=2)])
+@pytest.mark.parametrize(
+    "method", [nw.hmc(1500, steps=8, warmup=300, chains=2), nw.nuts(1500, warmup=300, chains=2)]
+)
 def test_chains_follow_the_outer_posterior(of: Any, method: Any) -> None:
     """Means and second moments within 4.5 standard errors (twelve quantities: a false alarm once in 12,000)."""
     name = "rate" if of is expectation else "x"
@@ -404,7 +407,7 @@ def test_normals_find_the_evidence(of: Any) -> None:
 
 
 def test_an_ascent_finds_the_top() -> None:
-    """Chains that begin with an ascent come near the highest point of the quadrature's grid, which one run does not."""
+    """Chains that begin with an ascent come near the highest point of a grid."""
     x = np.linspace(-4, 4, 801)
     highest = max(log_joint(expectation, {"rate": float(at)}) for at in x)
     found = nw.run(expectation, nw.explore(chains=16), seed=1)

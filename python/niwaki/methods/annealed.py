@@ -17,8 +17,8 @@ from niwaki.methods.method import Method
 class Ais(Method):
     """Particles that a chain moves from the prior to the posterior, on a ladder of powers of the score (Neal 2001).
 
-    The mean weight is unbiased for the evidence, and weighted particles follow the posterior, for every ladder and every
-    kernel: what the moves miss, the weights count. Runs may differ in structure.
+    The mean weight is unbiased for the evidence, and weighted particles follow the posterior, for every ladder and
+    every kernel: what the moves miss, the weights count. Runs may differ in structure.
 
     Parameters
     ----------

@@ -79,8 +79,8 @@ class Info:
     Attributes
     ----------
     log_evidence : float or None
-        Log of the model's total probability, nats; estimated by particles, `ais` and importance, exact by enumeration. None
-        where the method has none, or where the search was stopped.
+        Log of the model's total probability, nats; estimated by particles, `ais` and importance, exact by enumeration.
+        None where the method has none, or where the search was stopped.
     """
 
     log_evidence: float | None = None
@@ -131,8 +131,8 @@ class AnnealedInfo(Info):
     Attributes
     ----------
     effective : float
-        The effective sample size of the weights, between 1 and the number of particles. A small one says that the ladder
-        has too few rungs, or too few moves at each.
+        The effective sample size of the weights, between 1 and the number of particles. A small one says that the
+        ladder has too few rungs, or too few moves at each.
     powers : tuple of float
         The powers of the score, without the first, 0.
     tries : int
