@@ -40,6 +40,11 @@ use std::sync::Arc;
 /// Log probabilities that differ by less count as equal where values are ranked, nats: far above the errors of sums on the
 /// grid, far below what a program could mean by a difference.
 const TIE: f64 = 1e-6;
+/// Probabilities whose logs are above this, nats, are equal only where the logs differ by less than [`TIE`]: from here on down
+/// the numbers of a machine lie further apart.
+const SMALL: f64 = -730.0;
+/// Most inner runs that are recorded: their operations stay in memory.
+const MOST: usize = 1 << 17;
 
 /// The log probability of a run so far.
 #[derive(Clone)]
@@ -201,6 +206,9 @@ fn runs(
         if met > max_runs {
             return Err(too_many(max_runs).into());
         }
+        if met > MOST {
+            return Err(too_many_to_record().into());
+        }
         all.note(fault.as_ref());
         match cause {
             Some(cause) => *causes.entry(cause).or_insert(0) += 1,
@@ -226,6 +234,12 @@ fn runs(
     Ok(outcomes)
 }
 
+#[cold]
+fn too_many_to_record() -> Fault {
+    Fault::new("too-many-runs", format!("a gradient records at most {MOST} runs of the model inside"))
+        .with_help("make the model inside smaller, or search by `mh()` or particles, which need no gradient")
+}
+
 /// The list of values with their probabilities, the most probable first.
 fn ranked(outcomes: Vec<Outcome>) -> Result<Value<Var>, Failure> {
     let sums = |outcome: &Outcome| {
@@ -239,8 +253,12 @@ fn ranked(outcomes: Vec<Outcome>) -> Result<Value<Var>, Failure> {
     // As in a plain run: stable, by the probabilities themselves.
     all.sort_by(|a, b| b.1.value().exp().total_cmp(&a.1.value().exp()));
     for pair in all.windows(2) {
-        // A guard: the order is another one where this does not hold.
-        let _ = pair[1].1 - pair[0].1 <= Var::from_f64(TIE);
+        // Guards: where they do not hold, the order may be another one.
+        let is_ranked = pair[1].1 - pair[0].1 <= Var::from_f64(TIE);
+        if !is_ranked {
+            // Both probabilities are the same small number, by rounding.
+            let _ = pair[1].1 <= Var::from_f64(SMALL);
+        }
     }
     let pair = |(value, log): (Value<Var>, Var)| Value::tuple(vec![value, Value::Real(log.exp())]);
     Ok(Value::list(all.into_iter().map(pair).collect()))
