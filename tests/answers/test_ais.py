@@ -1,5 +1,6 @@
 """Claim: annealed importance sampling gives the evidence of conjugate models, follows their posteriors and those of
-finite programs whose structure changes, by any kernel; its settings are held; a search that was stopped gives what it has.
+finite programs whose structure changes, by any kernel. Its settings are held. A search that was stopped gives what it
+has.
 
 The evidence is judged by the mean weight and its standard error over particles, within 4.5 of them: once in 150,000 a
 true mean is not, and about ten are judged. The engine's tests (`crates/infer/tests/annealed.rs`) have its unbiasedness
