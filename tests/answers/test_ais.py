@@ -152,7 +152,7 @@ def test_settings_are_held(name: str, make: Any) -> None:
 
 
 def test_a_search_is_a_value() -> None:
-    search = nw.Search(branching, nw.ais(30, (0.1, 1), kernels.neighbour()), seed=4)
+    search = nw.Search(branching, method=nw.ais(30, (0.1, 1), kernels.neighbour()), seed=4)
     again = nw.Search.of_json(search.json("inside"))
     assert again.method == search.method
     assert again.run().log_evidence == search.run().log_evidence

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from niwaki import enumerate_all, flip, infer, model
 from niwaki.errors import NiwakiError
-from niwaki.words import Bernoulli, Gaussian
+from niwaki.words import Bernoulli, Binomial, DiscreteUniform, Gaussian, Mixture
 
 DATA = (True, False, True, True)
 WORLDS = (0, 1, 2, 3)
@@ -58,8 +58,8 @@ def listener(word, rationality, share):
 @model
 def implicature():
     """A scalar implicature: what `some` means to one who knows a rational speaker; nested three times."""
-    rationality = nw.exp(nw.gaussian(0.5, 0.5))
-    share = nw.exp(nw.gaussian(-1.0, 0.3))
+    rationality = math.exp(nw.gaussian(0.5, 0.5))
+    share = math.exp(nw.gaussian(-1.0, 0.3))
     for world, p in infer(listener, enumerate_all(), 1, rationality, share):
         if world == 3:
             nw.observe(Bernoulli(p), False)
@@ -174,7 +174,7 @@ def values_vary():
 def hidden_states():
     """A hidden chain of three states, its transitions from outside."""
     stay = 1 / (1 + math.exp(-nw.gaussian(0, 1)))
-    spread = nw.exp(nw.gaussian(0, 0.3))
+    spread = math.exp(nw.gaussian(0, 0.3))
 
     def states():
         s = 0
@@ -206,9 +206,7 @@ def mixtures_and_weights():
     x = nw.gaussian(0, 1)
 
     def drawn():
-        k = nw.sample(
-            nw.words.Mixture([1.0, math.exp(x)], [nw.words.Binomial(3, 0.3), nw.words.DiscreteUniform(2, 5)])
-        )
+        k = nw.sample(Mixture([1.0, math.exp(x)], [Binomial(3, 0.3), DiscreteUniform(2, 5)]))
         j = nw.categorical([1.0, max(x, 0.0), x * x])
         return (k + j) % 4
 
@@ -323,7 +321,7 @@ def test_a_method_that_draws_is_refused_and_names_the_enumeration() -> None:
     @model
     def outer():
         x = nw.gaussian(0, 1)
-        n = infer(literal, nw.importance(20), 1, nw.exp(x))
+        n = infer(literal, nw.importance(20), 1, math.exp(x))
         nw.factor(n * x)
 
     with pytest.raises(NiwakiError) as caught:
