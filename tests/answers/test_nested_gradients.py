@@ -147,7 +147,7 @@ def support_changes():
 
     def ladder():
         k = nw.discrete_uniform(0, 5)
-        nw.condition(k < 3 + x)
+        nw.condition(k == 0 or k < 3 + x)
         nw.factor(0.3 * k * x)
         return k % 3
 
