@@ -12,6 +12,7 @@ Searching a model:
 
     grow, run                                   grow a model into a target; run a model by any method
     smc                                         method: particles
+    ais                                         method: particles on a ladder from the prior to the posterior
     mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
     vi                                          method: a normal near the model's distribution, and weighed draws
     kernels                                     the kernels of Markov chains

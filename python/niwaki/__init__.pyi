@@ -21,6 +21,7 @@ from .lang.models import model as model
 from .lang.plain import run_python as run_python
 from .lang.residuals import residuals as residuals
 from .methods import Guide as Guide
+from .methods import ais as ais
 from .methods import enumerate_all as enumerate_all
 from .methods import explore as explore
 from .methods import forward as forward

@@ -3,8 +3,9 @@
 Programs of `finite_programs`: futures of every shape, loops, closures, branches, shadowed names. Of each:
 
 - plain Python and the engine do the same with the same choices, in both directions;
-- particles in both orders, with every kind of resampling and of rejuvenation, particle Gibbs and PIMH: a sample's value
-  has a probability by enumeration, and plain Python with the sample's choices gives its value and scores;
+- particles in both orders, with every kind of resampling and of rejuvenation, particle Gibbs, PIMH and annealed
+  importance sampling: a sample's value has a probability by enumeration, and plain Python with the sample's choices
+  gives its value and scores;
 - the evidence is unbiased, and each value has its share: z-scores against enumeration. Few particles and many small
   populations are most sensitive, as nothing averages an error away;
 - states of Markov chains agree with their choices, and the four strategies agree to the bit.
@@ -99,7 +100,12 @@ def pimh(sweeps: int, seed: int) -> nw.methods.Pimh:
     return nw.pimh(5 + seed % 3, sweeps, ("stochastic", "depth-first")[seed // 2 % 2])
 
 
-METHODS = (*populations(1, 0), *gibbs(0), "PIMH")
+def annealed(seed: int) -> nw.methods.Ais:
+    """Two particles on a short ladder, which is as sensitive as few particles are."""
+    return nw.ais(2, ((0.3, 1), (0.1, 0.4, 1))[seed % 2], MOVES, 1 + seed % 3, tries=10**6)
+
+
+METHODS = (*populations(1, 0), *gibbs(0), "PIMH", "AIS")
 #: Moves of one choice need not reach every value, so its shares are not judged.
 CHAIN = "Markov chain"
 
@@ -151,6 +157,18 @@ class Exact:
                 rows[i // size, 1 + self.counted.index(name)] += weight
         return self.scores(rows, [1.0, *(self.shares[name] for name in self.counted)])
 
+    def of_searches(self, searches: list[Any]) -> list[float]:
+        """The same of searches whose mean weight is the evidence."""
+        rows = np.zeros((len(searches), 1 + len(self.counted)))
+        for row, found in zip(rows, searches, strict=True):
+            for sample in found:
+                weight = math.exp(sample.log_weight - self.log_evidence) / len(found)
+                row[0] += weight
+                name = repr(sample.value)
+                if name in self.counted:
+                    row[1 + self.counted.index(name)] += weight
+        return self.scores(rows, [1.0, *(self.shares[name] for name in self.counted)])
+
     def of_values(self, names: list[str]) -> list[float]:
         """The share of each value, of independent draws."""
         rows = np.array([[name == other for other in self.counted] for name in names], float)
@@ -198,6 +216,12 @@ def looked_at(model: Any, exact: Exact, name: str, times: int, seed: int, tally:
             model, pimh((BATCHES + BATCHES // 10) * BATCH * times, seed), seed=seed, threads=1
         ).samples
         scores = exact.of_chain([repr(sample.value) for sample in found])
+    elif name == "AIS":
+        searches = [
+            nw.run(model, annealed(seed), seed=seed + i, threads=1) for i in range(POPULATIONS * times)
+        ]
+        scores = exact.of_searches(searches)
+        found = [sample for one in searches for sample in one]
     else:
         count = POPULATIONS * times
         result = nw.run(model, populations(count, seed)[name], seed=seed, threads=1)
@@ -275,6 +299,7 @@ def answers_a_look(program: str, seed: int) -> str:
         **populations(2, seed),
         **gibbs(seed),
         "PIMH": pimh(2, seed),
+        "AIS": annealed(seed),
         "forward": nw.forward(2),
         "importance": nw.importance(2),
         "rejection": nw.rejection(1, 9.0),

@@ -194,9 +194,10 @@ impl Answers<Var> for Placer<'_> {
     }
 
     /// What a host function gives does not vary: its derivative is not known.
-    fn host(&mut self, constant: u16, args: &[Value<Var>], _: &mut u64) -> Result<Value<Var>, Fault> {
-        let given: Vec<Value> = args.iter().map(|arg| arg.convert(&Var::value)).collect();
-        Ok((self.run.host)(constant, &given)?.convert(&Var::from_f64))
+    fn host(&mut self, constant: u16, args: &[Value<Var>], steps: &mut u64) -> Result<Value<Var>, Fault> {
+        let fixed = |x: Var| Var::from_f64(x.value());
+        let given: Vec<Value<Var>> = args.iter().map(|arg| arg.convert(&fixed)).collect();
+        (self.run.host)(constant, &given, steps)
     }
 }
 

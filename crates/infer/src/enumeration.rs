@@ -68,11 +68,7 @@ impl Chooser for Branching {
                 self.open.push(Next::From { dist: dist.clone(), value: lo, left: 1.0 });
                 return Ok(None);
             }
-            return Err(Fault::new(
-                "not-enumerable",
-                format!("the choice `{}` has no finite list of values", at.path()),
-            )
-            .with_help("use particles or importance sampling for continuous and unbounded choices"));
+            return Err(not_enumerable(&at.path()));
         };
         for draw in draws {
             let log = dist.log_density(&draw);
@@ -86,6 +82,21 @@ impl Chooser for Branching {
         }
         Ok(None)
     }
+}
+
+/// The fault of a choice whose values are not finitely many.
+#[cold]
+pub(crate) fn not_enumerable(path: &str) -> Fault {
+    Fault::new("not-enumerable", format!("the choice `{path}` has no finite list of values"))
+        .with_help("use particles or importance sampling for continuous and unbounded choices")
+}
+
+/// The fault of a program with more runs than this.
+#[cold]
+pub(crate) fn too_many(max_runs: usize) -> Fault {
+    let message = format!("the program has more than {max_runs} runs, the impossible ones included");
+    Fault::new("too-many-runs", message)
+        .with_help("enumerate the likeliest of them (`likely=True`), or use particles")
 }
 
 /// Enumerates every run of the program, at most `max_runs`, impossible ones included; see [`visit`].
@@ -154,12 +165,7 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
             if let Visit::All(max_runs) = what
                 && met > max_runs
             {
-                return Err(Fault::new(
-                    "too-many-runs",
-                    format!("the program has more than {max_runs} runs, the impossible ones included"),
-                )
-                .with_help("enumerate the likeliest of them (`likely=True`), or use particles")
-                .into());
+                return Err(too_many(max_runs).into());
             }
         }
         // Reversed, so that outcomes appear in the order of the values.

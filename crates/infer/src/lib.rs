@@ -6,6 +6,7 @@
 //! * [`chooser`]: where a choice gets its value;
 //! * [`forward`]: a run of new choices; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
+//! * [`annealed`]: annealed importance sampling, by chains at rising powers of the score;
 //! * [`method`]: a search as data; [`run`]: a finished run;
 //! * `streams`: the random streams that belong to no run;
 //! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
@@ -23,6 +24,7 @@
 //!
 //! Not here: opcodes, shapes, Python.
 
+pub mod annealed;
 pub mod blame;
 pub mod chain;
 pub mod checkpoint;

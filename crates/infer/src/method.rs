@@ -2,7 +2,9 @@
 //!
 //! The fields are those of Python's classes of the same names, which describe them.
 
+use crate::annealed::{self, Annealed, Powers, annealed};
 use crate::chain::form::{Attached, Form};
+use crate::chain::kernel::Kernel;
 use crate::enumeration::{Visit, visit};
 use crate::forward::forward;
 use crate::gradient::approximate;
@@ -26,7 +28,7 @@ use niwaki_vm::machine::kept::Strategy;
 use niwaki_vm::value::Value;
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// About how many samples of a chain are kept by default.
@@ -41,6 +43,7 @@ pub enum Method {
     EnumerateAll { max_runs: usize, likely: bool, rest: f64 },
     Rejection { n: usize, bound: f64, max_tries: u64 },
     Importance { n: usize, proposal: Option<Form> },
+    Ais(Ais),
     Smc(Smc),
     ParticleGibbs(ParticleGibbs),
     Pimh(Pimh),
@@ -53,6 +56,17 @@ pub enum Method {
 
 /// Settings that a method does not have.
 type Rest = BTreeMap<String, serde_json::Value>;
+
+/// Annealed importance sampling.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ais {
+    particles: usize,
+    powers: Powers,
+    kernel: Option<Form>,
+    moves: u64,
+    tries: u64,
+}
 
 /// Sequential Monte Carlo.
 #[derive(Clone, Debug, Deserialize)]
@@ -260,6 +274,8 @@ pub enum Info {
         /// Runs that it took.
         tries: u64,
     },
+    /// Of annealed importance sampling; its particles are the runs.
+    Annealed(Annealed),
     /// Of enumeration, whose runs are not kept.
     Enumeration(crate::enumeration::Enumerated),
     /// Of populations, and of what became impossible in them; their particles are the runs.
@@ -339,6 +355,19 @@ impl Method {
                 };
                 let result = visit(task, what, &mut |runs| watch(runs as u64, 0, none))?;
                 Ok(bare(vec![], false, Info::Enumeration(result)))
+            }
+            Method::Ais(own) => {
+                let ended = Mutex::new((0, none, watch));
+                let watch = |best: f64| {
+                    let mut ended = ended.lock().unwrap_or_else(PoisonError::into_inner);
+                    let (n, highest, watch) = &mut *ended;
+                    *n += usize::from(best > none);
+                    *highest = highest.max(best);
+                    watch(*n as u64, *n, *highest)
+                };
+                let mut result = annealed(task, &own.settings(given)?, &watch)?;
+                let runs = std::mem::take(&mut result.runs);
+                Ok(bare(runs, result.interrupted, Info::Annealed(result)))
             }
             Method::Smc(own) => {
                 let settings = own.settings(given)?;
@@ -439,12 +468,27 @@ impl Method {
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
             Method::Vi(_) => refused("vi", "no gradient is followed"),
             Method::Importance { proposal, .. } => proposed(proposal.as_ref(), &Given::default()).map(|_| ()),
+            Method::Ais(own) => own.settings(&Given::default()).map(|_| ()),
             Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
             Method::ParticleGibbs(own) => own.settings(&Given::default()).map(|_| ()),
             Method::Pimh(own) => own.settings(&Given::default()).map(|_| ()),
             Method::Mh(own) => own.settings(&Given::default()).map(|_| ()),
             _ => Ok(()),
         }
+    }
+}
+
+impl Ais {
+    fn settings(&self, given: &Given<'_>) -> Result<annealed::Settings, Fault> {
+        let kernel = self.kernel.as_ref().map(|form| form.kernel(given.attached)).transpose()?;
+        Ok(annealed::Settings {
+            particles: self.particles,
+            powers: self.powers.ladder()?,
+            kernel: kernel.unwrap_or(Kernel::PRIOR),
+            moves: self.moves,
+            tries: self.tries,
+            seed: given.seed,
+        })
     }
 }
 

@@ -176,6 +176,10 @@ impl Known {
 }
 
 impl Hosts for Inferences {
+    fn inference(&self, constant: u16) -> Option<&Inner> {
+        self.methods.get(&constant)
+    }
+
     fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
         let Some(method) = self.methods.get(&constant) else {
             return self.hosts.call(constant, args, steps);
@@ -219,14 +223,7 @@ impl Inferences {
         seed: u64,
         together: &Arc<Together>,
     ) -> Result<Value, Fault> {
-        if self.depth == DEPTH {
-            return Err(Fault::new(
-                "infer-failed",
-                format!("more than {DEPTH} `infer` are inside one another"),
-            ));
-        }
-        let bytes = (self.limits.bytes / 4).clamp(SMALLEST.min(self.limits.bytes), self.limits.bytes);
-        let limits = Limits { bytes, ..self.limits };
+        let limits = limits_inside(self.limits, self.depth)?;
         let task = Task {
             program: Arc::clone(&self.program),
             model: Some(Arc::clone(model)),
@@ -251,13 +248,25 @@ impl Inferences {
     }
 }
 
-fn too_long(name: &str, steps: u64) -> Fault {
+/// The limits of the runs of an `infer` inside of a run with these limits, itself inside of so many.
+///
+/// # Errors
+/// Too many are inside one another.
+pub(crate) fn limits_inside(limits: Limits, depth: usize) -> Result<Limits, Fault> {
+    if depth == DEPTH {
+        return Err(Fault::new("infer-failed", format!("more than {DEPTH} `infer` are inside one another")));
+    }
+    let bytes = (limits.bytes / 4).clamp(SMALLEST.min(limits.bytes), limits.bytes);
+    Ok(Limits { bytes, ..limits })
+}
+
+pub(crate) fn too_long(name: &str, steps: u64) -> Fault {
     let message = format!("with the runs of `infer` of `{name}` the model took more than {steps} steps");
     Fault::new("step-budget", message).with_help("search with fewer runs inside, or raise `max_steps`")
 }
 
 /// The failure of an inner search as a fault of the run around it.
-fn fault_of(name: &str, failure: Failure) -> Fault {
+pub(crate) fn fault_of(name: &str, failure: Failure) -> Fault {
     match failure {
         Failure::Run(inner) => {
             let line = inner.stack.last().map_or(0, |call| call.span.line);

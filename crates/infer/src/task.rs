@@ -1,5 +1,6 @@
 //! The task of a search: a program with its arguments, and the sketches that score its scene.
 
+use crate::nested::Inner;
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -20,6 +21,11 @@ pub trait Hosts: Send + Sync {
     /// # Errors
     /// The exception of the function, as a fault.
     fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault>;
+
+    /// The inference that a call of this constant is, where it is one.
+    fn inference(&self, _: u16) -> Option<&Inner> {
+        None
+    }
 }
 
 /// No host functions.

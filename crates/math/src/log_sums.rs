@@ -1,5 +1,7 @@
 //! Sums of numbers that are given by their logarithms: relative to the largest, so that nothing overflows.
 
+use crate::scalar::Scalar;
+
 /// The log of the mean of exponentials, added up in order; `-inf` of none.
 ///
 /// ```
@@ -19,6 +21,17 @@ pub fn log_mean_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
 pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     let n = logs.clone().count();
     log_mean_exp(logs) + (n.max(1) as f64).ln()
+}
+
+/// `ln sum exp` of numbers that may be recorded, added up in order; `-inf` where none is above it. The largest is found by
+/// operations, not by comparisons, so that a recording of it holds everywhere.
+pub fn log_sum_exp_of<S: Scalar>(logs: impl Iterator<Item = S> + Clone) -> S {
+    let shift = logs.clone().fold(S::from_f64(f64::NEG_INFINITY), S::max);
+    if shift.value() == f64::NEG_INFINITY {
+        return shift;
+    }
+    let possible = logs.filter(|log| log.value() > f64::NEG_INFINITY);
+    shift + possible.fold(S::from_f64(0.0), |sum, log| sum + (log - shift).exp()).ln()
 }
 
 /// `ln(exp(a) + exp(b))`.

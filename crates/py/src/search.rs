@@ -417,6 +417,13 @@ impl PyTask {
         match info {
             Info::Forward => {}
             Info::Importance { log_evidence } => dict.set_item("log_evidence", log_evidence)?,
+            Info::Annealed(result) => {
+                dict.set_item("log_evidence", result.log_evidence)?;
+                dict.set_item("effective", result.effective)?;
+                dict.set_item("powers", PyTuple::new(py, result.powers)?)?;
+                dict.set_item("tries", result.tries)?;
+                dict.set_item("moved", (result.moved.proposed, result.moved.accepted))?;
+            }
             Info::Rejection { tries } => dict.set_item("tries", tries)?,
             Info::Enumeration(result) => {
                 let pair = |(value, log): &(Value, f64)| Ok((self.object(py, value)?, *log));

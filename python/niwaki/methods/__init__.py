@@ -1,5 +1,6 @@
 """Methods as values. Settings are checked when a method is created.
 
+annealed    annealed importance sampling
 direct      forward runs, enumeration, rejection, likelihood weighting
 particles   sequential Monte Carlo, and chains whose proposals are populations
 chains      Metropolis-Hastings
@@ -13,6 +14,7 @@ checks      checks of settings
 room        whether the counts of a method fit into memory
 """
 
+from niwaki.methods.annealed import Ais, ais
 from niwaki.methods.chains import STRATEGIES, Mh, mh
 from niwaki.methods.checks import at_least_one
 from niwaki.methods.direct import (
@@ -50,6 +52,7 @@ __all__ = [
     "STARTS",
     "STRATEGIES",
     "WEIGHTS",
+    "Ais",
     "EnumerateAll",
     "Forward",
     "Guide",
@@ -64,6 +67,7 @@ __all__ = [
     "Rejection",
     "Smc",
     "Vi",
+    "ais",
     "at_least_one",
     "enumerate_all",
     "explore",

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from niwaki.errors.memory import check_room
+from niwaki.methods.annealed import Ais
 from niwaki.methods.chains import Mh
 from niwaki.methods.direct import Forward, Importance, Rejection
 from niwaki.methods.gradients import Hmc, Nuts
@@ -46,6 +47,9 @@ def _needs(method: Method) -> Iterator[Need]:
             yield "n", method.n, RUN, "sample"
         case Rejection():
             yield "n", min(method.n, method.max_tries), RUN, "sample"
+        case Ais():
+            yield "particles", method.particles, RUN, "particle"
+            yield "powers", method.powers if isinstance(method.powers, int) else 1, MOVE, "rung"
         case Smc():
             yield from _of_population(method)
         case ParticleGibbs() | Pimh():

@@ -79,8 +79,8 @@ class Info:
     Attributes
     ----------
     log_evidence : float or None
-        Log of the model's total probability, nats; estimated by particles and importance, exact by enumeration. None
-        where the method has none, or where the search was stopped.
+        Log of the model's total probability, nats; estimated by particles, `ais` and importance, exact by enumeration.
+        None where the method has none, or where the search was stopped.
     """
 
     log_evidence: float | None = None
@@ -122,6 +122,33 @@ class EnumerationInfo(Info):
         own = sum(exp(log - most) for found, log in self.table if found == value)
         left = exp(unseen - most)
         return own / (seen + left), (own + left) / (seen + left)
+
+
+@dataclass(frozen=True)
+class AnnealedInfo(Info):
+    """Of annealed importance sampling.
+
+    Attributes
+    ----------
+    effective : float
+        The effective sample size of the weights, between 1 and the number of particles. A small one says that the
+        ladder has too few rungs, or too few moves at each.
+    powers : tuple of float
+        The powers of the score, without the first, 0.
+    tries : int
+        Forward runs that the first states took: as many as particles where every run of the prior is possible.
+    moved : Count
+        Proposals of all particles, and those that were kept.
+    """
+
+    effective: float = 0.0
+    powers: tuple[float, ...] = ()
+    tries: int = 0
+    moved: Count = Count()  # noqa: RUF009
+
+    def __post_init__(self) -> None:
+        """Name the counts of the engine."""
+        object.__setattr__(self, "moved", Count(*self.moved))
 
 
 @dataclass(frozen=True)
@@ -295,6 +322,7 @@ class ImproveInfo(Info):
 
 #: The class of each method, by its name.
 INFOS: dict[str, type[Info]] = {
+    "ais": AnnealedInfo,
     "enumerate_all": EnumerationInfo,
     "rejection": RejectionInfo,
     "smc": PopulationInfo,

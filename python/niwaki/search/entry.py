@@ -61,7 +61,7 @@ def run(
     args, kwargs
         Its arguments.
     method
-        `smc(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
+        `smc(...)`, `ais(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
         `importance(...)`, `hmc(...)`, `nuts(...)`, `vi(...)` or `forward(...)`, also what happens when it is left out.
         It may also be the argument after the model.
     score

@@ -16,13 +16,14 @@ import typer
 
 from niwaki import guides, kernels, search
 from niwaki.errors import InputError
-from niwaki.methods import Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
+from niwaki.methods import Ais, Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
 from niwaki.shell.references import ModelReference
 
 #: The methods of `niwaki grow`, by the name that is typed.
 METHODS: dict[str, type[Method]] = {
     "improve": Improve,
     "smc": Smc,
+    "ais": Ais,
     "particle-gibbs": ParticleGibbs,
     "pimh": Pimh,
 }
@@ -202,7 +203,9 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
     if chosen is Improve:
         return Improve(**{**own, "particles": max(suits["particles"] // 3, 1), **options})
     options = {**own, **options}
-    return search.usual(options) if chosen is Smc else chosen(**{"power": search.POWER, **options})
+    if chosen is Smc:
+        return search.usual(options)
+    return chosen(**{**({"power": search.POWER} if "power" in known else {}), **options})
 
 
 def guide(
@@ -280,6 +283,9 @@ def _read(name: str, value: Any) -> Any:
     if name == "particles":
         sizes = numbers(name, value, int)
         return sizes[0] if len(sizes) == 1 else sizes
+    if name == "powers":
+        rungs = numbers(name, value, float)
+        return rungs if len(rungs) > 1 else numbers(name, value, int)[0]
     if name == "anneal":
         powers = numbers(name, value, float)
         return powers[0] if len(powers) == 1 else powers

@@ -136,8 +136,8 @@ def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sampl
     model
         A model, a function, a lambda.
     method
-        `smc(...)`, `mh(...)`, `importance(...)`, `rejection(...)`, `forward(...)` or `enumerate_all(...)`, with
-        constant settings or as a constant of the module.
+        `smc(...)`, `ais(...)`, `mh(...)`, `importance(...)`, `rejection(...)`, `forward(...)` or `enumerate_all(...)`,
+        with constant settings or as a constant of the module.
     args
         The inner model's arguments, by position.
     keep

@@ -43,6 +43,7 @@ MOVING = {"rejuvenate": k.prior()}
 METHODS: dict[str, Callable[[], Any]] = {
     "n": lambda: nw.importance(B),
     "n ": lambda: nw.forward(B),
+    "particles     ": lambda: nw.ais(B),
     "particles": lambda: nw.smc(B),
     "particles ": lambda: nw.smc((20, 20, B)),
     "particles  ": lambda: nw.particle_gibbs(B),

@@ -30,6 +30,7 @@ HONOURED = {
     "particle_gibbs": nw.particle_gibbs(8, 8),
     "pimh": nw.pimh(20, 8),
     "importance": nw.importance(150),
+    "ais": nw.ais(20, 5, moves=2),
     "rejection": nw.rejection(2),
 }
 

@@ -197,6 +197,7 @@ def test_every_method_and_sketch_goes_through_json():
         nw.enumerate_all(50),
         nw.rejection(4, -1),
         nw.importance(5),
+        nw.ais(5, (0.1, 1), moves=2),
         nw.forward(2),
         nw.improve(rounds=3, seconds=2),
     ]

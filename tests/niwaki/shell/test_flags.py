@@ -72,6 +72,13 @@ def grown(*words: str) -> dict[str, Any]:
     return dict(json.loads(Path("out/run.json").read_text()))
 
 
+def test_particles_go_up_a_ladder(place: Path) -> None:
+    words = ["--method", "ais", "--powers", "0.1,1", "--moves", "2", "--kernel", "drift(0.2)", "--no-picture"]
+    method = grown(*IMAGE, *words)["search"]["method"]
+    assert (method["method"], method["powers"], method["moves"]) == ("ais", [0.1, 1.0], 2)
+    assert method["kernel"]["name"] == "drift"
+
+
 def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
     data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within", "-5,0,-5,5,6,5", "--no-picture")
     sketches = {one["sketch"]: one["given"] for one in data["search"]["score"]}

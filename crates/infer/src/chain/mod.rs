@@ -45,7 +45,7 @@ pub mod user;
 pub mod weights;
 
 use crate::run::Run;
-use crate::{Failure, Task, gradient};
+use crate::{Failure, Task};
 use accept::{MetropolisHastings, Rules};
 use best::Best;
 use block::Block;
@@ -156,16 +156,7 @@ impl<R: Rules> Chain<R> {
     ) -> Result<Chain<R>, Failure> {
         let (plan, streams) = (Plan::new(&settings.kernel)?, Streams::new(settings.seed, number));
         let (state, spreads) = State::start(task, streams, settings.tries, known)?;
-        for leaf in &plan.leaves {
-            if !leaf.selection.is_all() {
-                leaf.selection.check(&state.trace, &task.program)?;
-            }
-            if leaf.proposer.trajectory().is_some()
-                && !leaf.selection.may_be_continuous(&state.trace, &task.program)
-            {
-                return Err(gradient::nothing_continuous().into());
-            }
-        }
+        plan.check(&state, task)?;
         Chain::at(task, settings, number, plan, state, &spreads)
     }
 

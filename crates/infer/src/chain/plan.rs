@@ -4,8 +4,10 @@
 
 use super::kernel::{Kernel, Selection};
 use super::leaf::{Leaf, Learnt, Proposer};
+use super::state::State;
 use super::trajectory::Trajectory;
-use crate::Failure;
+use crate::gradient::nothing_continuous;
+use crate::{Failure, Task};
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Serialize};
@@ -115,6 +117,22 @@ impl Plan {
         };
         self.branches.push(branch);
         Ok(self.branches.len() - 1)
+    }
+
+    /// Refuses leaves that have nothing to move from this state on.
+    ///
+    /// # Errors
+    /// A pattern that matches no choice of the program; a gradient, and no continuous choice.
+    pub fn check(&self, state: &State, task: &Task) -> Result<(), Failure> {
+        for Leaf { selection, proposer, .. } in &self.leaves {
+            if !selection.is_all() {
+                selection.check(&state.trace, &task.program)?;
+            }
+            if proposer.trajectory().is_some() && !selection.may_be_continuous(&state.trace, &task.program) {
+                return Err(nothing_continuous().into());
+            }
+        }
+        Ok(())
     }
 
     /// Where it is, and what its leaves have learnt.

@@ -101,6 +101,19 @@ impl State {
         tries: u64,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<(State, HashMap<u128, f64>), Failure> {
+        State::tried(task, streams, tries, known).map(|(state, spreads, _)| (state, spreads))
+    }
+
+    /// The same, with the number of runs that it took.
+    ///
+    /// # Errors
+    /// As for [`State::start`].
+    pub(crate) fn tried(
+        task: &Task,
+        streams: Streams,
+        tries: u64,
+        known: Option<&HashMap<u128, Value>>,
+    ) -> Result<(State, HashMap<u128, f64>, u64), Failure> {
         let mut machine = task.machine();
         let (mut causes, mut all): (HashMap<String, usize>, _) = (HashMap::new(), AllInvalid::default());
         let tries = tries.max(1);
@@ -137,7 +150,7 @@ impl State {
             match cause {
                 None => {
                     state.trace.commit(&task.program);
-                    return Ok((state, spreads));
+                    return Ok((state, spreads, attempt + 1));
                 }
                 Some(cause) => *causes.entry(cause).or_default() += 1,
             }

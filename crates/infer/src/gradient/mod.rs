@@ -1,6 +1,7 @@
 //! Gradients of a task: its log density over the continuous choices of one run.
 //!
 //! * [`follow`]: that density as a target of chains, with the reasons for which it refuses a point;
+//! * `hosted`: the host functions of a recorded run; `nested`: an inference inside of it, by enumeration;
 //! * [`positions`]: where its shapes are, with their derivatives;
 //! * [`explore`]: chains of a task, each from its own possible run;
 //! * [`approximate`]: normals near a task's distribution.
@@ -8,11 +9,14 @@
 pub mod approximate;
 pub mod explore;
 pub mod follow;
+mod hosted;
+mod nested;
 pub mod positions;
 mod rows;
 
 use crate::Failure;
 use crate::task::Task;
+use hosted::Hosted;
 use niwaki_grad::{Live, Model, Recorded, Scope, Var};
 use niwaki_math::Scalar;
 use niwaki_vm::fault::Fault;
@@ -42,13 +46,16 @@ fn recordable(task: &Task) -> Result<Model, Failure> {
             .with_help("use `mh()` without `hmc_step()` and `nuts_step()` there")
             .into());
     }
-    let hosts = task.hosts.clone();
+    let program = Arc::new(task.program.over());
+    let hosted = Hosted::new(program.clone(), task.hosts.clone(), task.limits);
     Ok(Model {
-        program: Arc::new(task.program.over()),
+        program,
         args: task.args.iter().map(|arg| arg.convert(&Var::from_f64)).collect(),
         held: task.held.as_ref().map(|held| Arc::new(held.convert(&Var::from_f64))),
         limits: task.limits,
-        host: Arc::new(move |constant, args: &[Value]| hosts.call(constant, args, &mut 0)),
+        host: Arc::new(move |constant, args: &[Value<Var>], steps: &mut u64| {
+            hosted.call(constant, args, steps)
+        }),
         scope: Scope::default(),
         invalid: task.invalid.clone(),
     })

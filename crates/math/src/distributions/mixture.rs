@@ -13,6 +13,7 @@ use super::family::Dist;
 use super::fields::Field;
 use super::support::Support;
 use super::weights::Weights;
+use crate::log_sums::log_sum_exp_of;
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
 
@@ -43,13 +44,7 @@ impl<S: Scalar> Mixture<S> {
     #[inline(never)]
     pub fn log_density(&self, x: &Draw<S>) -> S {
         let term = |(k, c): (usize, &Dist<S>)| self.weights.log_probability(k as i64) + c.log_density(x);
-        let terms = || self.components.iter().enumerate().map(term);
-        let shift = terms().fold(S::from_f64(f64::NEG_INFINITY), S::max);
-        if shift.value() == f64::NEG_INFINITY {
-            return shift;
-        }
-        let sum = terms().filter(|t| t.value() > f64::NEG_INFINITY);
-        shift + sum.fold(S::from_f64(0.0), |sum, t| sum + (t - shift).exp()).ln()
+        log_sum_exp_of(self.components.iter().enumerate().map(term))
     }
 
     /// A draw of a drawn component.

@@ -164,7 +164,8 @@ impl<S: Scalar> Dist<S> {
         })
     }
 
-    /// The values of positive probability, in order, where they are finitely many (up to about a million).
+    /// The values of positive probability, in order, where they are finitely many (up to about a million). Over recorded
+    /// numbers also those whose probability is zero here and varies.
     ///
     /// ```
     /// use niwaki_math::{Dist, Draw};
@@ -172,7 +173,10 @@ impl<S: Scalar> Dist<S> {
     /// assert_eq!(coin.enumerate(), Some(vec![Draw::Bool(false), Draw::Bool(true)]));
     /// ```
     pub fn enumerate(&self) -> Option<Vec<Draw<S>>> {
-        let possible = |x: &Draw<S>| self.log_density(x).value() > f64::NEG_INFINITY;
+        let possible = |x: &Draw<S>| {
+            let log = self.log_density(x);
+            log.varies() || log.value() > f64::NEG_INFINITY
+        };
         let (lo, hi) = match (self, self.support().in_bounds()) {
             (Dist::Delta(value), _) => return Some(vec![value.clone()]),
             (Dist::Mixture(m), _) => return m.enumerate(),

@@ -315,7 +315,8 @@ FAULTS = (
         "this has no derivative",
         "the score depends on it",
         why="a gradient method follows the slope of the score, and here there is none",
-        help="compute the score without it, or use particles, which need no gradient",
+        help="compute the score without it, search by `enumerate_all()` where it is an `infer`, or use particles, which "
+        "need no gradient",
         example="factor(-len(f'{gaussian(0, 1)}'))",
         cure="factor(-abs(gaussian(0, 1)))",
     ),
