@@ -48,7 +48,10 @@ KINDS = {
 @nw.model
 def coins(strength):
     """Four coins in a ring; each pair of neighbours that agree is worth `strength` nats."""
-    a, b, c, d = nw.flip(0.5), nw.flip(0.5), nw.flip(0.5), nw.flip(0.5)
+    a = nw.flip(0.5)
+    b = nw.flip(0.5)
+    c = nw.flip(0.5)
+    d = nw.flip(0.5)
     nw.factor(strength * ((a == b) + (b == c) + (c == d) + (d == a)))
     return a + b + c + d
 

@@ -207,10 +207,10 @@ def train_guide(
                         )
                     guide, now, pressed = fit.examples(lessons, jobs[0], now)
                 else:
-                    tasks = (
+                    cases, judges = (
                         [school.search(one, judge, None, 0) for one in some] for some in (learned, judged)
                     )
-                    guide, now, pressed = fit.bound(*tasks, now)
+                    guide, now, pressed = fit.bound(cases, judges, now)
                 if pressed:
                     if (best is None or not by_examples) and now.has_learned:
                         told.append(now)

@@ -101,7 +101,13 @@ def test_a_guide_that_cannot_express_the_posterior_leaves_a_part_of_it_out() -> 
     # Exactly (1/2, 1/2) of what counts; without a guide 1/8 each.
     assert max(sides[0]) > 0.6 and min(sides[0]) < 0.02
     assert min(sides[1]) > 0.04 and max(sides[1]) < 0.3
-    assert bound(agree, by_bound, 2.0)[0] > bound(agree, by_examples, 2.0)[0] + 0.3
+    # The highest bound of coins that are apart, by a grid; halves have one of 2 nats.
+    p, q = np.meshgrid(np.linspace(0.01, 0.99, 99), np.linspace(0.01, 0.99, 99))
+    entropy = [-x * np.log(x) - (1 - x) * np.log(1 - x) for x in (p, q)]
+    highest = np.max(4.0 * (p * q + (1 - p) * (1 - q)) + entropy[0] + 2.0 * entropy[1] - 3.0 * np.log(2.0))
+    reached, error = bound(agree, by_bound, 2.0)
+    assert highest - 0.03 - 5 * error < reached < highest + 0.01 + 5 * error
+    assert reached > bound(agree, by_examples, 2.0)[0] + 0.1
 
 
 @pytest.mark.parametrize("objective", ["bound", "particles"])
@@ -115,8 +121,8 @@ def test_the_bytes_depend_on_the_seed_and_not_on_the_threads(objective: str) -> 
 def test_impossible_runs_are_counted_and_become_rare(objective: str) -> None:
     made = trained(chosen, training=Training.bound(objective=objective, **FAST))
     lost = [one[0] for one in made.report["rounds"][0]["lost"]]
-    # Of 15 steps of 32 runs a fifth, then little more than the share of the prior in each choice.
-    assert lost[1] > 50 and lost[-1] < 0.25 * lost[1]
+    # Of 15 steps of 32 runs a fifth. One run must not be impossible; of several, one must be possible.
+    assert lost[1] > 50 and (lost[-1] < 0.25 * lost[1] or objective == "particles")
     exact = log_evidence(chosen, 1.0)
     found = nw.run(chosen, 1.0, method=nw.importance(4000, guide=made), seed=3)
     assert found.log_evidence == pytest.approx(exact, abs=0.05)

@@ -56,6 +56,8 @@ pub struct Climbed {
 const STEPS: u64 = 1_000;
 /// Looks at the targets that judge.
 const LOOKS: u64 = 20;
+/// Runs of a look, at least: with few a guide of before would be kept for its luck.
+const JUDGING: usize = 512;
 /// Runs from which the form of a new guide, and means and deviations of its inputs, are taken.
 const FIRST: usize = 256;
 
@@ -279,6 +281,7 @@ pub fn climb(
     let mut state = Climb::new(net, &rows);
     drop(rows);
 
+    let looked_at = judged.repeat(JUDGING.div_ceil(runs * judged.len().max(1)));
     let steps = making.steps.unwrap_or(STEPS);
     let with = Training { every: steps.div_ceil(LOOKS).max(1), steps, ..making.training(0) };
     let (mut history, mut lost, mut now) = (Vec::new(), Vec::new(), Tally::default());
@@ -294,7 +297,7 @@ pub fn climb(
         if !has_looked && (step.is_multiple_of(with.every) || step >= with.steps) {
             let guide = guide_of(state.averaged(with.averaging));
             // The same random numbers at each look, so that what differs is the guide.
-            let seen = draw(&guide, &net_form, &judged, runs, (Use::Look, 0), seed)?;
+            let seen = draw(&guide, &net_form, &looked_at, runs, (Use::Look, 0), seed)?;
             let held_out = mean_bound(&seen, objective).map(|bound| -bound);
             let loss = now.loss().or(held_out).unwrap_or(f64::INFINITY);
             let held_out = if judged.is_empty() { loss } else { held_out.unwrap_or(f64::INFINITY) };

@@ -91,7 +91,9 @@ mod tests {
         for objective in [Objective::Bound, Objective::Particles] {
             for logs in [vec![NEVER, -700.0, -2000.0], vec![NEVER, NEVER, -3.0], vec![NEVER, 5.0]] {
                 let found = credit(objective, &logs);
-                assert!(found.iter().all(|a| a.is_finite()) && found[0] < 0.0, "{logs:?}: {found:?}");
+                // Among several runs one that is far below the best counts for nothing.
+                let least = if objective == Objective::Bound { -1e-9 } else { 0.0 };
+                assert!(found.iter().all(|a| a.is_finite()) && found[0] <= least, "{logs:?}: {found:?}");
                 assert!(bound(objective, &logs).unwrap().is_finite());
             }
             assert_eq!(credit(objective, &[NEVER, NEVER]), [0.0, 0.0]);
