@@ -28,6 +28,7 @@ from PIL import Image
 from places import Places, Row
 from school import ours, scribbles
 from sheets import saved as saved_sheet
+from tables import put, table
 
 #: Nats for each pair of neighbours that agree.
 STRENGTH = 2.0
@@ -43,6 +44,16 @@ KINDS = {
     "particles after examples": ("by the bound of 16 runs, begun with examples", "#e8a44c"),
     "bound": ("by the bound, from nothing", "#9a9a96"),
 }
+#: Columns of the table.
+COLUMNS = (
+    ("bound", "bound, nats"),
+    ("alone", "similarity of one run"),
+    ("ten", "of ten particles"),
+    ("structures", "structures of 100"),
+    ("apart", "pixels apart"),
+    ("nats a choice", "held-out traces, nats a choice"),
+    ("worst trace", "worst of them"),
+)
 
 
 @nw.model
@@ -203,6 +214,12 @@ def draw(places: Places) -> None:
     told = of_coins(places)
     guides, traces = of_vines(places), traced(places)
     rows = {name: measured(places, name, guide, traces) for name, guide in guides.items()}
+    if not places.quick:
+        head = ("guide", *(text for _, text in COLUMNS))
+        put(
+            "bounds",
+            table(head, ((KINDS[name][0], *(row[key] for key, _ in COLUMNS)) for name, row in rows.items())),
+        )
     figure, panels = plt.subplots(1, 3, figsize=(12, 4.4), layout="constrained", width_ratios=(1.25, 1, 1))
     shades = ("#444444", "#5a9a8f", "#e8a44c", "#1b4965", "#9b2226")
     for number, ((name, chances), shade) in enumerate(zip(told.items(), shades, strict=True)):

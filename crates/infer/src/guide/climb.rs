@@ -9,7 +9,7 @@
 //! [`credit`](super::credit): neither the model nor its scores need a gradient, and every run may have another structure. What
 //! a guide saw and drew are rows, as those of traces; here each run counts by a signed weight.
 //!
-//! A run that is impossible, or that a fault ended, counts a little less than the worst possible one of its target, and is
+//! A run that is impossible, or that a fault ended, counts ten nats less than the worst possible one of its target, and is
 //! counted. Random streams are keyed by step and run, so threads change nothing.
 
 use super::bound::{BoundGuide, Sight};

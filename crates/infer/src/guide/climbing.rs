@@ -176,8 +176,8 @@ fn a_climb_reaches_the_evidence() {
         let evidence = log_sum_exp(all.iter().map(|(_, prior, score)| prior + score));
         let reached = exact_bound(&densities(&all, net(&found.guide), with.share), 1);
         let prior: f64 = all.iter().map(|(_, prior, score)| prior.exp() * score).sum();
-        // Most of a gap of 0.24 nats; that of several runs is flatter near its top.
-        assert!(evidence - prior > 0.2 && evidence - reached < 0.01, "{objective}: {reached} of {evidence}");
+        // The prior has a gap of 0.19 nats.
+        assert!(evidence - prior > 0.15 && evidence - reached < 0.01, "{objective}: {reached} of {evidence}");
         assert!(found.diverged.is_none() && found.lost.iter().all(|lost| *lost == [0, 0]));
         assert!(found.history.last().unwrap().best.0 < found.history[0].held_out);
     }

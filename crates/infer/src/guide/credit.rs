@@ -28,8 +28,9 @@ pub enum Objective {
     Particles,
 }
 
-/// An impossible run counts so many nats less than the worst possible one of its target.
-const BELOW: f64 = 1.0;
+/// An impossible run counts so many nats less than the worst possible one of its target: as if it were that much less likely.
+/// Its true weight is minus infinity, by which no two guides could be compared.
+const BELOW: f64 = 10.0;
 
 /// The log weights of a target's runs, those of impossible ones (minus infinity) replaced by what they count as; `None` where
 /// all are impossible.
@@ -100,6 +101,6 @@ mod tests {
             assert_eq!(bound(objective, &[NEVER, NEVER]), None);
             assert_eq!(credit(objective, &[2.0]), [0.0]);
         }
-        assert_eq!(bound(Objective::Bound, &[NEVER, 5.0]), Some(4.5));
+        assert_eq!(bound(Objective::Bound, &[NEVER, 5.0]), Some(0.0));
     }
 }
