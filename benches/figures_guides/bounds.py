@@ -70,10 +70,8 @@ def coins(strength):
 def of_coins(places: Places) -> Mapping[str, list[float]]:
     """The probabilities of 0 to 4 heads: the truth, and by guides."""
     found = nw.run(coins, STRENGTH, method=nw.enumerate_all())
-    truth = dict.fromkeys(range(5), 0.0)
-    for one in found:
-        truth[int(one.value)] += float(np.exp(one.log_prior + one.log_score - found.log_evidence))
-    told: dict[str, list[float]] = {"posterior": list(truth.values())}
+    truth = {int(heads): chance for heads, chance in found.distribution().items()}
+    told: dict[str, list[float]] = {"posterior": [truth[k] for k in range(5)]}
     steps = 50 if places.quick else 600
     for name, objective, reads in (
         ("by examples; each coin sees the others", "examples", True),
@@ -127,11 +125,11 @@ def of_vines(places: Places) -> dict[str, Guide]:
     }
 
 
-def traced(places: Places) -> tuple[list[Search], _engine.Lessons]:
+def traced(places: Places) -> tuple[list[Search], _engine.Lessons, list[Sample]]:
     """Traces of the posterior of held-out scribbles: of a large population without a guide, one particle by weight."""
     every = held_out("scribbles", places.quick)[:TRACED]
     method = nw.smc(60 if places.quick else 600, resampling="tempered")
-    lessons, searches = _engine.Lessons(), []
+    lessons, searches, picked = _engine.Lessons(), list[Search](), list[Sample]()
     for number, one in enumerate(every):
         search = search_of(one, method, number)
         found = search.run(threads=1)
@@ -140,7 +138,8 @@ def traced(places: Places) -> tuple[list[Search], _engine.Lessons]:
         pick = np.random.default_rng(number).choice(len(ended), p=chances / chances.sum())
         lessons.add(search.task, ended[pick]._run, False)
         searches.append(search)
-    return searches, lessons
+        picked.append(ended[pick])
+    return searches, lessons, picked
 
 
 def search_of(one: Drawing, method: Any, seed: int) -> Search:
@@ -171,11 +170,12 @@ def apart(pages: Sequence[Any]) -> float:
     return float(np.mean(1.0 - both[pairs] / np.maximum(either[pairs], 1.0)))
 
 
-def measured(places: Places, name: str, guide: Guide, traces: tuple[list[Search], _engine.Lessons]) -> Row:
+def measured(
+    places: Places, name: str, guide: Guide, searches: list[Search], lessons: _engine.Lessons
+) -> Row:
     """All measures of a guide of the vines."""
 
     def measure() -> Row:
-        searches, lessons = traces
         losses = np.array(lessons.losses(searches[0].task, guide._engine))
         every = held_out("scribbles", places.quick)
         results = 6 if places.quick else RESULTS
@@ -212,35 +212,69 @@ def measured(places: Places, name: str, guide: Guide, traces: tuple[list[Search]
 def draw(places: Places) -> None:
     """Draw the figure."""
     told = of_coins(places)
-    guides, traces = of_vines(places), traced(places)
-    rows = {name: measured(places, name, guide, traces) for name, guide in guides.items()}
+    guides = of_vines(places)
+    *traces, picked = traced(places)
+    rows = {name: measured(places, name, guide, *traces) for name, guide in guides.items()}
     if not places.quick:
         head = ("guide", *(text for _, text in COLUMNS))
         put(
             "bounds",
             table(head, ((KINDS[name][0], *(row[key] for key, _ in COLUMNS)) for name, row in rows.items())),
         )
-    figure, panels = plt.subplots(1, 3, figsize=(12, 4.4), layout="constrained", width_ratios=(1.25, 1, 1))
+    figure, panels = plt.subplots(1, 3, figsize=(12, 4.4), layout="constrained", width_ratios=(1.3, 1.1, 1))
     shades = ("#444444", "#5a9a8f", "#e8a44c", "#1b4965", "#9b2226")
     for number, ((name, chances), shade) in enumerate(zip(told.items(), shades, strict=True)):
         panels[0].bar(np.arange(5) + 0.16 * (number - 2), chances[:5], 0.16, label=name, color=shade)
     panels[0].set(title="four coins that should agree", xlabel="heads", ylabel="probability", ylim=(0, 1.35))
     panels[0].legend(frameon=False, fontsize=8, loc="upper left")
-    columns = (("structures", "different structures of 100 results"), ("nats a choice", "nats a choice"))
-    titles = ("vines: how many ways", "vines: held-out traces, against the prior")
-    for panel, (key, text), title in zip(panels[1:], columns, titles, strict=True):
-        for number, (name, row) in enumerate(rows.items()):
-            panel.bar(number, row[key], color=KINDS[name][1], label=KINDS[name][0])
-            panel.annotate(
-                f"{row[key]:.4g}", (number, max(row[key], 0.0)), ha="center", va="bottom", fontsize=9
+    sides = {"held-out traces": leaves(places, "traces", lambda: picked)}
+    for name, guide in guides.items():
+        sides[KINDS[name][0]] = leaves(places, name, lambda own=guide: alone(places, own))
+    for number, (name, row) in enumerate(sides.items()):
+        left = 0.0
+        for kind, shade in zip(LEAVES, ("#d9d6cf", "#5a9a8f", "#1b4965"), strict=True):
+            panels[1].barh(
+                -number, row[kind], 0.5, left=left, color=shade, label=None if number else f"leaf: {kind}"
             )
-        panel.axhline(0.0, color="#444444", linewidth=0.8)
-        panel.set(title=title, ylabel=text, xticks=[])
-        panel.margins(y=0.15)
-    figure.legend(
-        *panels[1].get_legend_handles_labels(), loc="outside lower right", ncols=2, frameon=False, fontsize=8
-    )
+            left += row[kind]
+        panels[1].text(0.0, 0.27 - number, name, fontsize=8, va="bottom")
+    panels[1].set(title="vines: single runs", xlabel="share of the branches", yticks=[], ylim=(-5.4, 0.9))
+    panels[1].legend(frameon=False, fontsize=8, ncols=3, loc="lower center")
+    for number, (name, row) in enumerate(rows.items()):
+        value = row["nats a choice"]
+        panels[2].bar(number, value, color=KINDS[name][1], label=KINDS[name][0])
+        place = {"xytext": (0, 2 if value > 0 else -11), "textcoords": "offset points"}
+        panels[2].annotate(f"{value:.2f}", (number, value), ha="center", fontsize=9, **place)
+    panels[2].axhline(0.0, color="#444444", linewidth=0.8)
+    panels[2].set(title="vines: held-out traces", ylabel="nats a choice, against the prior", xticks=[])
+    panels[2].set(ylim=(-1.35, 0.2))
+    panels[2].legend(frameon=False, fontsize=8, loc="lower left")
     saved_figure(figure, places)
+
+
+#: What `leaf` of the vines chooses from.
+LEAVES = ("none", "left", "right")
+
+
+def alone(places: Places, guide: Guide) -> list[Sample]:
+    """Single runs of a guide at held-out scribbles."""
+    every = held_out("scribbles", places.quick)[:GROWN]
+    found = [search_of(one, nw.importance(40, guide=guide), number) for number, one in enumerate(every)]
+    return [run for search in found for run in search.run(threads=1)]
+
+
+def leaves(places: Places, name: str, runs: Callable[[], Sequence[Sample]]) -> Row:
+    """How often the branches of runs have no leaf, one on the left, one on the right."""
+
+    def measure() -> Row:
+        counts = Counter(
+            LEAVES[x] for run in runs() for path, x in run.choices.items() if path.endswith("/leaf")
+        )
+        return {kind: round(counts[kind] / counts.total(), 3) for kind in LEAVES}
+
+    row = places.row("by-bounds", {"part": "leaves", "name": name}, measure)
+    print(row, flush=True)
+    return row
 
 
 def saved_figure(figure: Any, places: Places) -> None:
