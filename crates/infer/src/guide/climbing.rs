@@ -174,9 +174,10 @@ fn a_climb_reaches_the_evidence() {
         let found = climbed(TWO_WAYS, &with, None);
         let all = every_run(&task(TWO_WAYS), &found.guide);
         let evidence = log_sum_exp(all.iter().map(|(_, prior, score)| prior + score));
-        let reached = exact_bound(&densities(&all, net(&found.guide), with.share), 1);
+        let runs = if objective == "particles" { with.runs } else { 1 };
+        let reached = exact_bound(&densities(&all, net(&found.guide), with.share), runs);
         let prior: f64 = all.iter().map(|(_, prior, score)| prior.exp() * score).sum();
-        // The prior has a gap of 0.19 nats.
+        // The prior has a gap of 0.19 nats; that of eight runs about an eighth of it.
         assert!(evidence - prior > 0.15 && evidence - reached < 0.01, "{objective}: {reached} of {evidence}");
         assert!(found.diverged.is_none() && found.lost.iter().all(|lost| *lost == [0, 0]));
         assert!(found.history.last().unwrap().best.0 < found.history[0].held_out);
