@@ -6,8 +6,9 @@
 
 Parts, in order: `guides` (all that learn from the same traces), `chain` (figures 6.2 and 6.3), `vines` (6.1, 6.6 and
 sheets of all held-out drawings), `lightning` (6.7), `particles` (6.8), `mixtures` (6.9), `traces` (6.10), `circuits`
-(6.11, 6.12), `seeds` (ours by five training seeds, the dissertation's network, and no guide), `tables`
-(docs/pictures/guides/measured.json and the tables of the manual, from all that was measured).
+(6.11, 6.12), `bounds` (6.3: by examples, and by the evidence bound), `seeds` (ours by five training seeds, the
+dissertation's network, and no guide), `tables` (docs/pictures/guides/measured.json and the tables of the manual,
+from all that was measured).
 
 What is measured is kept: FOLDER, out/figures-guides unless named, has a line of JSON for each measurement and a file
 for each guide. A part that was interrupted goes on where it stopped; remove the folder to measure again. Pictures go to
@@ -23,6 +24,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
+import bounds
 import chain
 import circuits
 import curves
@@ -42,6 +44,7 @@ PARTS = {
     "mixtures": curves.mixtures,
     "traces": curves.traces,
     "circuits": circuits.draw,
+    "bounds": bounds.draw,
     "seeds": seeds.draw,
     "tables": tables.draw,
 }

@@ -48,15 +48,16 @@ def draw(places: Places) -> None:
     lines = ",\n".join(json.dumps(row) for row in found)
     (places.pictures / "measured.json").write_text(f"[\n{lines}\n]\n", encoding="utf-8")
     if not places.quick:
-        text = PAGE.read_text(encoding="utf-8")
-        for name, own in (
-            ("networks", networks(found)),
-            ("seeds", seeds(found)),
-            ("sets", sets(found)),
-        ):
-            before, rest = text.split(f"% table {name}\n")
-            text = f"{before}% table {name}\n\n{own}\n\n% end\n{rest.partition('% end' + chr(10))[2]}"
-        PAGE.write_text(text, encoding="utf-8")
+        put("networks", networks(found))
+        put("seeds", seeds(found))
+        put("sets", sets(found))
+
+
+def put(name: str, own: str) -> None:
+    """Write a table where the manual has a place for it."""
+    before, rest = PAGE.read_text(encoding="utf-8").split(f"% table {name}\n")
+    after = rest.partition("% end\n")[2]
+    PAGE.write_text(f"{before}% table {name}\n\n{own}\n\n% end\n{after}", encoding="utf-8")
 
 
 def rounded(rows: list[Row]) -> Row:

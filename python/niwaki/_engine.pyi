@@ -54,6 +54,7 @@ __all__ = [
     "nearest",
     "parameter_names",
     "population",
+    "raise_bound",
     "render",
     "support",
     "unique_models",
@@ -602,6 +603,7 @@ class Guide:
 class Lessons:
     def __new__(cls) -> Lessons: ...
     def add(self, task: Task, run: Run, held_out: bool) -> None: ...
+    def losses(self, task: Task, guide: Guide) -> list[tuple[int, float]]: ...
     def train(
         self,
         task: Task,
@@ -611,3 +613,13 @@ class Lessons:
         watch: Callable[[int, int, float, Run | None], None] | None = None,
         checkpoint: Checkpoint | None = None,
     ) -> tuple[Guide, dict[str, Any]]: ...
+
+def raise_bound(
+    tasks: Sequence[Task],
+    held_out: Sequence[Task],
+    settings: str,
+    start: Guide | None = None,
+    threads: int | None = None,
+    watch: Callable[[int, int, float, Run | None], None] | None = None,
+    checkpoint: Checkpoint | None = None,
+) -> tuple[Guide, dict[str, Any]]: ...

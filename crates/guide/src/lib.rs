@@ -26,7 +26,7 @@ pub use filtered::{
 };
 pub use heads::{Drawn, Head, Lesson};
 pub use learn::{
-    Adam, Diverged, Progress, Rows, State, Stored, Trained, Training, Unfit, Way, loss_and_slope, resume,
-    train, train_along,
+    Adam, Climb, Diverged, Progress, Rows, State, Stored, Trained, Training, Unfit, Way, loss_and_slope,
+    resume, train, train_along,
 };
 pub use net::{BadFile, Net, NetForm, Real, Scratch, read, write};

@@ -8,9 +8,11 @@ use crate::shared::Shared;
 use niwaki_guide::Progress;
 use niwaki_infer::guide::Guide;
 use niwaki_infer::guide::bound::BoundGuide;
-use niwaki_infer::guide::lessons::{Example, Making, train};
+use niwaki_infer::guide::climb::{Case, climb};
+use niwaki_infer::guide::lessons::{Example, Making, losses, train};
 use niwaki_infer::log::Entry;
 use niwaki_vm::fault::Fault;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::Arc;
@@ -90,6 +92,15 @@ impl PyLessons {
         Ok(())
     }
 
+    /// Of each trace the choices that a guide draws, and the sum of its ``ln(p / q)`` there, nats: how much less likely the
+    /// guide finds the trace than the prior does.
+    fn losses(&self, py: Python<'_>, task: &PyTask, guide: &PyGuide) -> PyResult<Vec<(usize, f64)>> {
+        let using = self.examples.lock(py)?;
+        let examples: &[Example] = &using;
+        let (found, _) = detached(py, &task.task.program, None, None, |_| losses(examples, &guide.guide))?;
+        Ok(found)
+    }
+
     /// Trains a guide, or goes on with one: the guide, and a dict of what happened. ``settings`` is JSON.
     #[pyo3(signature = (task, settings, start=None, threads=None, watch=None, checkpoint=None))]
     #[expect(clippy::too_many_arguments, reason = "the settings of a training")]
@@ -128,8 +139,50 @@ impl PyLessons {
     }
 }
 
+/// Raises the evidence bound of a guide on tasks, from the one that is given or from the prior: the guide, and a dict of what
+/// happened. Tasks of `held_out` judge. ``settings`` is JSON.
+#[pyfunction]
+#[pyo3(signature = (tasks, held_out, settings, start=None, threads=None, watch=None, checkpoint=None))]
+#[expect(clippy::too_many_arguments, reason = "the settings of a training")]
+fn raise_bound<'py>(
+    py: Python<'py>,
+    tasks: Vec<Py<PyTask>>,
+    held_out: Vec<Py<PyTask>>,
+    settings: &str,
+    start: Option<&PyGuide>,
+    threads: Option<usize>,
+    watch: Option<Py<PyAny>>,
+    checkpoint: Option<&PyCheckpoint>,
+) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
+    let making: Making = serde_json::from_str(settings)
+        .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
+    let Some(first) = tasks.first() else { return Err(PyValueError::new_err("there are no tasks")) };
+    let case = |task: &Py<PyTask>, held_out| Ok(Case { task: task.get().keeping_all(py)?, held_out });
+    let learned = tasks.iter().map(|task| case(task, false));
+    let judged = held_out.iter().map(|task| case(task, true));
+    let cases = learned.chain(judged).collect::<PyResult<Vec<Case>>>()?;
+    let (start, checkpoint) = (start.map(|own| own.guide.clone()), checkpoint.map(|own| &own.checkpoint));
+    let task = first.get();
+    let classes = &task.model.get().classes;
+    let caller = watch.as_ref().map(|call| (call, classes));
+    let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+        let mut seen = |now: Progress| {
+            watch.look(now.step, usize::try_from(now.steps).unwrap_or(usize::MAX), -now.held_out)
+        };
+        climb(&cases, &making, start.as_deref(), &mut seen, checkpoint)
+    })?;
+    let told = PyDict::new(py);
+    let looks = result.history.iter().zip(&result.lost);
+    let bounds = looks.map(|(now, lost)| (now.step, -now.loss, -now.held_out, lost[0], lost[1]));
+    told.set_item("bounds", bounds.collect::<Vec<_>>())?;
+    told.set_item("diverged", result.diverged)?;
+    told.set_item("interrupted", pressed)?;
+    Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+}
+
 /// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyGuide>()?;
-    module.add_class::<PyLessons>()
+    module.add_class::<PyLessons>()?;
+    module.add_function(wrap_pyfunction!(raise_bound, module)?)
 }

@@ -1,13 +1,15 @@
 """Guides: networks that have learnt, from the traces of searches, what leads where (dissertation chapter 6).
 
-training    traces from searches in rounds, and a guide from them
+settings    of a network and its training
+training    traces from searches in rounds, and a guide from them; or one that learns from runs of its own
 traces      many searches side by side, each for its best run
 report      what a round of training did
 shipped     the guides that come with the package
 """
 
 from niwaki.guides.report import Round
+from niwaki.guides.settings import Training
 from niwaki.guides.shipped import shipped
-from niwaki.guides.training import EVERY, Training, train_guide
+from niwaki.guides.training import EVERY, train_guide
 
 __all__ = ["EVERY", "Round", "Training", "shipped", "train_guide"]

@@ -30,7 +30,8 @@ class Memory:
         data = None if self.keeper is None else self.keeper.get(f"{number}/done")
         if data is None:
             return None
-        now = Round(**{**data["round"], "losses": [tuple(one) for one in data["round"]["losses"]]})
+        tables = {name: [tuple(one) for one in data["round"][name]] for name in ("losses", "bounds", "lost")}
+        now = Round(**data["round"] | tables)
         return None if data["guide"] is None else Guide(base64.b85decode(data["guide"])), now
 
     def leave(self, number: int, guide: Guide | None, now: Round) -> None:

@@ -28,6 +28,11 @@ class Round:
         Steps of training so far, and in all; 0 until it begins.
     losses : list of (int, float, float)
         Steps, mean loss of the choices learned from, and of those held out, nats for each choice.
+    bounds : list of (int, float, float)
+        Where a bound is raised: steps, its mean over the runs since the line before, and over runs of the held-out
+        targets, nats.
+    lost : list of (int, int)
+        Of each of these: runs since the line before that were impossible, and those that a fault ended.
     scores : list of float
         Log scores of the held-out targets, by a search with few particles.
     similarities : list of float
@@ -42,6 +47,8 @@ class Round:
     step: int = 0
     steps: int = 0
     losses: list[tuple[int, float, float]] = field(default_factory=list)
+    bounds: list[tuple[int, float, float]] = field(default_factory=list)
+    lost: list[tuple[int, int]] = field(default_factory=list)
     scores: list[float] = field(default_factory=list)
     similarities: list[float] = field(default_factory=list)
 
@@ -50,13 +57,20 @@ class Round:
         """Whether the round is over."""
         return bool(self.scores)
 
+    @property
+    def has_learned(self) -> bool:
+        """Whether a step of training was looked at."""
+        return any(looks and looks[-1][0] > 0 for looks in (self.losses, self.bounds))
+
     def summary(self) -> dict[str, float]:
         """Mean, median and worst tenth of the similarities, and the share of stumps; or of the log scores."""
         return summary(self.similarities) if self.similarities else spread(self.scores)
 
     def data(self) -> dict[str, Any]:
         """As plain data, for the guide's report."""
-        names = ("number", "traces", "wanted", "failed", "losses", "scores", "similarities")
+        names = ["number", "traces", "wanted", "failed", "losses", "scores", "similarities"]
+        if self.bounds:
+            names += ["bounds", "lost"]
         own = asdict(self)
         return {**{name: own[name] for name in names}, "summary": self.summary()}
 

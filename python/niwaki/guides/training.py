@@ -1,4 +1,4 @@
-"""Training a guide: rounds of searches whose best runs are traces to learn from."""
+"""Training a guide: rounds of searches whose best runs are traces to learn from, or runs of its own."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ import numpy as np
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import bad, is_whole
 from niwaki.guides.memory import Memory
 from niwaki.guides.report import Round
+from niwaki.guides.settings import Training
 from niwaki.guides.traces import best_of
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import Model, as_model
-from niwaki.methods import Guide, Method, at_least_one, kernels, smc
-from niwaki.methods.checks import one_of
+from niwaki.methods import Guide, Method, kernels, smc
 from niwaki.result import Sample
 from niwaki.search import Search
 from niwaki.search.checkpoint import Checkpoint, begun_seed
@@ -38,105 +38,14 @@ EVERY = 8
 #: Of the traces, the first tenth judges how well the others are learned.
 APART = 10
 
+#: Searches of each round.
+ROUNDS = (150, 400)
+
 #: The searches for traces: the first without a guide, the other wherever there is one.
 SEARCHES = (smc(600), smc(50, resampling="tempered"))
 
 #: The search that judges a guide.
 JUDGE = smc(10, resampling="tempered")
-
-
-@dataclass(frozen=True)
-class Training:
-    """Settings of a guide's network and of its training.
-
-    Attributes
-    ----------
-    architecture : "shared" or "dissertation"
-        One network for all choices, which sees windows in the direction of growth; or that of the dissertation (see
-        `Training.dissertation`).
-    hidden : (int, int)
-        Units of the two hidden layers of the shared network.
-    components : int
-        Gaussians of each mixture.
-    share : float
-        Share of the prior in each proposal; the weight of a choice is at most 1 / share.
-    looks : bool, "target" or "scene"
-        Whether it sees the surroundings in the sketches; with the dissertation's network also one of the two images.
-    reads : bool or tuple of str
-        Whether it sees what is in scope, or the names of the variables that it sees.
-    steps : int
-        Steps of Adam; None for so many that each choice is seen about `passes` times.
-    passes : float
-        As many passes over the choices.
-    rate : float
-        Step size of Adam.
-    decays : (float, float)
-        Shares of Adam's means that stay at each step: of slopes, and of their squares.
-    batch : int
-        Choices for each step; whole traces with the dissertation's network.
-    averaging : float
-        Share of the mean of the weights that stays at each step; 0 for the last weights.
-    """
-
-    architecture: str = "shared"
-    hidden: tuple[int, int] = (38, 32)
-    components: int = 4
-    share: float = 0.02
-    looks: bool | str = True
-    reads: bool | tuple[str, ...] = True
-    steps: int | None = None
-    passes: float = 6.0
-    rate: float = 2e-3
-    decays: tuple[float, float] = (0.9, 0.999)
-    batch: int = 256
-    averaging: float = 0.998
-
-    def __post_init__(self) -> None:
-        """Check the settings."""
-        one_of("architecture", self.architecture, ("shared", "dissertation"))
-        images = ("target", "scene") if self.architecture == "dissertation" else ()
-        if not isinstance(self.looks, bool) and self.looks not in images:
-            expected = "True or False, or one image with the dissertation's network"
-            raise bad("looks", self.looks, expected, "True")
-        if len(self.hidden) != 2 or not all(is_whole(one) and one >= 1 for one in self.hidden):
-            raise bad("hidden", self.hidden, "two whole numbers above 0", "(38, 32)")
-        for name in ("components", "batch", "steps"):
-            if getattr(self, name) is not None:
-                at_least_one(name, getattr(self, name))
-        for name, low, high in (
-            ("share", 0.0, 1.0),
-            ("rate", 0.0, inf),
-            ("passes", 0.0, inf),
-            ("averaging", -1e-9, 1.0),
-        ):
-            value = getattr(self, name)
-            if not is_number(value) or not low < value < high:
-                expected = (
-                    "a number above 0" if high == inf else f"a number between {max(low, 0.0):g} and {high:g}"
-                )
-                raise bad(name, value, expected, str(type(self).__dataclass_fields__[name].default))
-
-    @classmethod
-    def dissertation(cls, **changes: Any) -> Training:
-        """The dissertation's network and its recipe (6.4).
-
-        Each choice has a net of its own, with one hidden layer. It sees 3 by 3 windows of target and scene in four
-        resolutions, through filters that are learned too, its position and direction, and what `reads` names. Adam
-        makes 20,000 steps of one whole trace each. The share of the prior is nearly nothing; the dissertation has none.
-
-        Parameters
-        ----------
-        changes
-            Attributes with other values: `looks` and `reads` make the dissertation's ablations.
-        """
-        recipe: dict[str, Any] = {
-            "share": 1e-6,
-            "rate": 0.01,
-            "decays": (0.75, 0.75),
-            "batch": 1,
-            "averaging": 0.0,
-        }
-        return cls(architecture="dissertation", **(recipe | changes))
 
 
 Progress = Callable[[Round], None]
@@ -149,8 +58,8 @@ def train_guide(
     args: Callable[[Any], Iterable[Any]] | None = None,
     *,
     held_out: Sequence[Any] | None = None,
-    rounds: Sequence[int] = (150, 400),
-    searches: Sequence[Method] = SEARCHES,
+    rounds: Sequence[int] | None = None,
+    searches: Sequence[Method] | None = None,
     judge: Method = JUDGE,
     keep: Callable[[Sample], bool] | None = None,
     training: Training | None = None,
@@ -166,6 +75,9 @@ def train_guide(
     without a guide, each later one by the guide of the round before. Then the guide grows the held-out targets, and
     the one that does it best is the result. Ctrl-C ends the training with the best guide so far.
 
+    With `training=Training.bound()` there are no searches: the guide learns from runs of its own, by the evidence
+    bound. The result is the guide with the highest bound of the held-out targets.
+
     Parameters
     ----------
     model
@@ -179,10 +91,10 @@ def train_guide(
     held_out
         Targets that are never learned from; each eighth of `targets` when left out.
     rounds
-        Searches of each round.
+        Searches of each round; (150, 400) when left out.
     searches
         The method without a guide, and those with a guide, the last one for all later rounds; any method that gives
-        samples.
+        samples. When left out 600 particles, then 50 with tempered resampling.
     judge
         The method by which held-out targets are grown after each round.
     keep
@@ -209,7 +121,7 @@ def train_guide(
     Raises
     ------
     InputError
-        No targets, or none that the model reached.
+        No targets, or none that the model reached; `rounds`, `searches` or `keep` without examples.
     ModelFault
         Every search ended by a fault, or gave no trace and some ended so.
     InputError
@@ -235,7 +147,14 @@ def train_guide(
     learned = [one for i, one in enumerate(everything) if i % EVERY] if held_out is None else everything
     if not learned:
         raise bad("targets", targets, "at least two targets", "drawings or meshes to grow into")
-    if not rounds or not all(is_whole(one) and one >= 2 for one in rounds):
+    by_examples = training.objective == "examples"
+    if not by_examples:
+        for name, value in (("rounds", rounds), ("searches", searches), ("keep", keep)):
+            if value is not None:
+                raise bad(name, value, f"nothing with the objective {training.objective!r}", "None")
+    rounds = (ROUNDS if rounds is None else rounds) if by_examples else (0,)
+    searches = SEARCHES if searches is None else searches
+    if not rounds or by_examples and not all(is_whole(one) and one >= 2 for one in rounds):
         raise bad("rounds", rounds, "the number of searches of each round, each at least 2", "(150, 400)")
     if not searches:
         raise bad("searches", searches, "at least one method", "`(smc(600), smc(50))`")
@@ -274,19 +193,26 @@ def train_guide(
             if known is not None:
                 guide, now = known
             else:
-                jobs = [
-                    school.search(one, method, guide, int(own)) for one, own in zip(picks, seeds, strict=True)
-                ]
-                lessons, now = _traces(jobs, school.workers, keep or _gains, now, progress, memory)
-                if now.traces < 2:
-                    raise InputError("guide-traces", detail=f"{now.traces} of {wanted} searches gave a trace")
                 first = start if number == 0 else None
-                stage = memory.stage(number)
-                guide, now, pressed = _fit(
-                    lessons, jobs[0], training, first, seed, threads, now, progress, stage
-                )
+                fit = _Fit(training, first, seed, threads, progress, memory.stage(number))
+                if by_examples:
+                    jobs = [
+                        school.search(one, method, guide, int(own))
+                        for one, own in zip(picks, seeds, strict=True)
+                    ]
+                    lessons, now = _traces(jobs, school.workers, keep or _gains, now, progress, memory)
+                    if now.traces < 2:
+                        raise InputError(
+                            "guide-traces", detail=f"{now.traces} of {wanted} searches gave a trace"
+                        )
+                    guide, now, pressed = fit.examples(lessons, jobs[0], now)
+                else:
+                    cases, judges = (
+                        [school.search(one, judge, None, 0) for one in some] for some in (learned, judged)
+                    )
+                    guide, now, pressed = fit.bound(cases, judges, now)
                 if pressed:
-                    if best is None and now.losses[-1][0] > 0:
+                    if (best is None or not by_examples) and now.has_learned:
                         told.append(now)
                         best = guide
                     break
@@ -294,7 +220,7 @@ def train_guide(
                 memory.leave(number, guide, now)
             told.append(now)
             mean = float(np.mean(now.scores)) if now.scores else inf
-            if best is None or mean >= highest:
+            if best is None or mean >= highest or not by_examples:
                 best, highest = guide, mean
             if progress is not None:
                 progress(now)
@@ -401,40 +327,61 @@ def _traces(
     return lessons, now
 
 
-def _fit(
-    lessons: _engine.Lessons,
-    search: Search,
-    training: Training,
-    start: Guide | None,
-    seed: int,
-    threads: int | None,
-    now: Round,
-    progress: Progress | None,
-    stage: Stage | None,
-) -> tuple[Guide, Round, bool]:
-    """Train a network on traces; and whether Ctrl-C ended it."""
+@dataclass
+class _Fit:
+    """Training the network of a round. Each way gives the guide, the round, and whether Ctrl-C ended it."""
 
-    def watch(step: int, steps: int, *_: Any) -> None:
-        if progress is not None and steps:
-            progress(replace(now, step=step, steps=steps))
+    training: Training
+    start: Guide | None
+    seed: int
+    threads: int | None
+    progress: Progress | None
+    stage: Stage | None
 
-    # The weights of a guide that lacks choices of the model would have to be those of a smaller network.
-    first = None if start is None or start._engine.lost(search.task) else start._engine
-    settings = asdict(training) | {"model": search.model.name, "seed": seed}
-    with translated(search.model.name, f"seed={seed}"):
-        seen = watch if stage is None else stage.watched(watch)
-        kept = None if stage is None else stage.engine
-        engine, told = lessons.train(search.task, json.dumps(settings), first, threads, seen, kept)
-    if told["diverged"] is not None:
-        step, label = told["diverged"]
-        where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")
-        warnings.warn(
-            f"training met a number that is not finite in {where}: the best weights before are kept; lower `rate`",
-            SearchWarning,
-            stacklevel=4,
+    def examples(self, lessons: _engine.Lessons, search: Search, now: Round) -> tuple[Guide, Round, bool]:
+        """On traces."""
+        engine, told = self._run(search, now, lambda *rest: lessons.train(search.task, *rest))
+        return Guide(engine.data()), replace(now, losses=_table(told["losses"])), told["interrupted"]
+
+    def bound(
+        self, searches: Sequence[Search], held_out: Sequence[Search], now: Round
+    ) -> tuple[Guide, Round, bool]:
+        """On runs of its own, by a bound of the evidence."""
+        cases, judges = [one.task for one in searches], [one.task for one in held_out]
+        engine, told = self._run(searches[0], now, lambda *rest: _engine.raise_bound(cases, judges, *rest))
+        now = replace(
+            now,
+            bounds=_table(one[:3] for one in told["bounds"]),
+            lost=_table(one[3:] for one in told["bounds"]),
         )
-    return (
-        Guide(engine.data()),
-        replace(now, losses=[tuple(one) for one in told["losses"]]),
-        told["interrupted"],
-    )
+        return Guide(engine.data()), now, told["interrupted"]
+
+    def _run(
+        self, search: Search, now: Round, train: Callable[..., tuple[_engine.Guide, dict[str, Any]]]
+    ) -> tuple[_engine.Guide, dict[str, Any]]:
+        def watch(step: int, steps: int, *_: Any) -> None:
+            if self.progress is not None and steps:
+                self.progress(replace(now, step=step, steps=steps))
+
+        # The weights of a guide that lacks choices of the model would have to be those of a smaller network.
+        known = self.start is not None and not self.start._engine.lost(search.task)
+        first = self.start._engine if self.start is not None and known else None
+        settings = asdict(self.training) | {"model": search.model.name, "seed": self.seed}
+        with translated(search.model.name, f"seed={self.seed}"):
+            seen = watch if self.stage is None else self.stage.watched(watch)
+            kept = None if self.stage is None else self.stage.engine
+            engine, told = train(json.dumps(settings), first, self.threads, seen, kept)
+        if told["diverged"] is not None:
+            step, label = told["diverged"]
+            where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")
+            warnings.warn(
+                f"training met a number that is not finite in {where}: the best weights before are kept; "
+                "lower `rate`",
+                SearchWarning,
+                stacklevel=5,
+            )
+        return engine, told
+
+
+def _table(rows: Iterable[Iterable[Any]]) -> list[Any]:
+    return [tuple(row) for row in rows]

@@ -44,8 +44,19 @@ def train(
     ],
     output: Annotated[Path, typer.Option("-o", "--out", metavar="FILE", help="The guide's file.")],
     rounds: Annotated[
-        str, typer.Option("--rounds", metavar="LIST", help="Searches of each round, with commas.")
-    ] = "150,400",
+        str | None,
+        typer.Option(
+            "--rounds", metavar="LIST", help="Searches of each round, with commas. Default: 150,400."
+        ),
+    ] = None,
+    objective: Annotated[
+        str,
+        typer.Option(
+            "--objective",
+            metavar="examples|bound|particles",
+            help="Learn from the best runs of searches, or from runs of its own by a bound of the evidence.",
+        ),
+    ] = "examples",
     start: Annotated[
         str | None, typer.Option("--start", metavar="FILE", help="A guide to go on with.")
     ] = None,
@@ -70,7 +81,8 @@ def train(
 ) -> None:
     """Train a guide for MODEL: rounds of searches, each of which learns from the best runs of the last."""
     found = shell.references.find(model)
-    counts = settings.numbers("rounds", rounds, int)
+    counts = None if rounds is None else settings.numbers("rounds", rounds, int)
+    training = guides.Training() if objective == "examples" else guides.Training.bound(objective=objective)
     place = output.with_name(f"{output.name}.checkpoint")
     if resume and not place.is_file():
         raise InputError("no-checkpoint", path=place)
@@ -89,6 +101,7 @@ def train(
             goals.args,
             held_out=goals.held_out,
             rounds=counts,
+            training=training,
             start=None if start is None else Guide.load(start),
             seed=seed,
             threads=threads,
@@ -110,7 +123,7 @@ def show(file: Annotated[str, typer.Argument(metavar="FILE", help="A guide's fil
     guide = Guide.load(file)
     print(guide.show())
     for one in guide.report.get("rounds", ()):
-        print(_line(one["number"], one["traces"], one.get("summary", {})))
+        print(_line(one["number"], one["traces"], one.get("bounds", ()), one.get("summary", {})))
 
 
 @dataclass(frozen=True)
@@ -184,8 +197,9 @@ def _files(places: str, formats: Sequence[str]) -> list[Path]:
     return files
 
 
-def _line(number: int, traces: int, summary: dict[str, float]) -> str:
-    name = "the guide that was given" if number < 0 else f"round {number + 1}: {traces} traces"
+def _line(number: int, traces: int, bounds: Sequence[Any], summary: dict[str, float]) -> str:
+    what = f"a bound of {max(one[2] for one in bounds):.1f} nats" if bounds else f"{traces} traces"
+    name = "the guide that was given" if number < 0 else f"round {number + 1}: {what}"
     return f"{name}; held out: {sentence(summary) or 'nothing'}"
 
 
@@ -196,7 +210,7 @@ def _shown(name: str) -> Iterator[Callable[[guides.Round], None]]:
 
         def show(now: guides.Round) -> None:
             if now.is_judged:
-                print(_line(now.number, now.traces, now.summary()), file=sys.stderr)
+                print(_line(now.number, now.traces, now.bounds, now.summary()), file=sys.stderr)
                 return
             what = f"step {now.step} of {now.steps}" if now.steps else f"{now.traces} traces of {now.wanted}"
             tell(f"round {now.number + 1} of {now.rounds}, {what}")

@@ -149,8 +149,20 @@ def training(**given: Any) -> Any:
     )
 
 
+def bound(**given: Any) -> Any:
+    """A guide by the evidence bound."""
+    return nw.train_guide(
+        path,
+        (-2, -1, 1, 2, -3, 3, 0, 1, -1),
+        lambda side: nw.match_drawing(page(side), WINDOW),
+        training=Training.bound(steps=600, hidden=(8, 8)),
+        seed=4,
+        **given,
+    )
+
+
 CASES: dict[str, Callable[..., Any]] = {
-    one.__name__: one for one in (improve, several, runs, chain, ladder, outside, training)
+    one.__name__: one for one in (improve, several, runs, chain, ladder, outside, training, bound)
 }
 
 

@@ -160,6 +160,8 @@ def test_what_is_refused(
             "one target": refused(*train, "one"),
             "pictures without ink": refused(*train, "blank"),
             "rounds that are no numbers": refused(*train, pictures, "--rounds", "many"),
+            "an objective that is none": refused(*train, pictures, "--objective", "evidence"),
+            "rounds without examples": refused(*train, pictures, "--objective", "bound", "--rounds", "4"),
             "a search that draws no choices by a guide": refused(
                 *GROW, "--method", "improve", "--guide", vines
             ),

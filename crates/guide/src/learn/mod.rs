@@ -7,11 +7,13 @@
 //! | `scaling` | means and deviations of inputs: training sees standardised ones |
 //! | `adam` | [`Adam`]: the optimiser |
 //! | `train` | [`train`]: steps on choices of all traces; the best by rows held out |
+//! | `climb` | [`Climb`]: steps on choices that count by signed weights |
 //!
 //! The loss of a choice is `-ln(q / p)`, nats: how much less likely the guide finds it than the prior does. The prior's
 //! share is in `q`.
 
 mod adam;
+mod climb;
 mod rows;
 mod scaling;
 mod slope;
@@ -19,6 +21,7 @@ mod stored;
 mod train;
 
 pub use adam::Adam;
+pub use climb::Climb;
 pub use rows::Rows;
 pub(crate) use slope::{add_scaled, back_through, dot};
 pub use slope::{loss, loss_and_slope};

@@ -56,7 +56,7 @@ pub(crate) fn back_through<T: Real>(
 
 impl<T: Real> Work<T> {
     /// The loss of a row, nats. `scaling` has mean and one over deviation of each number of a window, where the weights
-    /// are for standardised windows. With `slope`, derivatives are added there.
+    /// are for standardised windows. With `slope`, derivatives are added there, so many times.
     pub(super) fn loss(
         &mut self,
         net: &Net<T>,
@@ -64,7 +64,7 @@ impl<T: Real> Work<T> {
         rows: &Rows,
         row: usize,
         share: f64,
-        slope: Option<&mut [T]>,
+        slope: Option<(&mut [T], f64)>,
     ) -> f64 {
         let Work { window, features, sums, scratch, outputs, slopes, back } = self;
         let (layout, site) = (&net.layout, rows.site(row));
@@ -79,7 +79,7 @@ impl<T: Real> Work<T> {
         let answer = net.answer(sums, features, site, scratch);
         outputs.clear();
         outputs.extend(answer.iter().map(|x| x.to_f64()));
-        let Some(slope) = slope else {
+        let Some((slope, times)) = slope else {
             return -rows.lesson(row).log_quotient(outputs, share, None);
         };
         slopes.clear();
@@ -89,7 +89,7 @@ impl<T: Real> Work<T> {
         let [last, second, first] = back;
         let (head, constants, width) = layout.heads[site];
         last.clear();
-        last.extend(slopes.iter().map(|x| T::from_f64(-x)));
+        last.extend(slopes.iter().map(|x| T::from_f64(-x * times)));
         last.resize(width, T::ZERO);
         second.clear();
         second.resize(layout.width[1], T::ZERO);
@@ -129,7 +129,8 @@ pub fn loss<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> f64 {
 pub fn loss_and_slope<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> (f64, Vec<T>) {
     let mut work = Work::default();
     let mut slope = vec![T::ZERO; net.weights.len()];
-    let sum: f64 = (0..rows.len()).map(|row| work.loss(net, None, rows, row, share, Some(&mut slope))).sum();
+    let sum: f64 =
+        (0..rows.len()).map(|row| work.loss(net, None, rows, row, share, Some((&mut slope, 1.0)))).sum();
     let one = T::from_f64(1.0 / rows.len().max(1) as f64);
     slope.iter_mut().for_each(|x| *x *= one);
     (sum / rows.len().max(1) as f64, slope)

@@ -97,13 +97,13 @@ mod best_bits {
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<T: Real = f32> {
     /// The network, with weights for standardised windows.
-    net: Net<T>,
+    pub(super) net: Net<T>,
     /// Mean and one over deviation of each number of a window.
     scaling: Vec<(T, T)>,
     /// The optimiser.
-    adam: Adam<T>,
+    pub(super) adam: Adam<T>,
     /// The smallest loss on the rows held out, its step and its weights.
-    best: (f64, u64, Vec<T>),
+    pub(super) best: (f64, u64, Vec<T>),
 }
 
 /// A trained network.
@@ -146,15 +146,21 @@ impl<T: Real> fmt::Display for Diverged<T> {
 impl<T: Real> std::error::Error for Diverged<T> {}
 
 /// A part of a step.
-struct Chunk<T: Real> {
+pub(super) struct Chunk<T: Real> {
     work: Work<T>,
-    slope: Vec<T>,
+    pub(super) slope: Vec<T>,
     loss: f64,
+}
+
+impl<T: Real> Chunk<T> {
+    fn new(weights: usize) -> Chunk<T> {
+        Chunk { work: Work::default(), slope: vec![T::ZERO; weights], loss: 0.0 }
+    }
 }
 
 impl<T: Real> State<T> {
     /// Before the first step. Inputs are standardised by the rows.
-    fn new(mut net: Net<T>, rows: &Rows) -> State<T> {
+    pub(super) fn new(mut net: Net<T>, rows: &Rows) -> State<T> {
         let scaling = scaling::of_windows(rows, net.form.windows);
         if !net.fresh {
             scaling::unfold(&mut net, &scaling);
@@ -171,14 +177,14 @@ impl<T: Real> State<T> {
     }
 
     /// The network with these weights, for windows as they are.
-    fn folded(&self, weights: Vec<T>) -> Net<T> {
+    pub(super) fn folded(&self, weights: Vec<T>) -> Net<T> {
         let mut net = Net { weights, ..self.net.clone() };
         scaling::fold(&mut net, &self.scaling);
         net
     }
 
     /// The averaged weights; before the first step, the start.
-    fn averaged(&self, averaging: f64) -> Vec<T> {
+    pub(super) fn averaged(&self, averaging: f64) -> Vec<T> {
         if self.step() == 0 { self.net.weights.clone() } else { self.adam.averaged(averaging) }
     }
 
@@ -213,16 +219,34 @@ impl<T: Real> State<T> {
         chunks: &mut [Chunk<T>],
     ) -> Result<f64, (Option<usize>, f64)> {
         let batch = self.batch(rows, with);
+        let loss = self.slope(rows, &batch, &|_| 1.0, with.share, chunks)? / with.batch as f64;
+        let (net, scale) = (&mut self.net, 1.0 / with.batch as f64);
+        self.adam.advance(&mut net.weights, &chunks[0].slope, scale, with.rate, with.averaging);
+        Ok(loss)
+    }
+
+    /// The sum of the losses of some rows; that of their slopes, each counted so many times, in the first of the `chunks`, of
+    /// which there are enough and at least one. Or the site and loss at which it is not finite.
+    pub(super) fn slope(
+        &self,
+        rows: &Rows,
+        picks: &[usize],
+        times: &(dyn Fn(usize) -> f64 + Sync),
+        share: f64,
+        chunks: &mut [Chunk<T>],
+    ) -> Result<f64, (Option<usize>, f64)> {
         let (net, scaling) = (&self.net, &self.scaling);
-        chunks.par_iter_mut().zip(batch.par_chunks(CHUNK)).for_each(|(chunk, some)| {
+        let chunks = &mut chunks[..picks.len().div_ceil(CHUNK).max(1)];
+        chunks.par_iter_mut().zip(picks.par_chunks(CHUNK)).for_each(|(chunk, some)| {
             let Chunk { work, slope, loss } = chunk;
             slope.fill(T::ZERO);
             let add = |sum: f64, row: &usize| {
-                sum + work.loss(net, Some(scaling), rows, *row, with.share, Some(&mut *slope))
+                let slope = Some((&mut slope[..], times(*row)));
+                sum + work.loss(net, Some(scaling), rows, *row, share, slope)
             };
             *loss = some.iter().fold(0.0, add);
         });
-        let loss = chunks.iter().map(|c| c.loss).sum::<f64>() / with.batch as f64;
+        let loss = chunks.iter().map(|c| c.loss).sum::<f64>();
         let (sum, rest) = chunks.split_at_mut(1);
         let sum = &mut sum[0].slope;
         for chunk in rest {
@@ -230,19 +254,22 @@ impl<T: Real> State<T> {
         }
         // Infinity and NaN times zero are NaN, and stay it in a sum.
         let sound = sum.iter().fold(T::ZERO, |flag, x| flag + *x * T::ZERO) == T::ZERO;
-        if !(loss.is_finite() && sound) {
-            return Err(self.cause(rows, with, &batch));
-        }
-        self.adam.advance(&mut self.net.weights, sum, 1.0 / with.batch as f64, with.rate, with.averaging);
-        Ok(loss)
+        if loss.is_finite() && sound { Ok(loss) } else { Err(self.cause(rows, share, picks)) }
+    }
+
+    /// Room for the slopes of so many rows.
+    pub(super) fn room(&self, rows: usize, chunks: &mut Vec<Chunk<T>>) {
+        let weights = self.net.weights.len();
+        let needed = rows.div_ceil(CHUNK).max(1);
+        chunks.resize_with(needed.max(chunks.len()), || Chunk::new(weights));
     }
 
     /// The first choice of a step whose loss or slope is not finite: its site, and its loss.
-    fn cause(&self, rows: &Rows, with: &Training, batch: &[usize]) -> (Option<usize>, f64) {
+    fn cause(&self, rows: &Rows, share: f64, batch: &[usize]) -> (Option<usize>, f64) {
         let mut work = Work::default();
         for row in batch {
             let mut slope = vec![T::ZERO; self.net.weights.len()];
-            let loss = work.loss(&self.net, Some(&self.scaling), rows, *row, with.share, Some(&mut slope));
+            let loss = work.loss(&self.net, Some(&self.scaling), rows, *row, share, Some((&mut slope, 1.0)));
             if !loss.is_finite() || slope.iter().any(|x| !x.to_f64().is_finite()) {
                 return (Some(rows.site(*row)), loss);
             }
@@ -323,8 +350,8 @@ fn steps<T: Real>(
     border: &mut dyn FnMut(&dyn Fn() -> Stored),
 ) -> Result<Trained<T>, Box<Diverged<T>>> {
     assert!(with.share > 0.0 && with.share < 1.0, "the prior's share is {}", with.share);
-    let chunk = || Chunk { work: Work::default(), slope: vec![T::ZERO; state.net.weights.len()], loss: 0.0 };
-    let mut chunks: Vec<Chunk<T>> = (0..with.batch.div_ceil(CHUNK).max(1)).map(|_| chunk()).collect();
+    let mut chunks = Vec::new();
+    state.room(with.batch, &mut chunks);
     let last = if rows.is_empty() { state.step() } else { with.steps };
     loop {
         // Training that goes on has looked at its first step.

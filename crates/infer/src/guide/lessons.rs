@@ -4,6 +4,7 @@
 //! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
 
 use super::bound::{BoundGuide, Sight};
+use super::credit::Objective;
 use super::form::GuideForm;
 use super::survey::Survey;
 use super::{Guide, Network, images};
@@ -91,6 +92,12 @@ pub struct Making {
     /// Which network.
     #[serde(default)]
     pub architecture: Architecture,
+    /// What training raises.
+    #[serde(default)]
+    pub objective: Objective,
+    /// Runs of a target in a step, where that is a bound.
+    #[serde(default = "usual_runs")]
+    pub runs: usize,
     /// Units of the hidden layers.
     pub hidden: [usize; 2],
     /// Gaussians of each mixture.
@@ -110,7 +117,7 @@ pub struct Making {
     /// Adam's decays of mean and square.
     #[serde(default = "usual_decays")]
     pub decays: [f64; 2],
-    /// Choices of a step; of the dissertation's architecture, traces.
+    /// Choices of a step; of the dissertation's architecture, traces; of a bound, targets.
     pub batch: usize,
     /// How much of the averaged weights is kept in a step.
     pub averaging: f64,
@@ -121,6 +128,11 @@ pub struct Making {
 /// Adam's usual decays.
 fn usual_decays() -> [f64; 2] {
     [0.9, 0.999]
+}
+
+/// The usual runs of a target in a step.
+fn usual_runs() -> usize {
+    16
 }
 
 /// A kind of network.
@@ -191,7 +203,7 @@ const LOOKS: u64 = 20;
 
 impl Making {
     /// The training for so many choices.
-    fn training(&self, rows: usize) -> Training {
+    pub(super) fn training(&self, rows: usize) -> Training {
         let steps = (self.passes * rows as f64 / self.batch as f64) as u64;
         let steps = self.steps.unwrap_or(steps.clamp(LEAST, MOST));
         Training {
@@ -239,7 +251,7 @@ pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failur
 }
 
 /// The rows of traces; in the order of the traces, on all threads.
-fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Rows, Failure> {
+pub(super) fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Rows, Failure> {
     let one = |example: &&Example| -> Result<Rows, Failure> {
         let bound = BoundGuide::new(guide.clone(), &example.task)?;
         let (mut rows, mut sight) = (Rows::new(form), Sight::default());
@@ -260,6 +272,29 @@ fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Row
     let mut all = Rows::new(form);
     parts.iter().for_each(|part| all.append(part));
     Ok(all)
+}
+
+/// Of each trace the choices that a guide draws, and the sum of `ln(p / q)` there, nats: how much less likely the guide finds
+/// them than the prior does.
+///
+/// # Errors
+/// A trace that cannot be followed; a guide that does not fit its task.
+pub fn losses(examples: &[Example], guide: &Arc<Guide>) -> Result<Vec<(usize, f64)>, Failure> {
+    let one = |example: &Example| -> Result<(usize, f64), Failure> {
+        let bound = BoundGuide::new(guide.clone(), &example.task)?;
+        let (mut sight, mut sum) = (Sight::default(), (0, 0.0));
+        follow(example, &mut |at, dist, seen, value| {
+            if let (Some(site), Some(draw)) =
+                (bound.look(at, dist, seen, &mut sight, 0), value_to_draw(value))
+            {
+                sum.0 += 1;
+                sum.1 += dist.log_density(&draw) - bound.log_of(site, dist, &draw, &mut sight);
+            }
+            Ok(())
+        })?;
+        Ok(sum)
+    };
+    examples.par_iter().map(one).collect()
 }
 
 /// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.

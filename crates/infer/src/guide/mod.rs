@@ -9,11 +9,16 @@
 //! - [`bound`]: a guide for one program, as a drawer of choices;
 //! - [`survey`]: what the traces of a model show, from which the form of its guide follows;
 //! - [`lessons`]: traces as rows, by the code that draws; training;
+//! - [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: how much each run counts;
 //! - `images`: the same for the dissertation's architecture, which looks at whole images.
 //!
 //! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
 
 pub mod bound;
+pub mod climb;
+#[cfg(test)]
+mod climbing;
+pub mod credit;
 pub mod form;
 mod images;
 pub mod inputs;

@@ -32,7 +32,8 @@ GUIDES = (
     Message(
         "guide-traces",
         "there are too few traces to learn from",
-        why="a trace is the best run of a search, if it scores better than an empty scene",
+        why="a trace is the best run of a search, if it scores better than an empty scene; by a bound a guide learns from "
+        "runs of its own, if some of them are possible",
         help="give targets that the model can reach, more searches in `rounds`, or more particles in `searches`",
         example="train_guide(vines, [a_page_of_dots, another], score)",
         cure="train_guide(vines, [a_letter, another], score)",
