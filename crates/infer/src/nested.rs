@@ -219,6 +219,8 @@ impl Inferences {
         seed: u64,
         together: &Arc<Together>,
     ) -> Result<Value, Fault> {
+        Value::Function(Arc::clone(model)).refuse_memoised()?;
+        args.iter().try_for_each(Value::refuse_memoised)?;
         if self.depth == DEPTH {
             return Err(Fault::new(
                 "infer-failed",
