@@ -101,6 +101,8 @@ fn in_support(draw: &Draw, support: &Support) -> bool {
         }
         (Support::Circle, Draw::Real(x)) => x.abs() <= std::f64::consts::PI,
         (Support::Simplex(n) | Support::Vectors(n), Draw::Vector(v)) => v.len() == *n,
+        (Support::Counts(n), Draw::Counts(v)) => v.len() == *n,
+        (Support::Truths(n), Draw::Truths(v)) => v.len() == *n,
         (Support::Points { .. } | Support::VectorPoints(_), _) => true,
         _ => false,
     }
@@ -111,6 +113,9 @@ pub fn dist(u: &mut Unstructured<'_>, deep: usize) -> Option<Dist> {
     let family = Family::ALL[below(u, Family::ALL.len())];
     let params: Vec<Param> = match family {
         Family::Categorical | Family::Dirichlet => vec![Param::Vector(row(u, 4))],
+        Family::Multinomial => vec![Param::Int(below(u, 40) as i64), Param::Vector(row(u, 4))],
+        Family::MultivariateBernoulli => vec![Param::Vector(row(u, 4))],
+        Family::DiagonalGaussian => vec![Param::Vector(row(u, 4)), Param::Vector(row(u, 4))],
         Family::MultivariateGaussian => {
             let n = 1 + below(u, 3);
             let mean = (0..n).map(|_| real(u)).collect();

@@ -7,6 +7,7 @@ A model is a Python function:
     condition, factor, observe                  forbid a run, weigh it, score it by data
     emit, box, cylinder, vec                    add shapes to the scene, at points
     future, force                               leave a call for later, and wait for its value
+    mem                                         call a function once for each value of its arguments
 
 Searching a model:
 

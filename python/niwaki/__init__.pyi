@@ -67,6 +67,7 @@ from .words import choose as choose
 from .words import condition as condition
 from .words import cross as cross
 from .words import cylinder as cylinder
+from .words import diagonal_gaussian as diagonal_gaussian
 from .words import dirichlet as dirichlet
 from .words import disc as disc
 from .words import discrete_uniform as discrete_uniform
@@ -88,8 +89,11 @@ from .words import laplace as laplace
 from .words import limb as limb
 from .words import log_normal as log_normal
 from .words import look as look
+from .words import mem as mem
 from .words import mesh as mesh
 from .words import mixture as mixture
+from .words import multinomial as multinomial
+from .words import multivariate_bernoulli as multivariate_bernoulli
 from .words import multivariate_gaussian as multivariate_gaussian
 from .words import norm as norm
 from .words import normalize as normalize

@@ -2,7 +2,8 @@
 
 Lists of choices whose elements are read by indices that change later, captures that are read in loops, lists that only
 grow, in recursions by one and by halves and in loops; counts, branches and closures that depend on choices; primitives
-that come and go; soft factors over all of it. Every program ends.
+that come and go; soft factors over all of it; memoised functions, whose arguments and captures are choices. Every
+program ends.
 """
 
 from __future__ import annotations
@@ -12,6 +13,45 @@ from programs import Maker, Program
 
 class ChainMaker(Maker):
     """Makes fragments that depend on each other through choices."""
+
+    #: Whether some of them are memoised functions.
+    memo = False
+
+    def remembered(self, loop: bool) -> list[str]:
+        """Calls of memoised functions: of the module, and closures that capture choices."""
+        v, w, r, i = self.fresh("v"), self.fresh("w"), self.fresh("r"), self.fresh("i")
+        own = [
+            f"{v} = {self.sampled()}",
+            f"def {w}(i):",
+            f"    y = gaussian({self.pick(v, '0')}, 1)",
+            *(["    factor(-0.1 * y * y)"] if self.random.random() < 0.5 else []),
+            f"    return y + {self.pick(v, 'noise(i % 2)', 'noise(0)', '0.5 * i')}",
+            f"{r} = mem({w})",
+        ]
+        kinds = [
+            lambda: [f"f = f + noise({self.integer(1)} % 3)"],
+            lambda: [f"x = clip(x, -9, 9) * 0.5 + noise(n % 2) + climb({self.pick('poisson(1)', 'n')} % 4)"],
+            lambda: [
+                f"for {i} in range({self.pick('poisson(2)', '3', 'n % 4')}):",
+                f"    f = f + {self.pick('noise', 'climb')}({i} % {self.pick('2', '3')})",
+                f"    observe(Gaussian(noise({self.pick('0', i + ' % 2')}), 1), {i} * 0.5)",
+            ],
+            lambda: [f"xs = [noise({i}) for {i} in range({self.pick('2', '1 + poisson(1) % 3')})]"],
+            lambda: ["f = f + (noise(1) if flip(0.5) else climb(2)) + force(future(noise, n % 3))"],
+            *([lambda: [*own, f"f = f + {r}({self.integer(1)} % 2) + {r}(1)"]] * 2 if not loop else []),
+            *(
+                [
+                    lambda: [
+                        *own,
+                        f"for {i} in range(1 + poisson(1)):",
+                        f"    f = f + {r}(n % 2) * {r}({i} % 2)",
+                    ]
+                ]
+                if not loop
+                else []
+            ),
+        ]
+        return self.random.choice(kinds)()
 
     def sampled(self) -> str:
         """A random choice of a real number, its parameters perhaps choices too."""
@@ -25,6 +65,8 @@ class ChainMaker(Maker):
 
     def statement(self, depth: int, loop: bool = False) -> list[str]:
         """One of the fragments here, or one of those that every program may have."""
+        if self.memo and self.random.random() < 0.4:
+            return self.remembered(loop)
         if self.random.random() < 0.5:
             return super().statement(depth, loop)
         v, w, i = self.fresh("v"), self.fresh("w"), self.fresh("i")
@@ -124,10 +166,18 @@ _RECURSIONS = (
 )
 
 
-def program(seed: int, size: int = 6) -> Program:
-    """A random program of `size` statements."""
+#: Memoised functions of the module: one that is scored, and one that calls itself and the other.
+_MEMOISED = (
+    "@mem\ndef noise(i):\n    y = gaussian(0, 1)\n    observe(Gaussian(y, 1), 0.3 * i)\n    return y",
+    "@mem\ndef climb(n):\n    return climb(n - 1) + uniform(0, 1) + noise(n % 2) if n > 0 else 0.0",
+)
+
+
+def program(seed: int, size: int = 6, memo: bool = False) -> Program:
+    """A random program of `size` statements, perhaps with memoised functions."""
     maker = ChainMaker(seed)
+    maker.memo = memo
     for _ in range(maker.random.randint(0, 2)):
         maker.helpers.append(maker.helper())
-    helpers = (*maker.helpers, *_RECURSIONS)
+    helpers = (*maker.helpers, *_RECURSIONS, *(_MEMOISED if memo else ()))
     return Program(helpers, tuple(tuple(maker.statement(2)) for _ in range(size)))

@@ -96,6 +96,12 @@ def m():
     b = dirichlet([1.0, 2.0, 3.0])
     c = multivariate_gaussian([0.0, 1.0], [[1.0, 0.5], [0.5, 2.0]])
     d = [poisson(3), binomial(4, 0.3), geometric(0.4), beta(1, 2), gamma(2, 1), exponential(2), laplace(0, 1), cauchy(0, 1), student_t(3), von_mises(0, 1), truncated_gaussian(0, 1, -1, 2), log_normal(0, 1), inverse_gamma(3, 1), categorical([0.2, 0.8])]
+    c2 = diagonal_gaussian([0.0, 1.0], [1.0, 0.5])
+    c3 = multinomial(4, [1.0, 2.0, 0.5])
+    c4 = multivariate_bernoulli([0.2, 0.7])
+    observe(Multinomial(sum(c3), [1, 1, 1]), c3)
+    observe(DiagonalGaussian([0, 0], [1, 2]), c2)
+    observe(MultivariateBernoulli([0.5, 0.5]), c4)
     e = sample(Delta(3))
     f = choose(["x", "y", (1, 2)])
     g = choose([10, 20], [1, 3])
@@ -104,7 +110,7 @@ def m():
     k = Gaussian(a, 1)
     dd = [Gaussian(0, 1), Gaussian(5, 1)]
     h = sample(dd[flip(0.5)])
-    return a, b, c, d, e, f, g, b[0] + c[1], sum(b), k, h
+    return a, b, c, d, e, f, g, b[0] + c[1], sum(b), k, h, c2[0], c3, c4, sum(range(c3[0]))
 """,
     "strings": """
 def m():

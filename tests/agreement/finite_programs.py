@@ -6,6 +6,9 @@ twice, late, in loops and in comprehensions, and futures make futures. Names are
 and loops, and assigned again in branches and loops, also a number after a future. A barrier may be anywhere, so that a
 force waits or does not.
 
+With `memo`, some functions of the module and some closures are memoised: they are asked for from anywhere, also through
+futures, by arguments that are choices, and call themselves with smaller ones.
+
 `text(seed)` is a whole module with the model `m`; the same seed gives the same text. `looking(seed)` is one whose every
 run looks at a future that is not forced. `reduced` makes a text that fails smaller, line by line.
 """
@@ -54,6 +57,8 @@ class Scope:
     #: Functions of an integer that give an integer, and those that give a future.
     functions: tuple[str, ...] = ()
     makers: tuple[str, ...] = ()
+    #: Memoised functions of an integer that give an integer.
+    memos: tuple[str, ...] = ()
 
 
 @dataclass
@@ -68,6 +73,8 @@ class Maker:
     #: Whether `n` and `b` are the function's own, so that they may be assigned.
     in_closure: bool = False
     tops: list[str] = field(default_factory=list)
+    #: Whether functions may be memoised.
+    memo: bool = False
 
     # names
 
@@ -93,7 +100,9 @@ class Maker:
         """A nested function of `n` and `b`: it must not capture what is assigned again."""
         outside = self.in_closure
         self.in_closure = True
-        with self.inside(integers=("n",), truths=("b",)):
+        with self.inside(
+            integers=("n",), truths=("b",), memos=tuple(m for m in self.scope.memos if m[0] == "m")
+        ):
             yield
         self.in_closure = outside
 
@@ -129,6 +138,9 @@ class Maker:
         ]
         if s.functions:
             options.append(lambda: f"{self.random.choice(s.functions)}({self.integer(inner)})")
+        if s.memos:
+            options += [lambda: f"{self.random.choice(s.memos)}({self.integer(inner)} % 2)"] * 4
+            options += [lambda: f"sum([{self.random.choice(s.memos)}(k) for k in range(2)])"]
         if s.lists:
             name = self.random.choice(s.lists)
             options += [
@@ -187,6 +199,8 @@ class Maker:
                 options.append(lambda: f"future(lambda: {known}({self.integer(0)}) + {self.integer(0)})")
         if s.functions:
             options.append(lambda: f"future({self.random.choice(s.functions)}, {self.integer(0)})")
+        if s.memos:
+            options += [lambda: f"future({self.random.choice(s.memos)}, {self.integer(0)} % 2)"] * 2
         return self.one(options)
 
     def promise(self, depth: int) -> str:
@@ -438,7 +452,26 @@ class Maker:
                 lines = self.block(1, False) if self.chance(0.6) else []
                 body = [f"def {name}(n, b=True):", *lines, f"    return {result}"]
         self.know(kind, name)
+        if self.memo and kind == "functions" and self.chance(0.7):
+            memo = self.fresh("r")
+            self.know("memos", memo)
+            return [*body, f"{memo} = mem({name})"]
         return body
+
+    def remembered(self, number: int) -> str:
+        """A memoised function of the module; it may call itself, and those before it."""
+        name = f"m{number}"
+        self.choices = 1
+        lines = ["factor(LOGS[n % 3])"] if self.chance(0.5) else []
+        with self.inside(integers=("n",), truths=("True",)):
+            lines.append(f"k = {self.choice()}")
+            self.choices = 0
+            self.know("integers", "k")
+            if self.chance(0.5):
+                lines.append("factor(LOGS[k % 3])")
+            result = f"({self.integer(1)} + {name}(n - 1)) % 3 if n > 0 else k" if self.chance(0.5) else "k"
+        body = "\n".join(f"    {line}" for line in [*lines, f"return {result}"])
+        return f"@mem\ndef {name}(n):\n{body}\n"
 
     def top(self) -> str:
         """A function of the module: an integer and a truth value to an integer."""
@@ -470,15 +503,21 @@ def looking(seed: int) -> str:
     return re.sub(r"condition\((?!f\d+\))", "bool(", whole).replace("return (n, -1)", "n = 0")
 
 
-def text(seed: int, size: int = 6, looks: bool = False) -> str:
-    """A random program of `size` statements, perhaps with a look at a future among them."""
-    maker = Maker(random.Random(seed))
+def text(seed: int, size: int = 6, looks: bool = False, memo: bool = False) -> str:
+    """A random program of `size` statements, perhaps with a look at a future among them, or with memoised functions."""
+    maker = Maker(random.Random(seed), memo=memo)
     helpers = []
+    memos = [f"m{number}" for number in range(2 * memo)]
+    for number, name in enumerate(memos):
+        maker.tops.append(name)
+        helpers.append(maker.remembered(number))
+        maker.know("memos", name)
+    maker.tops.clear()
     for _ in range(maker.random.randint(1, 3)):
         helpers.append(maker.top())
         maker.tops.append(f"h{len(maker.tops)}")
     maker.choices = 2
-    maker.scope = Scope(("n",), ("b",))
+    maker.scope = Scope(("n",), ("b",), memos=tuple(memos))
     lines = [f"n, b = {maker.random.randint(0, 2)}, flip(0.6)"]
     at = maker.random.randrange(size) if looks else size
     for i in range(size):

@@ -37,7 +37,8 @@ class Program:
         start = "    n, x, b, xs, t, f = 3, 0.5, True, [1, 2.5, 3], (1, 2.0), 0.0"
         result = "    return (n, x, b, xs, t, f)"
         helpers = "\n\n".join(
-            f"@model\n{helper}" if number % 2 else helper for number, helper in enumerate(self.helpers)
+            f"@model\n{helper}" if number % 2 and not helper.startswith("@") else helper
+            for number, helper in enumerate(self.helpers)
         )
         return f"{HEADER}{helpers}\n\n@model\ndef m():\n{start}\n{body}\n{result}\n"
 

@@ -83,10 +83,10 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
     return found or ""
 
 
-def look(seeds: Iterator[int], steps: int) -> Tally:
+def look(seeds: Iterator[int], steps: int, memo: bool = False) -> Tally:
     tally = Tally()
     for seed in seeds:
-        whole = program(seed)
+        whole = program(seed, memo=memo)
         if disagreement(whole.text, seed, steps, tally):
             small = shrink(whole, lambda text: bool(disagreement(text, seed, steps)))  # noqa: B023
             pytest.fail(f"seed {seed}\n{small.text}\n{disagreement(small.text, seed, steps)}")
@@ -103,6 +103,13 @@ def test_strategies_agree_on_random_programs() -> None:
     assert tally.accepted > 0.1 * tally.proposals / 4
 
 
+def test_strategies_agree_on_random_programs_with_memoised_functions() -> None:
+    count, steps = QUICK
+    tally = look(iter(range(count)), steps, memo=True)
+    assert tally.programs > 0.4 * count
+    assert tally.accepted > 0.1 * tally.proposals / 4
+
+
 @pytest.mark.soak
 def test_strategies_agree_on_many_random_programs() -> None:
     """At least a thousand programs and a million proposals, from a fresh seed that is printed."""
@@ -111,7 +118,7 @@ def test_strategies_agree_on_many_random_programs() -> None:
     count, steps = LONG
     tally, programs, proposals = Tally(), 0, 0
     while programs < 1000 or proposals < 1_000_000:
-        tally = look(iter(range(first, first + count)), steps)
+        tally = look(iter(range(first, first + count)), steps, memo=first % 2 == 0)
         programs, proposals, first = programs + tally.programs, proposals + tally.proposals, first + count
 
 

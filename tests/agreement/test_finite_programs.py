@@ -10,6 +10,8 @@ Programs of `finite_programs`: futures of every shape, loops, closures, branches
   populations are most sensitive, as nothing averages an error away;
 - states of Markov chains agree with their choices, and the four strategies agree to the bit.
 
+The same of programs with memoised functions, without kernels that grow a part again.
+
 Programs whose every run looks at a future that is not forced are refused by each of them.
 
 A quantity is wrong only if it is so twice: by 5 standard errors, and with fresh seeds and sixteen times the runs by 7.
@@ -52,6 +54,8 @@ from test_engine import compared, differs, facts, load
 
 #: Programs of `make test`: less than a minute.
 PROGRAMS = 80
+#: Those with memoised functions.
+MEMOISED = 50
 #: States of a chain.
 STATES = 150
 #: As many values of a method's samples are run again in plain Python.
@@ -64,17 +68,19 @@ FIRST_LIMIT, LIMIT = 5.0, 7.0
 #: Populations, runs of particle Gibbs, and batches of a chain at the first look; the second has sixteen times as many.
 POPULATIONS, STARTS, BATCHES, BATCH, TIMES = 150, 60, 40, 20, 16
 
+#: Of programs with memoised functions: no part of a run can be grown again.
+SHARED = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate(1))
 MOVES = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate(1), kernels.regrow(3))
 
 
-def populations(count: int, seed: int) -> dict[str, nw.methods.Smc]:
+def populations(count: int, seed: int, moves: Any = MOVES) -> dict[str, nw.methods.Smc]:
     """Particles, as each method has them; what is drawn from the seed does not decide what is right."""
     own: dict[str, Any] = {
         "particles": 2 + seed % 3,
         "populations": count,
         "resampling": RESAMPLING[seed % len(RESAMPLING)],
     }
-    moved = {**own, "rejuvenate": MOVES}
+    moved = {**own, "rejuvenate": moves}
     return {
         "particles": nw.smc(**own),
         "particles, depth first": nw.smc(order="depth-first", **own),
@@ -197,7 +203,9 @@ def exact_draws(model: Any, count: int, seed: int) -> Any:
             bound += 0.5
 
 
-def looked_at(model: Any, exact: Exact, name: str, times: int, seed: int, tally: Tally) -> tuple[str, float]:
+def looked_at(
+    model: Any, exact: Exact, name: str, times: int, seed: int, tally: Tally, moves: Any = MOVES
+) -> tuple[str, float]:
     """What is wrong with a method's samples, or nothing; and the largest z-score."""
     scores: list[float] = []
     if name in gibbs(0):
@@ -209,7 +217,7 @@ def looked_at(model: Any, exact: Exact, name: str, times: int, seed: int, tally:
         found = [run[-1] for run in runs]
         scores = exact.of_values([repr(sample.value) for sample in found])
     elif name == CHAIN:
-        method = nw.mh(STATES * times, kernel=MOVES, thin=1, keep=STATES * times)
+        method = nw.mh(STATES * times, kernel=moves, thin=1, keep=STATES * times)
         found = nw.run(model, method, seed=seed, threads=1).samples
     elif name == "PIMH":
         found = nw.run(
@@ -224,7 +232,7 @@ def looked_at(model: Any, exact: Exact, name: str, times: int, seed: int, tally:
         found = [sample for one in searches for sample in one]
     else:
         count = POPULATIONS * times
-        result = nw.run(model, populations(count, seed)[name], seed=seed, threads=1)
+        result = nw.run(model, populations(count, seed, moves)[name], seed=seed, threads=1)
         scores = exact.of_populations(result, count)
         found = [sample for sample in result if sample.log_weight > -math.inf]
     # One of each value, of a few, is run again; and some of a chain, whose states are made of each other.
@@ -269,12 +277,13 @@ def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
     except NiwakiError as error:
         tally.skipped[error.code] += 1
         return ""
+    moves = SHARED if "mem(" in program or "@mem" in program else MOVES
     for name in (*METHODS, CHAIN):
         try:
-            found, z = looked_at(model, exact, name, 1, seed, tally)
+            found, z = looked_at(model, exact, name, 1, seed, tally, moves)
             if not found and z > FIRST_LIMIT:
                 tally.looked_twice += 1
-                found, z = looked_at(model, exact, name, TIMES, seed + 2**32, tally)
+                found, z = looked_at(model, exact, name, TIMES, seed + 2**32, tally, moves)
                 if z > LIMIT:
                     found = found or f"{name}: {z:.1f} standard errors from the exact answer"
         except NiwakiError as error:
@@ -320,11 +329,11 @@ def answers_a_look(program: str, seed: int) -> str:
     return ""
 
 
-def look(seeds: Iterable[int], tally: Tally) -> None:
+def look(seeds: Iterable[int], tally: Tally, memo: bool = False) -> None:
     """Looks at programs; the first that is wrong is made smaller and reported."""
     before = set(linecache.cache)
     for seed in seeds:
-        program, looks = text(seed), looking(seed)
+        program, looks = text(seed, memo=memo), looking(seed)
         if found := answers_a_look(looks, seed):
             pytest.fail(f"seed {seed}: {found}\n{looks}")
         tally.looks += 1
@@ -452,6 +461,13 @@ def test_every_method_follows_the_exact_answer() -> None:
     assert tally.programs > 0.5 * PROGRAMS
 
 
+def test_every_method_follows_the_exact_answer_with_memoised_functions() -> None:
+    tally = Tally()
+    look(range(MEMOISED), tally, memo=True)
+    print(tally)
+    assert tally.programs > 0.3 * MEMOISED
+
+
 @pytest.mark.soak
 def test_every_method_follows_the_exact_answer_for_long() -> None:
     """For `NIWAKI_FUZZ_SECONDS` (600), from a fresh seed that is printed; `NIWAKI_SEED` repeats one."""
@@ -461,7 +477,7 @@ def test_every_method_follows_the_exact_answer_for_long() -> None:
     tally, began, printed = Tally(), time.monotonic(), 0.0
     seed = first
     while (spent := time.monotonic() - began) < seconds:
-        look([seed], tally)
+        look([seed], tally, memo=seed % 2 == 0)
         seed += 1
         if spent > printed:
             print(f"{spent:.0f} s: {tally}", flush=True)

@@ -184,10 +184,14 @@ impl Recorder<'_> {
                         learnt(dist, row[i].value().sqrt())?;
                     }
                 }
+                if let Dist::DiagonalGaussian(g) = dist {
+                    g.sd.iter().try_for_each(|sd| learnt(dist, sd.value()).map(|_| ()))?;
+                }
                 let values: Vec<Var> = x.iter().map(|x| self.coordinate(*x)).collect();
                 let log = dist.log_density(&Draw::Vector(values.clone().into()));
                 Placed::plain(Transform::Vector, values, log)
             }
+            (Space::Counts | Space::Truths, _) | (_, Draw::Counts(_) | Draw::Truths(_)) => return Ok(None),
             (_, Draw::Vector(_)) => return Err(no_coordinates(dist)),
             (_, Draw::Real(_) | Draw::Int(_) | Draw::Bool(_)) => {
                 let (support, Some(x)) = (dist.support(), draw.as_real()) else { return Ok(None) };
@@ -206,6 +210,7 @@ impl Recorder<'_> {
                     Support::Booleans | Support::Categories(_) | Support::Integers { .. } => return Ok(None),
                     Support::Points { .. } | Support::VectorPoints(_) => return Ok(None),
                     Support::Simplex(_) | Support::Vectors(_) => return Ok(None),
+                    Support::Counts(_) | Support::Truths(_) => return Ok(None),
                 }
             }
         }))

@@ -14,6 +14,7 @@ use niwaki_math::{Dist, Draw, Scalar};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::address::join;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::stack::RunFault;
@@ -189,11 +190,14 @@ impl Answers<Var> for Recorder<'_> {
                 Draw::Bool(b) => u128::from(*b),
                 Draw::Int(i) => *i as u128,
                 Draw::Real(x) => u128::from(x.to_bits()),
-                Draw::Vector(_) => 0,
+                Draw::Vector(v) => v.iter().fold(0, |hash, x| join(hash, u128::from(x.to_bits()))),
+                Draw::Counts(v) => v.iter().fold(0, |hash, k| join(hash, *k as u128)),
+                Draw::Truths(v) => v.iter().fold(0, |hash, b| join(hash, u128::from(*b))),
             };
             self.mix(kept);
             self.fixed.push((address, given.clone()));
-            return Ok(Answer::Go(draw_to_value(value)));
+            // As it was given: of a list of counts the draw is a vector of real numbers.
+            return Ok(Answer::Go(given.convert(&Var::from_f64)));
         };
         if placed.log.value() == f64::NEG_INFINITY {
             return Err(impossible("a choice outside its support"));

@@ -175,18 +175,34 @@ enum Plain {
     Int(i64),
     Real(u64),
     Vector(Vec<u64>),
+    Counts(Vec<i64>),
+    Truths(Vec<bool>),
     Order(u32),
+}
+
+/// A list of whole numbers, or of truth values, which as a draw would be real numbers.
+fn of_one_kind(value: &Value) -> Option<Plain> {
+    let Value::Tuple(all) = value else { return None };
+    let counts = all.items().iter().map(|x| if let Value::Int(k) = x { Some(*k) } else { None });
+    let truths = all.items().iter().map(|x| if let Value::Bool(b) = x { Some(*b) } else { None });
+    let counts = counts.collect::<Option<_>>().map(Plain::Counts);
+    counts.or_else(|| truths.collect::<Option<_>>().map(Plain::Truths))
 }
 
 impl Serialize for Log {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let plain = |entry: &Entry| {
+            if let Some(list) = of_one_kind(&entry.value) {
+                return Ok((entry.address(), list));
+            }
             let value = match (&entry.value, value_to_draw(&entry.value)) {
                 (Value::Future(which), _) => Plain::Order(*which),
                 (_, Some(Draw::Bool(b))) => Plain::Bool(b),
                 (_, Some(Draw::Int(i))) => Plain::Int(i),
                 (_, Some(Draw::Real(x))) => Plain::Real(x.to_bits()),
                 (_, Some(Draw::Vector(xs))) => Plain::Vector(xs.iter().map(|x| x.to_bits()).collect()),
+                (_, Some(Draw::Counts(all))) => Plain::Counts(all.to_vec()),
+                (_, Some(Draw::Truths(all))) => Plain::Truths(all.to_vec()),
                 (other, None) => return Err(S::Error::custom(format!("a choice of {}", other.described()))),
             };
             Ok((entry.address(), value))
@@ -202,6 +218,8 @@ impl<'de> Deserialize<'de> for Log {
             Plain::Int(i) => Value::Int(i),
             Plain::Real(bits) => Value::Real(f64::from_bits(bits)),
             Plain::Vector(xs) => draw_to_value(Draw::Vector(xs.into_iter().map(f64::from_bits).collect())),
+            Plain::Counts(all) => draw_to_value(Draw::Counts(all.into())),
+            Plain::Truths(all) => draw_to_value(Draw::Truths(all.into())),
             Plain::Order(which) => Value::Future(which),
         };
         let entries: Vec<(u128, Plain)> = Vec::deserialize(from)?;

@@ -223,6 +223,8 @@ impl Inferences {
         seed: u64,
         together: &Arc<Together>,
     ) -> Result<Value, Fault> {
+        Value::Function(Arc::clone(model)).refuse_memoised()?;
+        args.iter().try_for_each(Value::refuse_memoised)?;
         let limits = limits_inside(self.limits, self.depth)?;
         let task = Task {
             program: Arc::clone(&self.program),

@@ -128,6 +128,7 @@ const FAMILIES: &[&str] = &[
     "dirichlet (list 1.2 2.5 0.8 3.0)",
     "dirichlet (list 1.2 2.5)",
     "multivariate_gaussian (list 0.3 -0.5) (list (list 1.2 0.4) (list 0.4 0.9))",
+    "diagonal_gaussian (list 0.3 -0.5) (list 1.2 0.4)",
     "mixture (list 0.3 0.7) (list (dist gaussian -1 0.8) (dist gaussian 1.5 1.2))",
     "mixture (list 0.3 0.7) (list (dist uniform -1 2) (dist uniform 0 3))",
     "mixture (list 0.3 0.7) (list (dist gamma 2 1) (dist exponential 1))",
@@ -160,6 +161,7 @@ fn parameters_and_bounds_may_depend_on_other_choices() {
         "truncated_gaussian 0.4 $b (neg $a) 2.0",
         "dirichlet (list $a $b 1.5)",
         "multivariate_gaussian (list $a $b) (list (list (add 1 $a) 0.4) (list 0.4 (add 0.2 $b)))",
+        "diagonal_gaussian (list $a 0.5) (list $b $a)",
         "mixture (list $a $b) (list (dist gaussian $a 0.8) (dist gaussian 1.5 $b))",
     ] {
         let body = format!("{first} (set $x (sample (dist {family}))) (return $x)");
@@ -174,6 +176,10 @@ fn parameters_and_bounds_may_depend_on_other_choices() {
         "(dist categorical (list $a $b 0.3)) 1",
         "(dist bernoulli (div $a 3)) 1",
         "(dist bernoulli (div $a 3)) 0",
+        "(dist multinomial 6 (list $a $b 0.3)) (tuple 3 1 2)",
+        "(dist multinomial 6 (list $a 0.0 $b)) (tuple 6 0 0)",
+        "(dist multivariate_bernoulli (list (div $a 3) 0.4)) (tuple true false)",
+        "(dist diagonal_gaussian (list $a $b) (list 1.0 $a)) (tuple 0.3 0.7)",
         "(dist gaussian $a $b) 0.7",
         "(dist von_mises $a $b) 0.7",
         "(dist student_t $a 0.1 $b) 0.7",

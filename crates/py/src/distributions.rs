@@ -126,13 +126,15 @@ pub fn drawn(value: &Bound<'_, PyAny>) -> PyResult<Draw> {
     }
 }
 
-/// A drawn value as Python's: bool, int, float or a list of floats.
+/// A drawn value as Python's: bool, int, float or a list of these.
 pub fn to_python(py: Python<'_>, draw: &Draw) -> PyResult<Py<PyAny>> {
     Ok(match draw {
         Draw::Bool(b) => b.into_pyobject(py)?.to_owned().into_any().unbind(),
         Draw::Int(i) => i.into_pyobject(py)?.into_any().unbind(),
         Draw::Real(x) => x.into_pyobject(py)?.into_any().unbind(),
         Draw::Vector(v) => v.to_vec().into_pyobject(py)?.into_any().unbind(),
+        Draw::Counts(v) => v.to_vec().into_pyobject(py)?.into_any().unbind(),
+        Draw::Truths(v) => v.to_vec().into_pyobject(py)?.into_any().unbind(),
     })
 }
 
@@ -169,7 +171,7 @@ fn draw_at(
     to_python(py, &dist(family, params)?.sample(&mut Stream::new(seed, stream, address, visit)))
 }
 
-/// `(kind, lo, hi)`: kind is "bool", "int", "real", "simplex" or "vector".
+/// `(kind, lo, hi)`: kind is "bool", "int", "real", "simplex", "vector", "counts" or "truths".
 ///
 /// Numbers have their ends (`None` for whole numbers without end); vectors their length twice.
 #[pyfunction]
@@ -184,6 +186,8 @@ fn support(py: Python<'_>, family: &str, params: &Bound<'_, PyAny>) -> PyResult<
         }
         Support::Simplex(n) => ("simplex", n, n).into_pyobject(py)?,
         Support::Vectors(n) | Support::VectorPoints(n) => ("vector", n, n).into_pyobject(py)?,
+        Support::Counts(n) => ("counts", n, n).into_pyobject(py)?,
+        Support::Truths(n) => ("truths", n, n).into_pyobject(py)?,
         Support::Categories(_) | Support::Circle => unreachable!("not in bounds"),
     };
     Ok(tuple.unbind())

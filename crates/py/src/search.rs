@@ -25,6 +25,7 @@ use niwaki_infer::guide::bound::BoundGuide;
 use niwaki_infer::hold::hold;
 use niwaki_infer::improve::{Round, Seen};
 use niwaki_infer::method::{self, Given, Info, Method};
+use niwaki_infer::mixed::{Place, mixed};
 use niwaki_infer::nested::Inner;
 use niwaki_infer::particles::{self, Share};
 use niwaki_infer::record::Record;
@@ -200,6 +201,17 @@ impl PyTask {
         self.task.invalid.counts().into_iter().collect()
     }
 
+    /// An observation that has a probability in some runs and a density in others, if a few runs from the prior have one: path
+    /// and line of each.
+    fn mixed(&self, py: Python<'_>, seed: u64) -> Option<[(String, u32); 2]> {
+        let task = &self.task;
+        let found = py.detach(|| mixed(task, seed))?;
+        let place = |(file, span): Place| {
+            (task.program.files.get(file as usize).cloned().unwrap_or_default(), span.line)
+        };
+        Some([place(found.probability), place(found.density)])
+    }
+
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
     /// further results of the method. ``attached`` are the users' proposals and guides that kernels name by number; ``start`` is the
     /// run that a chain of whole runs starts from; a search for the best goes on from its ``checkpoint``.
@@ -248,7 +260,7 @@ impl PyTask {
         let unknown = || Fault::new("infer-method", "this constant is no inference");
         let inner = read.unwrap_or_else(|| Err(unknown())).map_err(|fault| faults::setting(py, &fault))?;
         let inferences = self.model.get().inferences(self.task.limits);
-        let entry = Arc::new(Closure { function: program.entry.0, captures: vec![] });
+        let entry = Arc::new(Closure { function: program.entry.0, memo: None, captures: vec![] });
         let together = Arc::new(Together::new(self.task.limits.steps));
         let value =
             self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;

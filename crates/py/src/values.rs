@@ -262,6 +262,8 @@ fn capital(word: &str) -> String {
 fn drawn<'py>(py: Python<'py>, draw: &Draw) -> PyResult<Bound<'py, PyAny>> {
     match draw {
         Draw::Vector(xs) => Ok(PyTuple::new(py, xs.iter())?.into_any()),
+        Draw::Counts(xs) => Ok(PyTuple::new(py, xs.iter())?.into_any()),
+        Draw::Truths(xs) => Ok(PyTuple::new(py, xs.iter())?.into_any()),
         other => Ok(distributions::to_python(py, other)?.into_bound(py)),
     }
 }

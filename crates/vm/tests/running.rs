@@ -585,3 +585,89 @@ fn an_angle_is_what_flows_into_one_or_comes_from_one() {
         ]
     );
 }
+
+/// A memoised coin that two functions ask for, directly and by a future, and that a choice selects.
+const MEMOISED: &str = r#"(module
+  (fn "coin" (params $i) (set $x (sample (dist uniform 0.0 1.0))) (do (factor 1.0)) (return $x))
+  (fn "one" (params $i) (return (apply (mem (closure "coin") "coin") $i)))
+  (fn "two" (params $i) (do (factor 0.0)) (return (force (future_apply (mem (closure "coin") "coin") $i))))
+  (fn "m" (params)
+    (set $f (future "two" 1)) (set $g (future "one" 1)) (set $h (future "two" 2))
+    (set $a (call "one" 1)) (set $b (call "one" 2)) (set $c (call "one" 1.0))
+    (return (tuple (eq $a (force $f)) (eq $a (force $g)) (eq $b (force $h)) (eq $a $b) (eq $a $c))))
+  (entry "m"))"#;
+
+#[test]
+fn a_memoised_call_is_one_activation_whoever_asks_first() {
+    let program = program(MEMOISED);
+    let mut addresses = BTreeSet::new();
+    for depth_first in [true, false] {
+        // Every order of running futures, one by one: always the first, always the last, and a mixture.
+        for rule in 0..6_u64 {
+            let mut machine = Machine::new(&program, Limits::default());
+            let mut state = machine.start(&[], depth_first).unwrap();
+            let mut script = Script { pause: true, ..Script::default() };
+            let mut turn = rule;
+            while !state.has_ended() {
+                let runnable = state.runnable();
+                turn = turn.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                let at = match rule {
+                    0 => 0,
+                    1 => runnable.len() - 1,
+                    _ => (turn >> 33) as usize % runnable.len(),
+                };
+                let next = runnable.get(at).unwrap();
+                let copy = state.clone();
+                state = copy;
+                machine.resume(&mut state, next, &mut script).unwrap();
+            }
+            assert_eq!(repr(&state.result()).unwrap(), "(True, True, True, False, False)", "rule {rule}");
+            assert_eq!(script.score, 3.0, "a call is scored once");
+            let own: BTreeSet<u128> = script.addresses.iter().copied().collect();
+            assert_eq!(own.len(), 3);
+            addresses.insert(own);
+        }
+    }
+    assert_eq!(addresses.len(), 1, "addresses do not depend on the order");
+}
+
+#[test]
+fn a_memoised_call_has_a_readable_address_of_its_own() {
+    let text = r#"(module
+      (fn "paint" (params $i $s) (captures $base) (set $hue (sample (dist uniform 0.0 1.0))) (return (add $hue $base)))
+      (fn "m" (params)
+        (for $k (range 2) (body
+          (set $color (mem (closure "paint" $k)))
+          (do (apply $color 1 "a/b")) (do (apply $color 1 "a/b")) (do (apply $color (list 2 0.5) none)))))
+      (entry "m"))"#;
+    let (_, script) = run_with(text, Limits::default()).unwrap();
+    let expected = [
+        "k[0]/color(1, 'a\\x2fb')/hue",
+        "k[0]/color([2, 0.5], None)/hue",
+        "k[1]/color(1, 'a\\x2fb')/hue",
+        "k[1]/color([2, 0.5], None)/hue",
+    ];
+    assert_eq!(script.paths, expected);
+    let program = program(text);
+    for (path, address) in expected.iter().zip(&script.addresses) {
+        let held =
+            niwaki_vm::machine::held::Held::new(&program, vec![((*path).to_string(), Value::Real(0.5))]);
+        assert!(held.unwrap().find(*address).is_some(), "{path}");
+    }
+}
+
+#[test]
+fn a_memoised_call_that_needs_itself_is_a_fault() {
+    let round = r#"(module
+      (fn "f" (params $n) (do (sample (dist bernoulli 0.5))) (return (apply (mem (closure "f") "f") (sub 1 $n))))
+      (fn "m" (params) (return (apply (mem (closure "f") "f") 0))) (entry "m"))"#;
+    assert_eq!(fault(round, Limits::default()).fault.code, "memo-cycle");
+    let program = program(round);
+    let mut machine = Machine::new(&program, Limits::default());
+    let mut state = machine.start(&[], false).unwrap();
+    assert_eq!(machine.finish(&mut state, &mut Script::default()).unwrap_err().fault.code, "memo-cycle");
+    let argument = r#"(module
+      (fn "f" (params $n) (return (sample (dist bernoulli 0.5))))
+      (fn "m" (params) (return (apply (mem (closure "f") "f") (closure "f")))) (entry "m"))"#;
+    assert_eq!(fault(argument, Limits::default()).fault.code, "memo-argument");
+}

@@ -25,6 +25,7 @@ from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
 from niwaki.lang.scope import Scope, Variable
 from niwaki.lang.statements import first_assignment
+from niwaki.words.memo import Memoised
 
 
 @lowers(ast.Call)
@@ -66,6 +67,10 @@ def known(body: Body, node: ast.Call, value: Any) -> Expr:
         return host(body, node, value)
     if value is words.infer:
         return infer(body, node)
+    if value is words.mem:
+        return mem(body, node)
+    if isinstance(value, Memoised):
+        return remembered(body, node, value)
     if isinstance(value, type) and issubclass(value, words.Distribution):
         return distribution(body, node, value)
     if is_record_class(value):
@@ -132,6 +137,21 @@ def record(body: Body, node: ast.Call, kind: type) -> Expr:
             else value
         )
     return body.form("record", [str(body.program.class_number(kind)), *filled], node)
+
+
+def mem(body: Body, node: ast.Call) -> Expr:
+    """`mem(f)`: a memoised function, one more at each run of the line."""
+    values = bind(body, node, node.args, node.keywords, vocabulary.parameters_of(words.mem), "mem")
+    return body.form("mem", [value for value in values if value is not None], node)
+
+
+def remembered(body: Body, node: ast.Call, value: Memoised[..., Any]) -> Expr:
+    """A call of a memoised function of a module."""
+    function = underlying(value.function)
+    called = user_function(body, node, function, "call", node.args, node.keywords)
+    assert isinstance(called, Form)
+    memo = body.program.constant(value, body.span(node.func), value.name)
+    return body.form("apply", [memo, *called.args[1:]], node)
 
 
 def host(body: Body, node: ast.Call, value: Host[Any, Any]) -> Expr:

@@ -14,7 +14,7 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
     E       := ATOM | $v | (data K) | (and E E+) | (or E E+) | (cond C A B)
              | (call "NAME" E ...) | (closure "NAME" E ...) | (apply E E ...)
              | (sample E) | (observe E E) | (factor E) | (condition E) | (query E E) | (emit E ...) | (force E)
-             | (future "NAME" E ...) | (future_apply E E ...)
+             | (future "NAME" E ...) | (future_apply E E ...) | (mem E) | (mem E "NAME")
              | (dist FAMILY E ...) | (host K E ...) | (record K E ...) | (field E "name")
              | (list E ...) | (tuple E ...) | (dict (KEY ...) E ...) | (fstr PART ...) | (method E "name" E ...)
              | (OP E ...)
@@ -36,12 +36,15 @@ captured values, in the order of `captures`; so `call` and `future` always have 
 params and captures together. Used as a value it is `(closure "f" captures ...)`, rebuilt wherever it is used. So nested
 functions may call themselves and one another in any order, and no closure ever holds itself.
 
+Memoised functions. `(mem E)` gives another one at each activation that reaches it; `(mem E "NAME")` is the one of a
+module, the same wherever it is written. A call of either is an `apply`.
+
 Order. Arguments are in the order of evaluation; where keywords were written in another order, the front end has put
 them into temporaries.
 
 Sites. The readable address of a choice is a path of components joined by "/". Each site's static component is after
 the span as an atom `#component`, see `niwaki.lang.sites`: on `sample`, `observe`, `factor`, `condition`, `query`,
-`emit`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (with empty brackets, `#i[]`, `#i[]#1`).
+`emit`, `mem`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (with empty brackets, `#i[]`, `#i[]#1`).
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ _LOOKS = """bool eq ne lt le gt ge hash len iter next contains getitem call str 
 round trunc floor ceil abs neg pos invert reversed divmod rdivmod array"""
 _OPERATORS = "add sub mul matmul truediv floordiv mod pow and or xor lshift rshift"
 #: Functions that take futures without using their values.
-_PASSING = frozenset({words.force, words.future, words.query, words.choose})
+_PASSING = frozenset({words.force, words.future, words.query, words.choose, words.mem})
 
 
 class NotForced(Exception):

@@ -18,7 +18,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import Call, InputError, ModelFault, NiwakiError
 from niwaki.errors.kinds import place
-from niwaki.lang import densities, futures, inference, inner, vocabulary
+from niwaki.lang import densities, futures, inference, inner, memoised, vocabulary
 from niwaki.lang.constraints import Constraint
 from niwaki.lang.instrument import instrumented
 from niwaki.lang.marks import Host, Marked, underlying
@@ -26,6 +26,7 @@ from niwaki.lang.names import is_library
 from niwaki.methods import EnumerateAll
 from niwaki.words.distributions import Distribution
 from niwaki.words.effects import flatten
+from niwaki.words.memo import Memoised
 from niwaki.words.running import current
 
 VIEWS: tuple[type[Iterable[Any]], ...] = (type({}.keys()), type({}.values()), type({}.items()))
@@ -145,6 +146,7 @@ class PlainRun:
         self.constraints: list[Constraint] = []
         self.functions: dict[FunctionType, FunctionType] = {}
         self.codes: set[Any] = set()
+        self.calls = memoised.Calls()
 
     # called by the instrumented code
 
@@ -152,7 +154,9 @@ class PlainRun:
         """A call at a site."""
         function = underlying(function)
         depth, loops = len(self.path), len(self.loops)
-        if isinstance(function, FunctionType) and self.is_model_code(function):
+        if isinstance(function, Memoised):
+            value = self.recall(function, args, kwargs)
+        elif isinstance(function, FunctionType) and self.is_model_code(function):
             assert isinstance(label, str)
             self.path.append(label)
             value = self.enter(function, args, kwargs)
@@ -336,7 +340,9 @@ class PlainRun:
         label, self.pending = self.pending or "apply", ""
         depth, loops = len(self.path), len(self.loops)
         function = underlying(function)
-        if isinstance(function, FunctionType) and self.is_model_code(function):
+        if isinstance(function, Memoised):
+            value = self.recall(function, args, {})
+        elif isinstance(function, FunctionType) and self.is_model_code(function):
             self.path.append(label)
             value = self.enter(function, args, {})
         else:
@@ -349,10 +355,43 @@ class PlainRun:
         """The value of a future."""
         return futures.forced(value)
 
+    def mem(self, function: Callable[..., Any]) -> Memoised[..., Any]:
+        """Memoise a function."""
+        address = self.address("mem")
+        function = underlying(function)
+        if isinstance(function, Memoised):
+            return function
+        if not isinstance(function, FunctionType):
+            message = f"`mem` takes a function, found {function!r}"
+            raise ModelFault("not-callable", message, stack=self.stack())
+        return Memoised(function, address)
+
+    def recall(self, function: Memoised[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+        """A call of a memoised function: run from the root of addresses, where it is the first with its arguments."""
+        values = memoised.bound(function, args, kwargs)
+        try:
+            address = self.calls.address(function) + memoised.text_of(values)
+        except ModelFault as fault:
+            raise ModelFault(fault.code, fault.message, stack=self.stack()) from None
+        if address not in self.calls.values:
+            self.calls.values[address] = memoised.RUNNING
+            outer = self.path, self.loops, self.pending
+            self.path, self.loops = [address], []
+            value = self.enter(underlying(function.function), args, kwargs)
+            self.path, self.loops, self.pending = outer
+            self.calls.values[address] = value
+        if self.calls.values[address] is memoised.RUNNING:
+            message = f"the memoised call `{address}` needs its own value"
+            raise ModelFault("memo-cycle", message, stack=self.stack())
+        return self.calls.values[address]
+
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
         """Search another model, on the engine: only it has the methods."""
         inference.check(method, keep)
         function = underlying(model)
+        if memoised.holds_one([model, *args]):
+            message = "a memoised function belongs to the run around, and is given away"
+            raise ModelFault("memo-outside", message, stack=self.stack())
         if not isinstance(function, FunctionType):
             raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
         seed = 0 if isinstance(method, EnumerateAll) else self.sample(inference.SEEDS)

@@ -20,6 +20,7 @@ from niwaki.lang.names import Namespace, is_library, is_named_tuple, is_record_c
 from niwaki.lang.scope import FunctionNode, Scope, Scopes, analyse, functions
 from niwaki.lang.sites import labels_of
 from niwaki.words.distributions import Distribution
+from niwaki.words.memo import Memoised
 
 
 @dataclasses.dataclass(eq=False)
@@ -118,6 +119,10 @@ class Program:
     def constant(self, value: Any, used_at: Span, name: str) -> Expr:
         """A Python object as an expression: a literal, data of the table, or built from both."""
         value = underlying(value)
+        if isinstance(value, Memoised):
+            function = underlying(value.function)
+            inner = self.constant(function, used_at, name)
+            return Form("mem", [inner, literal(self.unit(function).name)], used_at)
         if isinstance(value, FunctionType):
             if is_library(value):
                 code = "word-as-value" if value.__module__.startswith("niwaki.words") else "library-function"

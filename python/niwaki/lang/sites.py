@@ -6,14 +6,17 @@
                `while[3]`; `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` where those call a function
     zc         a choice: the name that the enclosing assignment gives first, else the distribution's family
     layout     the seed of an `infer`: likewise the name that is assigned to, else `infer`
+    color(3)   a call of a memoised function, from the root: the address of the `mem`, which is named like a choice,
+               or the name of a function of a module; and the arguments
     observe    and likewise `factor`, `condition`, `query`, `emit`; an `emit` with a `name` has that instead
 
 The model that is run adds nothing: the address of its own choice `zc` is "zc".
 
 Equal names within one activation (one call, or one iteration of a loop) get `#1`, `#2` for the second, third
-occurrence in the order of evaluation of the source: `zc#1`, `wing#1`, `i[3]#1`. Three kinds are counted apart, since
-they cannot be confused: what ends an address, calls, and loops. Every site counts, whether or not its call can reach an
-effect. A loop's own head belongs to the activation around it, the test of a `while` to each of its iterations.
+occurrence in the order of evaluation of the source: `zc#1`, `wing#1`, `i[3]#1`. Four kinds are counted apart, since
+they cannot be confused: what ends an address, calls, loops, and memoised functions. Every site counts, whether or not
+its call can reach an effect. A loop's own head belongs to the activation around it, the test of a `while` to each of
+its iterations.
 
 Here a label is written with empty brackets for a loop, `i[]#1`; the index goes into the brackets when it runs.
 """
@@ -132,6 +135,8 @@ class _Namer:
             self.label(node, "end", vocabulary.EFFECTS[value])
         elif value is words.infer:
             self.label(node, "end", self.target or "infer")
+        elif value is words.mem:
+            self.label(node, "memo", self.target or "mem")
         elif value is words.future:
             self.label(node, "call", self.callee(node.args[0]) if node.args else "apply")
         elif value in CALLS_A_FUNCTION:

@@ -157,7 +157,7 @@ DRAWS: dict[Any, type[Distribution]] = {
 }
 
 ALL_WORDS: frozenset[Any] = frozenset(
-    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer, words.look}
+    {*WORDS, *EFFECTS, *DRAWS, *FAMILIES, words.choose, words.future, words.infer, words.look, words.mem}
 )
 
 METHODS: dict[str, tuple[int, int]] = {

@@ -16,7 +16,7 @@ from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
+from niwaki.methods import Forward, Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
 from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
@@ -36,7 +36,7 @@ from niwaki.result.progress import EngineWatch, Watch, watcher
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeping import Keeper, Stage
-from niwaki.search.worth import SearchWarning, check_worth
+from niwaki.search.worth import SearchWarning, check_kinds, check_worth
 
 if TYPE_CHECKING:
     from niwaki.search.request import Search
@@ -74,6 +74,8 @@ def carried_out(
     guides = [one for one in search.method.text()[1] if isinstance(one, Guide)]
     for guide in guides:
         _check_guide(search, guide)
+    if not isinstance(search.method, Forward):
+        check_kinds(search.task, search.seed)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
         result = once(search, search.seed, threads, watcher(progress, search), _stage(keeper, "0/search"))
         if guides:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 
@@ -27,6 +28,24 @@ def check_worth(task: _engine.Task, score: Score, best: Sample) -> None:
         found += [_size(score.target, best.scene), _distance(score.target, best)]
     for text in filter(None, found):
         warnings.warn(text, SearchWarning, stacklevel=6)
+
+
+def check_kinds(task: _engine.Task, seed: int) -> None:
+    """Warn where an observation is a probability in some runs and a density in others: no weight compares these."""
+    found = task.mixed(seed)
+    if found is None:
+        return
+    (path, line), (other, density) = found
+    first, second = f"{Path(path).name}:{line}", f"{Path(other).name}:{density}"
+    where = f"at {first} has" if first == second else f"has (at {first})"
+    there = "" if first == second else f" (at {second})"
+    warnings.warn(
+        f"an observation {where} the probability of a single value in some runs, and in others a density{there}. "
+        "Their weights cannot be compared: in other units the results would be others. Observe it by a density in all "
+        "runs, with a narrow `Gaussian` in place of a single value, or by a discrete distribution in all runs",
+        SearchWarning,
+        stacklevel=6,
+    )
 
 
 def _gain(task: _engine.Task, best: Sample) -> str:

@@ -3,6 +3,7 @@
 choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
+memo            `mem`: functions that are called once for each value of their arguments
 shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`; flat ones: `stroke`, `ellipse`, `disc`
 colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
@@ -19,6 +20,7 @@ from niwaki.words import (
     distributions,
     effects,
     frames,
+    memo,
     numbers,
     polygons,
     shapes,
@@ -30,6 +32,7 @@ from niwaki.words.colors import *
 from niwaki.words.distributions import *
 from niwaki.words.effects import *
 from niwaki.words.frames import *
+from niwaki.words.memo import *
 from niwaki.words.numbers import *
 from niwaki.words.polygons import *
 from niwaki.words.shapes import *
@@ -42,6 +45,7 @@ __all__ += colors.__all__
 __all__ += distributions.__all__
 __all__ += effects.__all__
 __all__ += frames.__all__
+__all__ += memo.__all__
 __all__ += numbers.__all__
 __all__ += polygons.__all__
 __all__ += shapes.__all__

@@ -17,6 +17,7 @@ __all__ = [
     "categorical",
     "cauchy",
     "choose",
+    "diagonal_gaussian",
     "dirichlet",
     "discrete_uniform",
     "exponential",
@@ -28,6 +29,8 @@ __all__ = [
     "laplace",
     "log_normal",
     "mixture",
+    "multinomial",
+    "multivariate_bernoulli",
     "multivariate_gaussian",
     "poisson",
     "sample",
@@ -84,6 +87,9 @@ von_mises = _draws("von_mises", d.VonMises, float)
 truncated_gaussian = _draws("truncated_gaussian", d.TruncatedGaussian, float)
 dirichlet = _draws("dirichlet", d.Dirichlet, list[float])
 multivariate_gaussian = _draws("multivariate_gaussian", d.MultivariateGaussian, list[float])
+diagonal_gaussian = _draws("diagonal_gaussian", d.DiagonalGaussian, list[float])
+multinomial = _draws("multinomial", d.Multinomial, list[int])
+multivariate_bernoulli = _draws("multivariate_bernoulli", d.MultivariateBernoulli, list[bool])
 mixture: Callable[[Sequence[float], Sequence[d.Distribution]], Any] = _draws("mixture", d.Mixture, object)
 
 

@@ -19,6 +19,7 @@ __all__ = [
     "Categorical",
     "Cauchy",
     "Delta",
+    "DiagonalGaussian",
     "Dirichlet",
     "DiscreteUniform",
     "Distribution",
@@ -30,6 +31,8 @@ __all__ = [
     "Laplace",
     "LogNormal",
     "Mixture",
+    "Multinomial",
+    "MultivariateBernoulli",
     "MultivariateGaussian",
     "Poisson",
     "StudentT",
@@ -400,6 +403,57 @@ class MultivariateGaussian(Distribution):
 
     mean: Sequence[float]
     covariance: Sequence[Sequence[float]]
+
+
+@dataclass(frozen=True)
+class DiagonalGaussian(Distribution):
+    """A list of numbers that vary by themselves, each with its own centre and spread.
+
+    Parameters
+    ----------
+    mean
+        Centres, (n,).
+    sd
+        Standard deviations, (n,), greater than 0.
+    """
+
+    family: ClassVar[str] = "diagonal_gaussian"
+
+    mean: Sequence[float]
+    sd: Sequence[float]
+
+
+@dataclass(frozen=True)
+class Multinomial(Distribution):
+    """How often each category came in `n` trials.
+
+    Parameters
+    ----------
+    n
+        Trials, at least 0.
+    weights
+        Weight of each category in a trial, not negative; at least one greater than 0.
+    """
+
+    family: ClassVar[str] = "multinomial"
+
+    n: int
+    weights: Sequence[float]
+
+
+@dataclass(frozen=True)
+class MultivariateBernoulli(Distribution):
+    """A list of truth values that are drawn by themselves.
+
+    Parameters
+    ----------
+    ps
+        Of each its probability of being true, in [0, 1].
+    """
+
+    family: ClassVar[str] = "multivariate_bernoulli"
+
+    ps: Sequence[float]
 
 
 @dataclass(frozen=True)

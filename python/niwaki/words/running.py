@@ -5,7 +5,7 @@ The compiled engine never calls these functions; it has them by name.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextvars import ContextVar
 from typing import Any, Protocol
 
@@ -45,6 +45,14 @@ class Runner(Protocol):
 
     def force(self, value: Any) -> Any:
         """Wait for a future."""
+        ...
+
+    def mem(self, function: Callable[..., Any]) -> Any:
+        """Memoise a function."""
+        ...
+
+    def recall(self, function: Any, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
+        """A call of a memoised function."""
         ...
 
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:

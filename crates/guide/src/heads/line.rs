@@ -116,6 +116,9 @@ impl<'d> Line<'d> {
             | Dist::VonMises { .. }
             | Dist::Dirichlet(_)
             | Dist::MultivariateGaussian(_)
+            | Dist::DiagonalGaussian(_)
+            | Dist::Multinomial(_)
+            | Dist::MultivariateBernoulli(_)
             | Dist::Mixture(_)
             | Dist::Delta(_) => return None,
         };

@@ -1,4 +1,5 @@
-//! Neighbour moves: a truth value flips, a whole number moves up or down by a few, a category becomes another.
+//! Neighbour moves: a truth value flips, a whole number moves up or down by a few, a category becomes another; of a list of
+//! truth values one flips, and of counts some go from one to another.
 //!
 //! The moves are symmetric, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
 
@@ -40,6 +41,8 @@ impl Move for Neighbour {
                 }
                 _ => near(*k, self.reach.get(), rng),
             })),
+            (Space::Truths, Value::Tuple(all)) => flipped(all.items(), rng),
+            (Space::Counts, Value::Tuple(all)) => shifted(all.items(), self.reach.get(), rng),
             _ => None,
         };
         match value {
@@ -47,6 +50,35 @@ impl Move for Neighbour {
             None => FromPrior.propose(at, site, dist, old, log_density, rng),
         }
     }
+}
+
+/// The same truth values, one of them flipped.
+fn flipped(all: &[Value], rng: &mut Stream) -> Option<Value> {
+    let at = super::streams::below(rng, all.len() as u64) as usize;
+    let one = |(i, x): (usize, &Value)| match x {
+        Value::Bool(b) => Some(Value::Bool(*b != (i == at))),
+        _ => None,
+    };
+    all.iter().enumerate().map(one).collect::<Option<_>>().map(Value::tuple)
+}
+
+/// The same counts, at most `reach` of one gone to another.
+fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
+    let n = all.len() as u64;
+    if n < 2 {
+        return None;
+    }
+    let from = super::streams::below(rng, n);
+    let other = super::streams::below(rng, n - 1);
+    let to = other + u64::from(other >= from);
+    let by = (super::streams::below(rng, reach) + 1) as i64;
+    let one = |(i, x): (u64, &Value)| match x {
+        Value::Int(k) if i == from => Some(Value::Int(k.saturating_sub(by))),
+        Value::Int(k) if i == to => Some(Value::Int(k.saturating_add(by))),
+        Value::Int(k) => Some(Value::Int(*k)),
+        _ => None,
+    };
+    (0..).zip(all).map(one).collect::<Option<_>>().map(Value::tuple)
 }
 
 /// A whole number at most `reach` from another, and not the same.

@@ -149,6 +149,8 @@ pub(super) fn enumerated(
     let [Value::Function(model), args @ .., _] = args else {
         return Err(Fault::not_callable("`infer` runs a model"));
     };
+    Value::Function(Arc::clone(model)).refuse_memoised()?;
+    args.iter().try_for_each(Value::refuse_memoised)?;
     let name = &around.program.function(FunctionId(model.function)).name;
     let together = Together::new(around.limits.steps.saturating_sub(*steps));
     let limits = limits_inside(around.limits, around.depth)?;

@@ -353,6 +353,7 @@ pub(super) fn of_prior(dist: &Dist, to: &mut [f64; PARAMETERS]) -> usize {
         Dist::VonMises { mean, concentration } => put(&[*mean, *concentration]),
         Dist::TruncatedGaussian { mean, sd, lo, hi } => put(&[*mean, *sd, *lo, *hi]),
         Dist::Categorical(_) | Dist::Dirichlet(_) | Dist::MultivariateGaussian(_) => 0,
+        Dist::DiagonalGaussian(_) | Dist::Multinomial(_) | Dist::MultivariateBernoulli(_) => 0,
         Dist::Mixture(_) | Dist::Delta(_) => 0,
     }
 }

@@ -263,9 +263,11 @@ impl<'a> Search<'a> {
             })
         };
         let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
+        // Calls of memoised functions are shared by the parts of a run, so no part can be grown again.
+        let shared = self.task.program.memoises();
         match kind {
-            Kind::Regrow => regrow(self.own.regrow),
-            Kind::RegrowMore => regrow(MORE * self.own.regrow),
+            Kind::Regrow if !shared => regrow(self.own.regrow),
+            Kind::RegrowMore if !shared => regrow(MORE * self.own.regrow),
             _ => Ok(Kernel::Mixture(vec![
                 (4.0, Kernel::PRIOR),
                 (4.0, drift(0.3)?),

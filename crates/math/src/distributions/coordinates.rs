@@ -125,6 +125,7 @@ impl Space {
     pub fn coordinates(self) -> Option<Support> {
         match self {
             Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => None,
+            Space::Counts | Space::Truths => None,
             Space::Line | Space::Bounded | Space::Components => Some(Support::Reals(Interval::LINE)),
             Space::Positive => Some(Support::Reals(Interval { lo: Some(0.0), hi: None })),
             Space::Unit => Some(Support::Reals(Interval { lo: Some(0.0), hi: Some(1.0) })),
@@ -160,7 +161,8 @@ impl Support {
             }
             (Support::Reals(_) | Support::Circle | Support::Simplex(_) | Support::Vectors(_), _)
             | (Support::Booleans | Support::Categories(_) | Support::Integers { .. }, _)
-            | (Support::Points { .. } | Support::VectorPoints(_), _) => None,
+            | (Support::Points { .. } | Support::VectorPoints(_), _)
+            | (Support::Counts(_) | Support::Truths(_), _) => None,
         }
     }
 }

@@ -7,10 +7,11 @@ use super::check::{BadParameter, Reader};
 use super::draw::{Draw, Param};
 
 use super::family::{Dist, Family};
+use super::lists::{DiagonalGaussian, Multinomial};
 use super::mixture::Mixture;
 use super::vectors::MultivariateGaussian;
 use super::weights::Weights;
-use super::{bell, circle, counts, interval, tails, truncated, vectors, waiting, whole};
+use super::{bell, circle, counts, interval, lists, tails, truncated, vectors, waiting, whole};
 use crate::scalar::{LastLog, Scalar};
 use crate::streams::RngCore;
 use std::sync::Arc;
@@ -132,6 +133,14 @@ impl<S: Scalar> Dist<S> {
             Family::MultivariateGaussian => {
                 Dist::MultivariateGaussian(Arc::new(MultivariateGaussian::read(&r)?))
             }
+            Family::DiagonalGaussian => Dist::DiagonalGaussian(Arc::new(DiagonalGaussian::read(&r)?)),
+            Family::Multinomial => Dist::Multinomial(Arc::new(Multinomial::read(&r)?)),
+            Family::MultivariateBernoulli => {
+                let one = S::from_f64(1.0);
+                let expected = "numbers from 0 to 1, at least one";
+                let ps = r.vector_where(0, expected, |p| p >= S::from_f64(0.0) && p <= one)?;
+                Dist::MultivariateBernoulli(ps.into())
+            }
             Family::Mixture => Dist::Mixture(Arc::new(Mixture::read(&r)?)),
             Family::Delta => Dist::Delta(r.value(0)?),
         })
@@ -143,7 +152,9 @@ impl<S: Scalar> Dist<S> {
         let weights = |w: &Weights<S>| 64 + w.len() * (2 * real + size_of::<f64>());
         match self {
             Dist::Categorical(w) => weights(w),
-            Dist::Dirichlet(a) => 16 + a.len() * real,
+            Dist::Dirichlet(a) | Dist::MultivariateBernoulli(a) => 16 + a.len() * real,
+            Dist::DiagonalGaussian(g) => 64 + 2 * g.mean.len() * real,
+            Dist::Multinomial(m) => 72 + 2 * m.len() * real,
             Dist::MultivariateGaussian(g) => {
                 let n = g.mean.len();
                 128 + n * (2 * size_of::<Vec<S>>() + real) + (n * n + n * (n + 1) / 2) * real
@@ -154,6 +165,8 @@ impl<S: Scalar> Dist<S> {
                 32 + weights(&m.weights) + m.components.iter().map(component).sum::<usize>()
             }
             Dist::Delta(Draw::Vector(x)) => 16 + x.len() * real,
+            Dist::Delta(Draw::Counts(x)) => 16 + size_of_val(&**x),
+            Dist::Delta(Draw::Truths(x)) => 16 + x.len(),
             _ => 0,
         }
     }
@@ -200,6 +213,11 @@ impl<S: Scalar> Dist<S> {
             }
             Dist::Dirichlet(a) => x.as_vector().map_or(never, |x| vectors::dirichlet_log_density(a, x)),
             Dist::MultivariateGaussian(g) => x.as_vector().map_or(never, |x| g.log_density(x)),
+            Dist::DiagonalGaussian(g) => x.as_vector().map_or(never, |x| g.log_density(x)),
+            Dist::Multinomial(m) => x.as_counts().map_or(never, |x| m.log_density(&x)),
+            Dist::MultivariateBernoulli(ps) => {
+                x.as_truths().map_or(never, |x| lists::bernoullis_log_density(ps, &x))
+            }
             Dist::Mixture(m) => m.log_density(x),
             Dist::Delta(value) => {
                 if same(value, x) {
@@ -295,6 +313,9 @@ impl<S: Scalar> Dist<S> {
             }
             Dist::Dirichlet(a) => vector(vectors::dirichlet_sample(a, rng)),
             Dist::MultivariateGaussian(g) => vector(g.sample(rng)),
+            Dist::DiagonalGaussian(g) => vector(g.sample(rng)),
+            Dist::Multinomial(m) => Draw::Counts(m.sample(rng).into()),
+            Dist::MultivariateBernoulli(ps) => Draw::Truths(lists::bernoullis_sample(ps, rng).into()),
             Dist::Mixture(m) => m.sample(rng),
             Dist::Delta(value) => value.clone(),
         }

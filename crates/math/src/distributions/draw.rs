@@ -16,6 +16,10 @@ pub enum Draw<S = f64> {
     Real(S),
     /// A vector of reals, shape (n,).
     Vector(Arc<[S]>),
+    /// Whole numbers in a row, shape (n,).
+    Counts(Arc<[i64]>),
+    /// Truth values in a row, shape (n,).
+    Truths(Arc<[bool]>),
 }
 
 impl<S: Scalar> Draw<S> {
@@ -52,7 +56,7 @@ impl<S: Scalar> Draw<S> {
             Draw::Real(x) => Some(*x),
             Draw::Int(i) => Some(S::from_f64(*i as f64)),
             Draw::Bool(b) => Some(S::from_f64(f64::from(u8::from(*b)))),
-            Draw::Vector(_) => None,
+            Draw::Vector(_) | Draw::Counts(_) | Draw::Truths(_) => None,
         }
     }
 
@@ -65,6 +69,26 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
+    /// As whole numbers in a row; kinds are as in [`Draw::as_int`].
+    pub fn as_counts(&self) -> Option<Vec<i64>> {
+        match self {
+            Draw::Counts(all) => Some(all.to_vec()),
+            Draw::Truths(all) => Some(all.iter().map(|b| i64::from(*b)).collect()),
+            Draw::Vector(all) => all.iter().map(|x| Draw::Real(*x).as_int()).collect(),
+            Draw::Bool(_) | Draw::Int(_) | Draw::Real(_) => None,
+        }
+    }
+
+    /// As truth values in a row; kinds are as in [`Draw::as_bool`].
+    pub fn as_truths(&self) -> Option<Vec<bool>> {
+        match self {
+            Draw::Truths(all) => Some(all.to_vec()),
+            Draw::Counts(all) => all.iter().map(|i| Draw::<S>::Int(*i).as_bool()).collect(),
+            Draw::Vector(all) => all.iter().map(|x| Draw::Real(*x).as_bool()).collect(),
+            Draw::Bool(_) | Draw::Int(_) | Draw::Real(_) => None,
+        }
+    }
+
     /// The same value over another kind of number.
     pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Draw<T> {
         match self {
@@ -72,6 +96,8 @@ impl<S: Scalar> Draw<S> {
             Draw::Int(i) => Draw::Int(*i),
             Draw::Real(x) => Draw::Real(number(*x)),
             Draw::Vector(v) => Draw::Vector(v.iter().map(|x| number(*x)).collect()),
+            Draw::Counts(v) => Draw::Counts(v.clone()),
+            Draw::Truths(v) => Draw::Truths(v.clone()),
         }
     }
 }
@@ -100,24 +126,35 @@ fn number<S: Scalar>(f: &mut fmt::Formatter<'_>, x: S) -> fmt::Result {
     if x.value().is_nan() { f.write_str("nan") } else { write!(f, "{:?}", x.value()) }
 }
 
-/// Up to eight numbers of a row, for a message.
-fn row<S: Scalar>(f: &mut fmt::Formatter<'_>, numbers: &[S]) -> fmt::Result {
+/// Up to eight values of a row, for a message.
+fn row<T: Copy>(
+    f: &mut fmt::Formatter<'_>,
+    values: &[T],
+    write: impl Fn(&mut fmt::Formatter<'_>, T) -> fmt::Result,
+) -> fmt::Result {
     write!(f, "[")?;
-    for (k, x) in numbers.iter().take(8).enumerate() {
+    for (k, x) in values.iter().take(8).enumerate() {
         write!(f, "{}", if k > 0 { ", " } else { "" })?;
-        number(f, *x)?;
+        write(f, *x)?;
     }
-    write!(f, "{}]", if numbers.len() > 8 { ", ..." } else { "" })
+    write!(f, "{}]", if values.len() > 8 { ", ..." } else { "" })
+}
+
+/// A truth value as Python writes it.
+fn truth(f: &mut fmt::Formatter<'_>, b: bool) -> fmt::Result {
+    f.write_str(if b { "True" } else { "False" })
 }
 
 /// As text, shortened where it is long.
 impl<S: Scalar> fmt::Display for Draw<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Draw::Bool(b) => f.write_str(if *b { "True" } else { "False" }),
+            Draw::Bool(b) => truth(f, *b),
             Draw::Int(i) => write!(f, "{i}"),
             Draw::Real(x) => number(f, *x),
-            Draw::Vector(v) => row(f, v),
+            Draw::Vector(v) => row(f, v, number),
+            Draw::Counts(v) => row(f, v, |f, k| write!(f, "{k}")),
+            Draw::Truths(v) => row(f, v, truth),
         }
     }
 }
@@ -129,12 +166,12 @@ impl<S: Scalar> fmt::Display for Param<S> {
             Param::Bool(b) => Draw::<S>::Bool(*b).fmt(f),
             Param::Int(i) => write!(f, "{i}"),
             Param::Real(x) => Draw::Real(*x).fmt(f),
-            Param::Vector(v) => row(f, v),
+            Param::Vector(v) => row(f, v, number),
             Param::Matrix(rows) if rows.len() <= 3 => {
                 write!(f, "[")?;
                 for (k, r) in rows.iter().enumerate() {
                     write!(f, "{}", if k > 0 { ", " } else { "" })?;
-                    row(f, r)?;
+                    row(f, r, number)?;
                 }
                 write!(f, "]")
             }

@@ -7,6 +7,7 @@
 use super::coordinates::Interval;
 use super::draw::{Draw, Param};
 use super::fields::Field;
+use super::lists::{DiagonalGaussian, Multinomial};
 use super::mixture::Mixture;
 use super::support::Support;
 use super::vectors::MultivariateGaussian;
@@ -38,6 +39,10 @@ pub enum Space {
     Simplex,
     /// Vectors; the family has a scale.
     Vectors,
+    /// Lists of counts.
+    Counts,
+    /// Lists of truth values.
+    Truths,
     /// Where the values of its components lie.
     Components,
     /// A value that is given.
@@ -49,6 +54,7 @@ impl Space {
     pub const fn is_continuous(self) -> bool {
         match self {
             Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => false,
+            Space::Counts | Space::Truths => false,
             Space::Line | Space::Positive | Space::Unit | Space::Bounded | Space::Circle => true,
             Space::Simplex | Space::Vectors | Space::Components => true,
         }
@@ -86,6 +92,12 @@ macro_rules! support {
     };
     (Vectors $n:expr, $scale:expr) => {
         Support::Vectors($n)
+    };
+    (Counts $n:expr) => {
+        Support::Counts($n)
+    };
+    (Truths $n:expr) => {
+        Support::Truths($n)
     };
     (Components $mixture:expr) => {
         $mixture.support()
@@ -241,6 +253,13 @@ families! {
     /// Gaussian vectors.
     MultivariateGaussian(g: Arc<MultivariateGaussian<S>>; "mean", "covariance")
         "multivariate_gaussian" Vectors(g.mean.len(), g.scale());
+    /// Gaussians that are independent, as a vector.
+    DiagonalGaussian(g: Arc<DiagonalGaussian<S>>; "mean", "sd")
+        "diagonal_gaussian" Vectors(g.mean.len(), g.scale());
+    /// How often each category came in `n` trials, in which it has a probability proportional to its weight.
+    Multinomial(m: Arc<Multinomial<S>>; "n", "weights") "multinomial" Counts(m.len());
+    /// Truth values that are independent, each true with its own probability.
+    MultivariateBernoulli(ps: Arc<[S]>; "ps") "multivariate_bernoulli" Truths(ps.len());
     /// One of `components`, chosen by `weights`.
     Mixture(m: Arc<Mixture<S>>; "weights", "components") "mixture" Components(m);
     /// Always the same value.
@@ -263,7 +282,7 @@ mod tests {
 
     #[test]
     fn names_are_distinct_and_give_their_family() {
-        assert_eq!(Family::ALL.len(), 22);
+        assert_eq!(Family::ALL.len(), 25);
         for &family in Family::ALL {
             assert_eq!(Family::from_name(family.name()), Some(family));
             assert!(!family.parameters().is_empty());

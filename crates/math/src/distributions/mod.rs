@@ -20,9 +20,10 @@
 //! | `tails` | families with heavier tails than the bell curve's |
 //! | `circle` | von_mises |
 //! | `vectors` | dirichlet, multivariate_gaussian |
+//! | `lists` | multinomial, multivariate_bernoulli, diagonal_gaussian |
 //! | `mixture` | mixture |
 //!
-//! Conventions. Densities are natural logarithms, in nats, with respect to counting (bool, int, delta) or
+//! Conventions. Densities are natural logarithms, in nats, with respect to counting (bool, int, lists of them, delta) or
 //! length, area, ... (real, vector); minus infinity outside the support. A sampler computes in `f64` with
 //! bits from the given source only, so its draws do not depend on the scalar. Where a draw would fall off the
 //! range of `f64` (a log-normal that overflows, a gamma that underflows) it is the nearest finite number
@@ -39,6 +40,7 @@ mod draw;
 mod family;
 mod fields;
 mod interval;
+mod lists;
 mod mixture;
 mod ranks;
 mod support;
@@ -56,6 +58,7 @@ pub use check::BadParameter;
 pub use coordinates::{Interval, Placed, logistic, logit};
 pub use draw::{Draw, Param};
 pub use family::{Dist, Family, Space};
+pub use lists::{DiagonalGaussian, Multinomial};
 pub use mixture::Mixture;
 pub use support::Support;
 pub use vectors::MultivariateGaussian;

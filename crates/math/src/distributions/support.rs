@@ -3,6 +3,7 @@
 use super::coordinates::Interval;
 use super::draw::Draw;
 use super::family::Dist;
+use super::lists::truths;
 use crate::scalar::Scalar;
 use std::f64::consts::PI;
 
@@ -39,6 +40,10 @@ pub enum Support<S = f64> {
     Vectors(usize),
     /// Single vectors of `n` numbers, each with a probability.
     VectorPoints(usize),
+    /// Lists of `n` counts, each with a probability.
+    Counts(usize),
+    /// Lists of `n` truth values.
+    Truths(usize),
 }
 
 impl<S: Scalar> Support<S> {
@@ -49,6 +54,8 @@ impl<S: Scalar> Support<S> {
             Draw::Int(i) => Support::Integers { lo: *i, hi: Some(*i) },
             Draw::Real(x) => Support::Points { lo: *x, hi: *x },
             Draw::Vector(v) => Support::VectorPoints(v.len()),
+            Draw::Counts(v) => Support::Counts(v.len()),
+            Draw::Truths(v) => Support::Truths(v.len()),
         }
     }
 
@@ -62,6 +69,7 @@ impl<S: Scalar> Support<S> {
             }
             Support::Booleans | Support::Integers { .. } | Support::Points { .. } | Support::Reals(_) => self,
             Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_) => self,
+            Support::Counts(_) | Support::Truths(_) => self,
         }
     }
 
@@ -80,7 +88,8 @@ impl<S: Scalar> Support<S> {
             }),
             (first @ (Support::Booleans | Support::Categories(_) | Support::Integers { .. }), _)
             | (first @ (Support::Points { .. } | Support::Reals(_) | Support::Circle), _)
-            | (first @ (Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_)), _) => first,
+            | (first @ (Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_)), _)
+            | (first @ (Support::Counts(_) | Support::Truths(_)), _) => first,
         }
     }
 
@@ -88,6 +97,7 @@ impl<S: Scalar> Support<S> {
     pub fn dimension(&self) -> Option<usize> {
         match self {
             Support::Simplex(n) | Support::Vectors(n) | Support::VectorPoints(n) => Some(*n),
+            Support::Counts(n) | Support::Truths(n) => Some(*n),
             Support::Booleans | Support::Categories(_) | Support::Integers { .. } => None,
             Support::Points { .. } | Support::Reals(_) | Support::Circle => None,
         }
@@ -147,6 +157,8 @@ impl<S: Scalar> Dist<S> {
             Dist::Bernoulli { .. }
                 | Dist::Categorical(_)
                 | Dist::Binomial { .. }
+                | Dist::Multinomial(_)
+                | Dist::MultivariateBernoulli(_)
                 | Dist::Mixture(_)
                 | Dist::Delta(_)
         );
@@ -161,6 +173,7 @@ impl<S: Scalar> Dist<S> {
             Draw::Int(i) => format!("the value {i}"),
             Draw::Real(x) => format!("the value {}", x.value()),
             Draw::Vector(_) => "a vector".into(),
+            list @ (Draw::Counts(_) | Draw::Truths(_)) => format!("the value {list}"),
         })
     }
 
@@ -180,13 +193,24 @@ impl<S: Scalar> Dist<S> {
         let (lo, hi) = match (self, self.support().in_bounds()) {
             (Dist::Delta(value), _) => return Some(vec![value.clone()]),
             (Dist::Mixture(m), _) => return m.enumerate(),
+            (Dist::Multinomial(m), _) => {
+                let lists = m.enumerate(LONGEST_LIST.unsigned_abs())?;
+                let draws = lists.into_iter().map(|list| Draw::Counts(list.into()));
+                return Some(draws.filter(possible).collect());
+            }
+            (_, Support::Truths(n)) => {
+                let lists = truths(n, LONGEST_LIST.unsigned_abs())?;
+                let draws = lists.into_iter().map(|list| Draw::Truths(list.into()));
+                return Some(draws.filter(possible).collect());
+            }
             (_, Support::Booleans) => {
                 return Some([false, true].map(Draw::Bool).into_iter().filter(possible).collect());
             }
             (_, Support::Integers { lo, hi: Some(hi) }) => (lo, hi),
             (_, Support::Integers { hi: None, .. } | Support::Categories(_) | Support::Points { .. })
             | (_, Support::Reals(_) | Support::Circle)
-            | (_, Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_)) => return None,
+            | (_, Support::Simplex(_) | Support::Vectors(_) | Support::VectorPoints(_))
+            | (_, Support::Counts(_)) => return None,
         };
         if hi.checked_sub(lo)? >= LONGEST_LIST {
             return None;

@@ -39,6 +39,9 @@ pub(super) fn example(family: Family) -> Dist {
         Family::DiscreteUniform => vec![Param::Int(2), Param::Int(5)],
         Family::Binomial => vec![Param::Int(4), Param::Real(0.3)],
         Family::Dirichlet => vec![Param::Vector(vec![1.0, 2.0, 3.0])],
+        Family::Multinomial => vec![Param::Int(3), Param::Vector(vec![1.0, 2.0])],
+        Family::MultivariateBernoulli => vec![Param::Vector(vec![0.2, 0.7])],
+        Family::DiagonalGaussian => vec![Param::Vector(vec![0.0, 1.0]), Param::Vector(vec![2.0, 0.5])],
         Family::MultivariateGaussian => {
             vec![Param::Vector(vec![0.0, 1.0]), Param::Matrix(vec![vec![2.0, 0.3], vec![0.3, 1.0]])]
         }

@@ -133,6 +133,8 @@ pub fn draw_to_value<S: Scalar>(draw: Draw<S>) -> Value<S> {
         Draw::Int(n) => Value::Int(n),
         Draw::Real(x) => Value::Real(x),
         Draw::Vector(xs) => vector_value(&xs),
+        Draw::Counts(xs) => Value::tuple(xs.iter().copied().map(Value::Int).collect()),
+        Draw::Truths(xs) => Value::tuple(xs.iter().copied().map(Value::Bool).collect()),
     }
 }
 

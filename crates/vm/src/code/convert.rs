@@ -60,7 +60,7 @@ impl<S: Scalar> Program<S> {
                 Value::Str(text) => *text = Text::from(&**text),
                 Value::Dist(dist) => *dist = Arc::new((**dist).clone()),
                 Value::Function(f) if f.captures.is_empty() => {
-                    *f = Arc::new(Closure { function: f.function, captures: vec![] });
+                    *f = Arc::new(Closure { function: f.function, memo: None, captures: vec![] });
                 }
                 _ => {}
             }
@@ -111,6 +111,7 @@ impl<S: Scalar> Value<S> {
             Value::Dist(dist) => Value::Dist(Arc::new(dist.convert(number))),
             Value::Function(f) => Value::Function(Arc::new(Closure {
                 function: f.function,
+                memo: f.memo.clone(),
                 captures: all(&mut f.captures.iter()),
             })),
         }

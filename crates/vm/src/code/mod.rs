@@ -282,6 +282,12 @@ pub enum SiteKind {
     },
     /// The value of a future.
     Force,
+    /// A memoised function value, of a function value. Its identity is the address of the site, or the one given: that
+    /// of a memoised function of a module.
+    Memoise {
+        /// The address of a memoised function of a module.
+        of: Option<u128>,
+    },
     /// An element of a collection: the register holds the element, the result refers to it. Where activations are
     /// dropped, the result is the element.
     Cell {
@@ -305,7 +311,7 @@ impl SiteKind {
             SiteKind::Call { .. } | SiteKind::Apply | SiteKind::Loop(_) => true,
             SiteKind::Future { .. } | SiteKind::FutureApply { .. } => true,
             SiteKind::Sample(_) | SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => false,
-            SiteKind::Query | SiteKind::Emit | SiteKind::Force => false,
+            SiteKind::Query | SiteKind::Emit | SiteKind::Force | SiteKind::Memoise { .. } => false,
             SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => false,
         }
     }
@@ -319,7 +325,7 @@ impl SiteKind {
             SiteKind::Call { .. } | SiteKind::Apply | SiteKind::Loop(_) => false,
             SiteKind::Future { .. } | SiteKind::FutureApply { .. } => false,
             SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => false,
-            SiteKind::Query | SiteKind::Emit => false,
+            SiteKind::Query | SiteKind::Emit | SiteKind::Memoise { .. } => false,
             SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => false,
         }
     }
@@ -383,6 +389,8 @@ pub struct Site {
     pub is_angle: bool,
     /// Of a choice: its part of [`Function::scope`], first and end.
     pub visible: (u32, u32),
+    /// Of an observation: a hash of the text of what is observed; else 0.
+    pub subject: u128,
 }
 
 impl Site {
@@ -493,6 +501,12 @@ impl<S: Scalar> Program<S> {
     pub fn leave_out(&self, census: &mut Census<'_, S>) {
         let constants = self.functions.iter().flat_map(|f| &f.constants);
         constants.chain(&self.others).for_each(|value| census.leave_out(value));
+    }
+
+    /// Whether it has memoised functions: calls that several activations share.
+    pub fn memoises(&self) -> bool {
+        let mut sites = self.functions.iter().flat_map(|f| &f.sites);
+        sites.any(|site| matches!(site.kind, SiteKind::Memoise { .. }))
     }
 
     /// A function by its number.

@@ -177,6 +177,8 @@ pub enum ExprKind {
     Emit(Vec<Expr>),
     /// The value of a future.
     Force(Box<Expr>),
+    /// A memoised function value, of a function value; with a name, one of a module: the same in every activation.
+    Mem(Box<Expr>, Option<Name>),
     /// A deferred call of a known function.
     Future(Name, Vec<Expr>),
     /// A deferred call of a function value.

@@ -161,6 +161,7 @@ fn compound(sexp: &Sexp<'_>) -> Result<Expr> {
         "query" => ExprKind::Query(boxed(0)?, boxed(1)?),
         "emit" => ExprKind::Emit(tail(0)?),
         "force" => ExprKind::Force(boxed(0)?),
+        "mem" => ExprKind::Mem(boxed(0)?, args.get(1).map(name).transpose()?),
         "future" => ExprKind::Future(name(at(0)?)?, tail(1)?),
         "future_apply" => ExprKind::FutureApply(boxed(0)?, tail(1)?),
         "dist" => ExprKind::Dist(name(at(0)?)?, tail(1)?),

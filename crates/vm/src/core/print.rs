@@ -88,6 +88,11 @@ fn block(out: &mut String, stmts: &[Stmt], indent: usize) {
     }
 }
 
+/// An expression, without places and labels.
+pub(crate) fn expression(e: &Expr) -> String {
+    expr(e)
+}
+
 fn expr(e: &Expr) -> String {
     use ExprKind::*;
     let two = |head: &str, a: &Expr, b: &Expr| format!("({head} {} {})", expr(a), expr(b));
@@ -108,6 +113,8 @@ fn expr(e: &Expr) -> String {
         Query(k, v) => two("query", k, v),
         Emit(args) => format!("(emit{})", tail(args)),
         Force(x) => format!("(force {})", expr(x)),
+        Mem(f, None) => format!("(mem {})", expr(f)),
+        Mem(f, Some(name)) => format!("(mem {} {})", expr(f), quoted(name)),
         Future(f, args) => format!("(future {}{})", quoted(f), tail(args)),
         FutureApply(f, args) => format!("(future_apply {}{})", expr(f), tail(args)),
         Dist(f, args) => match is_word(f) {

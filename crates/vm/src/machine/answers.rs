@@ -131,6 +131,12 @@ pub trait Answers<S: Scalar> {
     /// Whether they remember the choices of a run: a run that makes choices without end takes memory then.
     const LOGS: bool = false;
 
+    /// Whether they want to know the distributions of observations ([`Answers::observes`]).
+    const WATCHES: bool = false;
+
+    /// An observation of this distribution is met, or a held choice; before its score.
+    fn observes(&mut self, _: &At<'_, S>, _: &Dist<S>) {}
+
     /// The value of a random choice.
     ///
     /// # Errors

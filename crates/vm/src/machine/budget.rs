@@ -154,6 +154,9 @@ pub(super) const fn has_rows(family: Family) -> bool {
         Family::Categorical
             | Family::Dirichlet
             | Family::MultivariateGaussian
+            | Family::DiagonalGaussian
+            | Family::Multinomial
+            | Family::MultivariateBernoulli
             | Family::Mixture
             | Family::Delta
     )

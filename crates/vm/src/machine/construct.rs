@@ -57,7 +57,14 @@ impl<S: Scalar> Machine<'_, S> {
             Op::Closure { to, function, args } => {
                 gather!(args);
                 let captures = self.buffer.drain(..).collect();
-                (to, Value::Function(Arc::new(Closure { function: u32::from(function), captures })))
+                (
+                    to,
+                    Value::Function(Arc::new(Closure {
+                        function: u32::from(function),
+                        memo: None,
+                        captures,
+                    })),
+                )
             }
             Op::Dist { to, family, args } => {
                 gather!(args);

@@ -9,6 +9,7 @@
 //! in futures that it created may come later.
 
 use super::address::{ROOT, iteration_key, join};
+use super::memo::{identity, path_of};
 use crate::code::{FunctionId, Program, Site, SiteKind};
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -187,6 +188,14 @@ fn addresses(program: &Program, path: &str) -> Vec<Found> {
     let mut found = Vec::new();
     let root = Inside { path: ROOT, is_future: true };
     let mut fronts = vec![Front { inside: vec![root], function: Some(program.entry), rest: path }];
+    // Memoised functions of modules, which belong to no activation.
+    let sites = program.functions.iter().flat_map(|f| &f.sites);
+    let of_module = sites.flat_map(|site| match site.kind {
+        SiteKind::Memoise { of: Some(of) } => remembered(program, of, &site.label, &fronts[0]),
+        _ => vec![],
+    });
+    let of_module: Vec<Front<'_>> = of_module.collect();
+    fronts.extend(of_module);
     while let Some(front) = fronts.pop() {
         let functions = match &front.function {
             Some(id) => std::slice::from_ref(program.function(*id)),
@@ -196,6 +205,9 @@ fn addresses(program: &Program, path: &str) -> Vec<Found> {
             if matches!(site.kind, SiteKind::Sample(_)) && *site.label == *front.rest {
                 let address = join(front.path(), site.key);
                 found.push(Found { address, inside: front.inside.clone() });
+            }
+            if let SiteKind::Memoise { of: None } = site.kind {
+                fronts.extend(remembered(program, join(front.path(), site.key), &site.label, &front));
             }
             fronts.extend(below(site, &front));
         }
@@ -210,6 +222,19 @@ impl Front<'_> {
     fn path(&self) -> u128 {
         self.inside.last().map_or(ROOT, |inside| inside.path)
     }
+}
+
+/// Where the address goes on below a call of a memoised function, if that is its next component: `color(3)`. Which function
+/// was memoised at that place is not known.
+fn remembered<'a>(program: &Program, place: u128, label: &str, front: &Front<'a>) -> Vec<Front<'a>> {
+    let next = front.rest.strip_prefix(label).and_then(|text| text.split_once('/'));
+    let Some((text, rest)) = next.filter(|(text, _)| text.starts_with('(')) else { return vec![] };
+    let of = |function: FunctionId| {
+        // It lasts as long as somebody may ask for it; what is inside of it is met before it is left.
+        let own = Inside { path: path_of(identity(place, program, function), text), is_future: true };
+        Front { inside: vec![front.inside[0], own], function: Some(function), rest }
+    };
+    (0..program.functions.len()).map(|number| of(FunctionId(number as u32))).collect()
 }
 
 /// Where the address goes on below a site, if its next component is that of the site.

@@ -12,7 +12,8 @@
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
-//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
+//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops; `memo`:
+//!   memoised functions;
 //! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults of runs that are outside of the
 //!   model's support.
 
@@ -28,6 +29,7 @@ pub mod invalid;
 mod keep;
 pub mod kept;
 mod loops;
+mod memo;
 mod operate;
 mod parts;
 mod question;

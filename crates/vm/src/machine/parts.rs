@@ -69,6 +69,8 @@ impl<S: Scalar> State<S> {
             let n = &self.nodes[at.0 as usize];
             match self.parts.boxes.get(at.0 as usize) {
                 Some((path, part)) if *path == n.path && !part.is_empty() => return Some(part),
+                // Who asks first for a memoised call is no part of it.
+                _ if n.memo().is_some() => return None,
                 _ => at = n.parent,
             }
         }

@@ -178,6 +178,9 @@ impl<S: Scalar> Machine<'_, S> {
             && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
         {
             let log = log_density(dist, value)?;
+            if A::WATCHES {
+                answers.observes(&At { site, function: r.f, node, state, program }, dist);
+            }
             let answer = answers.held(&At { site, function: r.f, node, state, program }, dist, value, log)?;
             state.unmet.remove(number);
             state.registers[r.own + site.to.index()].store(value.clone());
@@ -253,7 +256,11 @@ impl<S: Scalar> Machine<'_, S> {
                 {
                     self.charge_rows(state, &Dropped, r, args, family)?;
                 }
+                let program = self.program;
                 let dist = self.dist(state, r, site, args, &mut owned)?;
+                if A::WATCHES {
+                    answers.observes(&At { site, function: r.f, node, state, program }, dist);
+                }
                 let log = log_density(dist, &value)?;
                 if site.is_read {
                     state.registers[r.own + site.to.index()].store(value);

@@ -5,7 +5,7 @@
 //! | --- | --- |
 //! | function, parent, site | whose activation this is, who called it and where |
 //! | registers | first of its registers in the state's register file |
-//! | iteration | of an iteration: which one |
+//! | iteration | of an iteration: which one; of a memoised call: its number, with a mark ([`Node::memo`]) |
 //! | pc | where a suspended activation continues |
 //! | slots | first of its slots, where activations are kept (`kept`) |
 //! | path | hash of the path of sites from the root |
@@ -15,6 +15,7 @@
 
 use super::address;
 use super::held::Numbers;
+use super::memo::Memos;
 use super::parts::Parts;
 use super::runnable::Runnable;
 use crate::code::{FunctionId, Mode, Program};
@@ -50,7 +51,7 @@ pub(crate) struct Node {
     /// Site in the parent's function; of the first node of a future: the future's number.
     pub site: u32,
     pub registers: u32,
-    /// Of an iteration: which one.
+    /// Of an iteration: which one. Of the activation of a memoised call: [`Node::memo`].
     pub iteration: u32,
     /// Of a suspended activation: where it continues. Of a kept iteration: how it ended.
     pub pc: u32,
@@ -60,6 +61,23 @@ pub(crate) struct Node {
     pub created: u32,
 }
 
+impl Node {
+    /// The mark of a memoised call in [`Node::iteration`].
+    const MEMO: u32 = 1 << 31;
+
+    /// Of the activation of a memoised call: its number, of its future or of its entry in a trace. Who called it first is
+    /// no part of its address.
+    #[inline(always)]
+    pub fn memo(&self) -> Option<u32> {
+        (self.iteration & Node::MEMO != 0).then_some(self.iteration & !Node::MEMO)
+    }
+
+    /// Marks it as the activation of a memoised call.
+    pub fn set_memo(&mut self, number: u32) {
+        self.iteration = Node::MEMO | number;
+    }
+}
+
 /// The state of a future.
 #[derive(Clone, Debug)]
 pub(crate) enum Status<S: Scalar> {
@@ -67,6 +85,8 @@ pub(crate) enum Status<S: Scalar> {
     Runnable(NodeId),
     /// It waits at this node for another future.
     Waiting(NodeId, FutureId),
+    /// Of a memoised call: it runs from this node as a part of the future that asked first.
+    Inside(NodeId),
     /// It has returned.
     Returned(Value<S>),
     /// Its number is free to be used again.
@@ -82,11 +102,13 @@ pub(crate) struct Future<S: Scalar> {
     pub next_waiter: FutureId,
     /// No value holds its handle: its number is free once it has returned.
     pub detached: bool,
+    /// Where it waits for a memoised call: the register of the result. Elsewhere `u32::MAX`.
+    pub receives: u32,
 }
 
 impl<S: Scalar> Future<S> {
     fn new(status: Status<S>, detached: bool) -> Self {
-        Future { status, waiter: FutureId::NONE, next_waiter: FutureId::NONE, detached }
+        Future { status, waiter: FutureId::NONE, next_waiter: FutureId::NONE, detached, receives: u32::MAX }
     }
 }
 
@@ -120,6 +142,8 @@ pub struct State<S: Scalar = f64> {
     pub(crate) origins: Option<HashMap<NodeId, String>>,
     /// What activations emitted last, where it is noted.
     pub(crate) parts: Parts,
+    /// The memoised calls.
+    pub(crate) memos: Memos,
 }
 
 impl<S: Scalar> Clone for State<S> {
@@ -150,6 +174,7 @@ impl<S: Scalar> Clone for State<S> {
         self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
         self.parts.clone_from(&source.parts);
+        self.memos.clone_from(&source.memos);
     }
 }
 
@@ -201,6 +226,7 @@ impl<S: Scalar> State<S> {
             unmet: Numbers::default(),
             origins: None,
             parts: Parts::default(),
+            memos: Memos::default(),
         }
     }
 
@@ -254,12 +280,13 @@ impl<S: Scalar> State<S> {
     /// one program with equal hashes differ only in the values that their activations hold.
     pub fn suspension_hash(&self) -> u128 {
         let word = |a: u32, b: u32| u128::from(a) << 32 | u128::from(b);
-        self.futures.iter().fold(self.futures.len() as u128, |hash, future| {
+        self.futures.iter().fold(self.memos.hash(self.futures.len() as u128), |hash, future| {
             let (kind, node, on) = match future.status {
                 Status::Runnable(node) => (1, Some(node), 0),
                 Status::Waiting(node, on) => (2, Some(node), on.0),
                 Status::Returned(_) => (3, None, 0),
                 Status::Free => (4, None, 0),
+                Status::Inside(node) => (5, Some(node), 0),
             };
             let at = node.map(|node| &self.nodes[node.0 as usize]);
             let hash = address::join(hash, at.map_or(0, |at| at.path));
@@ -290,6 +317,7 @@ impl<S: Scalar> State<S> {
         self.nodes.len() * size_of::<Node>()
             + self.registers.len() * size_of::<Value<S>>()
             + self.futures.len() * (size_of::<Future<S>>() + size_of::<FutureId>())
+            + self.memos.bytes()
     }
 
     /// Counts the values that the run holds.
@@ -376,7 +404,7 @@ impl<S: Scalar> State<S> {
 
     /// A new future.
     pub(crate) fn new_future(&mut self, status: Status<S>, detached: bool) -> FutureId {
-        if !matches!(status, Status::Returned(_)) {
+        if !matches!(status, Status::Returned(_) | Status::Inside(_)) {
             self.unreturned += 1;
         }
         let future = Future::new(status, detached);
@@ -397,12 +425,25 @@ impl<S: Scalar> State<S> {
     pub(crate) fn returned(&mut self, id: FutureId, value: Value<S>) {
         self.unreturned -= 1;
         self.runnable.remove(id);
+        self.settle(id, value);
+    }
+
+    /// A future or a memoised call has its value.
+    pub(super) fn settle(&mut self, id: FutureId, value: Value<S>) {
         let future = &mut self.futures[id.0 as usize];
-        let (mut waiter, detached) = (future.waiter, future.detached);
+        let (waiter, detached) = (std::mem::replace(&mut future.waiter, FutureId::NONE), future.detached);
+        if waiter != FutureId::NONE {
+            self.wake(waiter, &value);
+        }
+        let future = &mut self.futures[id.0 as usize];
         future.status = if detached { Status::Free } else { Status::Returned(value) };
         if detached {
             self.free_futures.push(id.0);
         }
+    }
+
+    /// Those that waited for this value can run: a list of futures, from the one that waited last.
+    fn wake(&mut self, mut waiter: FutureId, value: &Value<S>) {
         // In the order of their numbers, whichever waited first.
         let mut waiting = Vec::new();
         while waiter != FutureId::NONE {
@@ -414,6 +455,12 @@ impl<S: Scalar> State<S> {
             let future = &mut self.futures[waiter.0 as usize];
             if let Status::Waiting(node, _) = future.status {
                 future.status = Status::Runnable(node);
+                let receives = std::mem::replace(&mut future.receives, u32::MAX);
+                if receives != u32::MAX {
+                    // It waits at a call, which has its result now.
+                    self.registers[receives as usize].store(value.clone());
+                    self.nodes[node.0 as usize].pc += 1;
+                }
                 self.runnable.push(waiter);
             }
         }
@@ -453,6 +500,10 @@ impl<S: Scalar> State<S> {
         let mut at = node;
         while at != NodeId::NONE {
             let n = &self.nodes[at.0 as usize];
+            if n.memo().is_some() {
+                parts.extend(self.memos.name(n.path).map(str::to_string));
+                break;
+            }
             if n.parent == NodeId::NONE {
                 let origin = self.origins.as_ref().and_then(|origins| origins.get(&at));
                 parts.extend(origin.cloned());

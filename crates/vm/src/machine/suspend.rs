@@ -4,13 +4,15 @@ use super::address::join;
 use super::answers::{Answer, Answers, At};
 use super::budget;
 use super::keep::Dropped;
+use super::memo;
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
 use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
-use crate::value::{Value, index, iter_get, iter_len, ops};
+use crate::value::{Memo, Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
+use std::sync::Arc;
 
 /// Steps of an emission: a search takes about as long to add a primitive to its sketches.
 const EMISSION: u64 = 256;
@@ -27,6 +29,14 @@ pub(super) enum After {
     Pure { function: FunctionId, to: Operand, as_future: bool },
     /// The run stops here.
     Stop(Stop),
+}
+
+/// What a function value is.
+pub(super) struct Callee {
+    pub function: FunctionId,
+    pub pure: bool,
+    /// Which memoised function it is.
+    pub memo: Option<Arc<Memo>>,
 }
 
 impl<S: Scalar> Machine<'_, S> {
@@ -84,9 +94,12 @@ impl<S: Scalar> Machine<'_, S> {
             }
             SiteKind::Apply => {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
-                let (function, pure) = self.unwrap_callee()?;
+                let Callee { function, pure, memo } = self.unwrap_callee()?;
                 if pure {
                     return Ok(After::Pure { function, to: site.to, as_future: false });
+                }
+                if let Some(memo) = memo {
+                    return self.recall(state, future, r, (node, site_id, pc), site, function, &memo, None);
                 }
                 self.call(state, node, site_id, site, function, None)
             }
@@ -99,9 +112,22 @@ impl<S: Scalar> Machine<'_, S> {
             }
             SiteKind::FutureApply { detached } => {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
-                let (function, pure) = self.unwrap_callee()?;
+                let Callee { function, pure, memo } = self.unwrap_callee()?;
                 if pure {
                     return Ok(After::Pure { function, to: site.to, as_future: !detached });
+                }
+                if let Some(memo) = memo {
+                    let deferred = Some(*detached);
+                    return self.recall(
+                        state,
+                        future,
+                        r,
+                        (node, site_id, pc),
+                        site,
+                        function,
+                        &memo,
+                        deferred,
+                    );
                 }
                 self.call(state, node, site_id, site, function, Some(*detached))
             }
@@ -121,6 +147,11 @@ impl<S: Scalar> Machine<'_, S> {
                 state.nodes[node.0 as usize].pc = site.resumes_at(pc) as u32;
                 state.wait(future, node, FutureId(wanted));
                 Ok(After::Stop(Stop::Waiting))
+            }
+            SiteKind::Memoise { of } => {
+                let value = memo::memoised(state, program, node, site, *of, get!(0))?;
+                state.registers[r.own + site.to.index()].store(value);
+                Ok(After::Next)
             }
             SiteKind::Cell { .. } => {
                 let value = get!(0).clone();
@@ -174,7 +205,7 @@ impl<S: Scalar> Machine<'_, S> {
     }
 
     /// Takes the function value off the front of the buffer; adds its defaults and captures behind the arguments.
-    pub(super) fn unwrap_callee(&mut self) -> Result<(FunctionId, bool), Fault> {
+    pub(super) fn unwrap_callee(&mut self) -> Result<Callee, Fault> {
         let callee = self.buffer.remove(0);
         let Value::Function(closure) = &callee else {
             let found = callee.described();
@@ -198,7 +229,7 @@ impl<S: Scalar> Machine<'_, S> {
             });
         }
         self.buffer.extend(closure.captures.iter().cloned());
-        Ok((id, f.mode == Mode::Pure))
+        Ok(Callee { function: id, pure: f.mode == Mode::Pure, memo: closure.memo.clone() })
     }
 
     /// A call of a known function: its arguments go from register to register.
@@ -286,14 +317,17 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         value: Value<S>,
     ) -> Option<(NodeId, u32)> {
-        let (above, number) = {
+        let (above, number, memo) = {
             let n = &state.nodes[node.0 as usize];
-            (n.parent, n.site as usize)
+            (n.parent, n.site as usize, n.memo())
         };
         state.release(self.program, node);
         if above == NodeId::NONE {
             state.returned(future, value);
             return None;
+        }
+        if let Some(memo) = memo {
+            state.settle(FutureId(memo), value.clone());
         }
         let (function, own) = {
             let parent = &state.nodes[above.0 as usize];

@@ -121,7 +121,7 @@ impl Flows {
                             self.call(program, *function, 0, number, args);
                             self.flow(Spot::Returned(function.0), at(site.to));
                         }
-                        SiteKind::Force => self.flow(at(args[0]), at(site.to)),
+                        SiteKind::Force | SiteKind::Memoise { .. } => self.flow(at(args[0]), at(site.to)),
                         SiteKind::Sample(Source::Family(family)) => {
                             if *family == Family::VonMises {
                                 self.given.insert(at(site.to));

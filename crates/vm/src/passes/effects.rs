@@ -40,7 +40,7 @@ impl Effects {
         e.each(&mut |e| {
             suspends |= match &e.kind {
                 Sample(_) | Observe(..) | Factor(_) | Condition(_) | Query(..) | Emit(_) | Force(_) => true,
-                Future(..) | FutureApply(..) | Apply(..) => true,
+                Future(..) | FutureApply(..) | Apply(..) | Mem(..) => true,
                 Call(name, _) => self.function(name),
                 _ => false,
             };

@@ -167,7 +167,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                 if !self.definition(id).captures.is_empty() {
                     return Err(CompileError(format!("a closure of `{name}` without its captures")));
                 }
-                Value::Function(Arc::new(value::Closure { function: id.0, captures: vec![] }))
+                Value::Function(Arc::new(value::Closure { function: id.0, memo: None, captures: vec![] }))
             }
             Dist(family, args) => {
                 Value::Dist(Arc::new(make_dist(super::sites::family(family)?, &all(args)?)?))

@@ -7,7 +7,7 @@
 use super::CompileError;
 use super::emit::{Binding, Builder, Result};
 use crate::code::{Args, Op, Operand, Place, Site, SiteId, SiteKind, Source, Visible};
-use crate::core::{Expr, ExprKind, LOOK, Name, readable};
+use crate::core::{Expr, ExprKind, LOOK, Name, print, readable};
 use crate::machine::address;
 use niwaki_math::{Family, Scalar};
 
@@ -67,17 +67,28 @@ impl<S: Scalar> Builder<'_, '_, S> {
             Observe(d, v) => {
                 let (kind, what, mut operands) = self.distribution(d, false)?;
                 operands.push(self.expr(v)?);
-                self.add_site(
-                    kind,
-                    &Name::from(format!("observe {what}")),
-                    (&e.label, fixed("observe")),
-                    &operands,
-                )?
+                let what = Name::from(format!("observe {what}"));
+                let observed = self.add_site(kind, &what, (&e.label, fixed("observe")), &operands)?;
+                if let Some(site) = self.sites.last_mut() {
+                    site.subject = address::site_key(&print::expression(v), 0);
+                }
+                observed
             }
             Factor(x) => self.simple(SiteKind::Factor, "factor", &e.label, &[x])?,
             Condition(x) => self.simple(SiteKind::Condition, "condition", &e.label, &[x])?,
             Query(k, v) => self.simple(SiteKind::Query, "query", &e.label, &[k, v])?,
             Force(x) => self.simple(SiteKind::Force, "force", &e.label, &[x])?,
+            Mem(f, None) => {
+                let (operand, label) = (self.expr(f)?, target.as_deref().map_or("", readable));
+                let label = Name::from(if label.is_empty() { "mem" } else { label });
+                self.add_site(SiteKind::Memoise { of: None }, &fixed("mem"), (&e.label, label), &[operand])?
+            }
+            Mem(f, Some(name)) => {
+                let operand = self.expr(f)?;
+                let of = Some(address::join(address::ROOT, address::site_key(&format!("mem|{name}"), 0)));
+                let label = (&Some(name.clone()), name.clone());
+                self.add_site(SiteKind::Memoise { of }, name, label, &[operand])?
+            }
             Emit(items) => {
                 self.simple(SiteKind::Emit, "emit", &e.label, &items.iter().collect::<Vec<_>>())?
             }
@@ -222,6 +233,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             again: 0,
             is_angle: false,
             visible: (from, self.scope.len() as u32),
+            subject: 0,
         });
         self.op(Op::Site { site: crate::code::SiteId((self.sites.len() - 1) as u16) });
         Ok(to)

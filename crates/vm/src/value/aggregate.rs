@@ -156,12 +156,30 @@ impl<S: Scalar> Drop for Record<S> {
     }
 }
 
+/// Which memoised function a function value is: it has one activation for each value of its arguments in a run.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Memo {
+    /// The address of the place where it was made.
+    pub path: u128,
+    /// Its readable address.
+    pub name: String,
+}
+
 /// A function value: the number of its code and what it captured.
 pub struct Closure<S: Scalar = f64> {
     /// Number of the function in the program.
     pub function: u32,
+    /// Of a memoised function: which one it is.
+    pub memo: Option<Arc<Memo>>,
     /// Captured values, in the order of the function's captures.
     pub captures: Vec<Value<S>>,
+}
+
+impl<S: Scalar> Closure<S> {
+    /// Bytes of its identity, where it is a memoised function.
+    pub(super) fn memo_bytes(&self) -> usize {
+        self.memo.as_ref().map_or(0, |memo| size_of::<Memo>() + memo.name.len())
+    }
 }
 
 impl<S: Scalar> Drop for Closure<S> {

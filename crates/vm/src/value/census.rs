@@ -177,7 +177,9 @@ impl<S: Scalar> Value<S> {
             Value::List(list) => super::list::bytes_of::<S>(list.len()),
             Value::Dict(dict) => shared::<super::Dict<S>>() + dict.len() * 48,
             Value::Record(record) => shared::<super::Record<S>>() + items(record.fields.len()),
-            Value::Function(closure) => shared::<super::Closure<S>>() + items(closure.captures.len()),
+            Value::Function(closure) => {
+                shared::<super::Closure<S>>() + items(closure.captures.len()) + closure.memo_bytes()
+            }
             Value::Range(_) => shared::<super::Range>(),
             Value::Vector(_) => shared::<super::Vector<S>>(),
             Value::Rotation(_) => shared::<[S; 9]>(),

@@ -195,7 +195,7 @@ impl<'a, S: Scalar> Sides<'a, S> {
     fn of(a: &'a Value<S>, b: &'a Value<S>) -> Option<Sides<'a, S>> {
         match (a, b) {
             (Value::Dict(a), Value::Dict(b)) => (a.len() == b.len()).then_some(Sides::ByKey(a, b)),
-            (Value::Function(f), Value::Function(g)) if f.function != g.function => None,
+            (Value::Function(f), Value::Function(g)) if f.function != g.function || f.memo != g.memo => None,
             _ => Some(Sides::InOrder(Items::of(a)?, Items::of(b)?)),
         }
     }

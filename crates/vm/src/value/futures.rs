@@ -62,6 +62,27 @@ impl<S: Scalar> Value<S> {
         Ok(())
     }
 
+    /// A memoised function belongs to one run: it cannot be given to what runs outside of it.
+    ///
+    /// # Errors
+    /// The value is one, or holds one.
+    pub fn refuse_memoised(&self) -> Result<(), Fault> {
+        let mut work = if self.holds_values() { vec![self.clone()] } else { vec![] };
+        while let Some(value) = work.pop() {
+            if let Value::Function(closure) = &value
+                && let Some(memo) = &closure.memo
+            {
+                let message = format!(
+                    "the memoised function `{}` belongs to the run around, and is given away",
+                    memo.name
+                );
+                return Err(Fault::new("memo-outside", message));
+            }
+            work.extend(parts(&value));
+        }
+        Ok(())
+    }
+
     /// The value with each future that has returned, or that `known` has a value for, replaced by its value, at any
     /// depth. What holds no such handle stays the same in memory, so that identity keeps its short-cuts.
     pub fn replace_futures(&self, known: &dyn Fn(u32) -> Option<Value<S>>) -> Value<S> {
@@ -146,7 +167,9 @@ fn rebuild<S: Scalar>(like: &Value<S>, parts: Vec<Value<S>>) -> Value<S> {
         Value::List(_) => Value::List(List::from_vec(parts)),
         Value::Record(r) => Value::Record(Arc::new(Record { class: r.class.clone(), fields: parts })),
         Value::Dict(d) => Value::Dict(Arc::new(Dict::new(d.keys().iter().cloned().zip(parts).collect()))),
-        Value::Function(f) => Value::Function(Arc::new(Closure { function: f.function, captures: parts })),
+        Value::Function(f) => {
+            Value::Function(Arc::new(Closure { function: f.function, memo: f.memo.clone(), captures: parts }))
+        }
         other => other.clone(),
     }
 }

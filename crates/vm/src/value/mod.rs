@@ -24,7 +24,7 @@ pub mod text;
 
 use std::sync::Arc;
 
-pub use aggregate::{Class, ClassKind, Closure, Dict, Range, Record, Tuple, Vector};
+pub use aggregate::{Class, ClassKind, Closure, Dict, Memo, Range, Record, Tuple, Vector};
 pub use census::Census;
 pub use compare::{equal, hash, order};
 pub use index::{iter_get, iter_len};

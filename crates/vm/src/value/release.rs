@@ -89,7 +89,9 @@ mod tests {
         drop(chain(|inner| Value::tuple(vec![Value::Int(0), inner])));
         drop(chain(Value::returned));
         drop(chain(|inner| Value::list(vec![inner])));
-        drop(chain(|inner| Value::Function(Arc::new(Closure { function: 0, captures: vec![inner] }))));
+        drop(chain(|inner| {
+            Value::Function(Arc::new(Closure { function: 0, memo: None, captures: vec![inner] }))
+        }));
         drop(chain(|inner| Value::Dict(Arc::new(Dict::new(vec![(Value::Int(1), inner)])))));
     }
 

@@ -122,7 +122,9 @@ fn glance_behind<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Glance {
             look_if(Arc::ptr_eq(a, b), a.class.id == b.class.id && a.fields.len() == b.fields.len())
         }
         (Value::Function(a), Value::Function(b)) => {
-            look_if(Arc::ptr_eq(a, b), a.function == b.function && a.captures.len() == b.captures.len())
+            let memo = |f: &super::Closure<S>| f.memo.as_ref().map(|memo| memo.path);
+            let alike = a.function == b.function && a.captures.len() == b.captures.len();
+            look_if(Arc::ptr_eq(a, b), alike && memo(a) == memo(b))
         }
         _ => Glance::Different,
     }
@@ -207,7 +209,7 @@ mod tests {
     fn aggregates_are_compared_inside() {
         let deep = |x: f64| {
             let list = Value::list((0..100).map(|i| Value::real(i as f64 * x)).collect());
-            let closure = Closure { function: 3, captures: vec![list, Value::str("k")] };
+            let closure = Closure { function: 3, memo: None, captures: vec![list, Value::str("k")] };
             Value::<f64>::tuple(vec![Value::Int(1), Value::Function(Arc::new(closure))])
         };
         assert!(same(&deep(1.0), &deep(1.0)));

@@ -345,4 +345,60 @@ pub const PROGRAMS: &[(&str, &str)] = &[
               (do (call "f" (gt $x 0.0) $s $n))))
             (return (tuple $s $x))) (entry "m"))"#,
     ),
+    (
+        "memoised coins that are asked for from several places, by choices",
+        r#"(module
+          (fn "coin" (params $i)
+            (set $x (sample (dist bernoulli 0.4))) (do (factor (cond $x 0.3 -0.2))) (return $x))
+          (fn "ask" (params $i) (return (apply (mem (closure "coin") "coin") $i)))
+          (fn "m" (params) (set $n 0)
+            (for $k (range 5) (body
+              (set $i (sample (dist categorical (list 0.5 0.3 0.2))))
+              (if (call "ask" $i) (then (set $n (add $n 1)))
+                (else (do (observe (dist bernoulli 0.3) (call "ask" 0)))))))
+            (return $n)) (entry "m"))"#,
+    ),
+    (
+        "a memoised walk that calls itself",
+        r#"(module
+          (fn "walk" (params $n)
+            (if (le $n 0) (then (return 0.0)))
+            (set $before (apply (mem (closure "walk") "walk") (sub $n 1)))
+            (return (sample (dist gaussian $before 1.0))))
+          (fn "m" (params)
+            (set $w (mem (closure "walk") "walk"))
+            (set $k (sample (dist poisson 2.0)))
+            (set $a (apply $w $k))
+            (set $j (sample (dist discrete_uniform 0 3)))
+            (do (observe (dist gaussian (apply $w $j) 1.0) 0.5))
+            (do (query "a" $a))
+            (if (gt $a 0.5) (then (return (apply $w (add $j 1)))))
+            (return $a)) (entry "m"))"#,
+    ),
+    (
+        "memoised closures of choices",
+        r#"(module
+          (fn "mean" (params $i) (captures $mu $sd)
+            (set $x (sample (dist gaussian $mu $sd))) (return (add $x $i)))
+          (fn "group" (params $f $i)
+            (set $y (apply $f $i)) (do (observe (dist gaussian $y 1.0) (mul 0.5 $i))) (return $y))
+          (fn "m" (params)
+            (set $mu (sample (dist gaussian 0.0 2.0)))
+            (set $f (mem (closure "mean" $mu 1.0)))
+            (set $s 0.0)
+            (for $i (range 4) (body
+              (set $z (sample (dist categorical (list 1.0 1.0 2.0))))
+              (set $s (add $s (call "group" $f $z)))))
+            (set $c (sample (dist bernoulli 0.5)))
+            (if $c (then (set $s (add $s (force (future_apply $f 1))))))
+            (set $sd (sample (dist uniform 0.5 2.0)))
+            (for $j (range 2) (body
+              (set $g (mem (cond (sample (dist bernoulli 0.7)) (closure "deep" $f $sd) (closure "mean" $mu $sd))))
+              (set $s (add $s (apply $g (cond $c 0 $j))))
+              (set $s (mul $s (apply $g 0)))))
+            (return $s))
+          (fn "deep" (params $i) (captures $f $sd)
+            (return (add (sample (dist gaussian 0.0 $sd)) (apply $f (mul 2 $i)))))
+          (entry "m"))"#,
+    ),
 ];

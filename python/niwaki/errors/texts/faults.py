@@ -26,6 +26,51 @@ FAULTS = (
         cure="f = future(part)\nif force(f):\n    ...",
     ),
     Message(
+        "memo-argument",
+        "a value cannot be an argument of a memoised function",
+        "called with it here",
+        why="calls with equal arguments are one call, so it must be known whether two arguments are equal",
+        help="give it numbers, truths, strings, `None`, or tuples and lists of them; of a record, its fields",
+        example="height = mem(tree)\nheight(lambda: 3)",
+        cure="height = mem(tree)\nheight(3)",
+    ),
+    Message(
+        "memo-argument-varies",
+        "an argument of a memoised function depends on a choice that a method moves along its gradient",
+        "called with it here",
+        why="calls with different arguments have different choices: a small step of the argument would exchange all of them, so there "
+        "is no gradient",
+        help="use a method without gradients (`mh`, `smc`), or compute the argument from other choices",
+        example="x = gaussian(0, 1)\nnoise(x)",
+        cure="x = gaussian(0, 1)\nnoise(round(3.7))",
+    ),
+    Message(
+        "memo-cycle",
+        "a memoised call needs its own value",
+        "asks for the value that is being computed",
+        help="let it call itself only with other arguments, which end",
+        example="@mem\ndef f(n):\n    return f(n) + 1",
+        cure="@mem\ndef f(n):\n    return f(n - 1) + 1 if n > 0 else 0",
+    ),
+    Message(
+        "memo-outside",
+        "a memoised function is given to an `infer`",
+        "given away here",
+        why="its calls belong to the run around; the inner search has runs of its own, which would draw other values",
+        help="call it before, and give its value; a function of a module that is marked with `@mem` can be called in the inner model, and "
+        "has other values in each of its runs",
+        example="color = mem(paint)\ninfer(inner, method, color)",
+        cure="color = mem(paint)\ninfer(inner, method, color(3))",
+    ),
+    Message(
+        "memo-regrow",
+        "the parts of a model with memoised functions cannot be grown again",
+        why="a part is grown again apart from the rest, but calls of memoised functions are shared by all parts",
+        help="use other kernels: `prior`, `drift`, `regenerate`, `block`; or functions that are not memoised",
+        example="mh(100, kernel=kernels.regrow(particles=8))",
+        cure="mh(100, kernel=kernels.regenerate())",
+    ),
+    Message(
         "missing-key",
         "a dict has no such key",
         "no such key",
@@ -210,6 +255,9 @@ FAULTS = (
             "| `truncated_gaussian` | sd above 0, lo below hi |\n"
             "| `dirichlet` | all concentrations above 0, at most 1e300 together |\n"
             "| `multivariate_gaussian` | covariance symmetric and positive definite, of the size of the mean |\n"
+            "| `diagonal_gaussian` | every sd above 0, as many as means |\n"
+            "| `multinomial` | n an integer, 0 or more; weights as of `categorical` |\n"
+            "| `multivariate_bernoulli` | every p from 0 to 1 |\n"
             "| `mixture` | weights as of `categorical`, one for each component |\n"
             "| `delta` | any value |"
         ),

@@ -455,7 +455,7 @@ LANGUAGE = (
         "decorated",
         "a nested function cannot have a decorator",
         "wraps `{name}` in something that the compiler cannot see",
-        help="define `{name}` without it, or at the top of the file with `@model`",
+        help="define `{name}` without it, or at the top of the file with `@model`; `f = mem({name})` memoises it",
         example="@model\ndef m():\n    @model\n    def part():\n        return 1\n    return part()\n",
         cure="@model\ndef m():\n    def part():\n        return 1\n    return part()\n",
     ),

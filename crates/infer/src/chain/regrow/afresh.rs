@@ -42,6 +42,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
         return Err(fault.into());
     }
     let (program, streams) = (&*task.program, Streams::new(with.seed, 0));
+    super::refuse_memoised(program)?;
     let (state, spreads) = State::start(task, streams, 1, Some(known))?;
     let outside = |part: &HashMap<u128, Value>| -> HashMap<u128, Value> {
         state.choices(program).filter(|(address, _)| !part.contains_key(address)).collect()

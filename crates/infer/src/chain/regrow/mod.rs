@@ -165,11 +165,24 @@ impl Contents {
     }
 }
 
+/// Calls of memoised functions are shared by the parts of a run, so none of these can be run apart.
+///
+/// # Errors
+/// The program has memoised functions.
+fn refuse_memoised(program: &Program) -> Result<(), Failure> {
+    if !program.memoises() {
+        return Ok(());
+    }
+    let what = "the parts of a model with memoised functions cannot be grown again";
+    Err(Fault::new("memo-regrow", what).into())
+}
+
 impl ChainMove for Regrow {
     fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
         let (own, visit, program) = (&*self, chain.visit, &*task.program);
         chain.visit += 1;
+        refuse_memoised(program)?;
         let mut rng = chain.streams.decisions(visit);
         let trace = &chain.state.trace;
         let is_selected = |choice: usize| table.is_none_or(|t| chain.tables[t].weight(choice) > 0);

@@ -116,7 +116,9 @@ impl<S: Scalar> Trace<S> {
                         calls += 1;
                         cached += usize::from(self.kept.sites.is_on(n.function, i as u32));
                     }
-                    work.push(NodeId(held));
+                    if self.kept.shared(&self.state, self.kept.slots[n.slots as usize + i]).is_none() {
+                        work.push(NodeId(held));
+                    }
                 }
             }
         }

@@ -5,8 +5,8 @@ use super::super::address::join;
 use super::super::keep::Onward;
 use super::super::question::Halt;
 use super::super::registers::Registers;
-use super::super::state::{NodeId, State};
-use super::super::suspend::After;
+use super::super::state::{Node, NodeId, State};
+use super::super::suspend::{After, Callee};
 use super::slices::Entry;
 use super::{Kept, Slot, Step};
 use crate::code::{FunctionId, Mode, Program, Site, SiteId, SiteKind};
@@ -79,14 +79,18 @@ impl<S: Scalar> Kept<S> {
         site: &Site,
     ) -> Result<After, Halt> {
         r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
-        let (function, pure) = machine.unwrap_callee()?;
+        let Callee { function, pure, memo } = machine.unwrap_callee()?;
         if pure {
             self.vacate(machine.program, state, node, number.0);
             return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
+        if let Some(memo) = memo {
+            return self.recall(machine, state, r, (node, number), site, function, &memo);
+        }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
-        if held != Slot::NOTHING && state.nodes[held as usize].function == function {
+        let own = |n: &Node| n.function == function && n.memo().is_none();
+        if held != Slot::NOTHING && own(&state.nodes[held as usize]) {
             let to = state.nodes[held as usize].registers as usize;
             let mut changed = Entry::Unchanged;
             let inputs = &machine.program.function(function).inputs;
@@ -141,7 +145,7 @@ impl<S: Scalar> Kept<S> {
     }
 
     #[inline]
-    fn enter_call(&mut self, child: NodeId, at: u32) -> After {
+    pub(super) fn enter_call(&mut self, child: NodeId, at: u32) -> After {
         self.leaves_its_activation();
         self.depth += 1;
         self.returns.push(self.pc + 1);
@@ -159,10 +163,15 @@ impl<S: Scalar> Kept<S> {
         value: Value<S>,
     ) -> Onward {
         self.note(Step::Unwound(node));
-        let (parent, number) = {
+        let (parent, number, memo) = {
             let n = &state.nodes[node.0 as usize];
-            (n.parent, n.site as usize)
+            (n.parent, n.site as usize, n.memo())
         };
+        if let Some(memo) = memo
+            && !self.settle(memo, &value)
+        {
+            return Onward::END;
+        }
         if parent == NodeId::NONE {
             if !same(&value, &self.result) {
                 let old = std::mem::replace(&mut self.result, value);
@@ -202,7 +211,10 @@ impl<S: Scalar> Kept<S> {
         }
         let kind = &program.function(state.nodes[node.0 as usize].function).sites[site as usize].kind;
         match kind {
-            kind if kind.makes_activation() => self.remove(program, state, NodeId(slot.held)),
+            kind if kind.makes_activation() => match self.shared(state, slot) {
+                Some(number) => self.memos.leave(number, (node.0, site)),
+                None => self.remove(program, state, NodeId(slot.held)),
+            },
             SiteKind::Read => return self.withdraw(kind, at, node, site),
             _ => self.withdraw(kind, at, node, site),
         }
@@ -232,7 +244,10 @@ impl<S: Scalar> Kept<S> {
                     continue;
                 }
                 if site.kind.makes_activation() {
-                    self.journal.removed.push(NodeId(slot.held));
+                    match self.shared(state, slot) {
+                        Some(number) => self.memos.leave(number, (id.0, i as u16)),
+                        None => self.journal.removed.push(NodeId(slot.held)),
+                    }
                 } else {
                     self.withdraw(&site.kind, at, id, i as u16);
                 }

@@ -34,21 +34,22 @@ impl<S: Scalar> Trace<S> {
         Family::ALL.iter().copied().find(|family| *family as u32 == mark)
     }
 
-    /// The activation that is `levels` calls or iterations above a choice's own (0: its own; at most the root).
+    /// The activation that is `levels` calls or iterations above a choice's own (0: its own; at most the root, or the
+    /// memoised call that it belongs to).
     pub fn activation(&self, choice: usize, levels: usize) -> NodeId {
         let mut node = self.kept.choices[choice].node;
         for _ in 0..levels {
-            let parent = self.state.nodes[node.0 as usize].parent;
-            if parent == NodeId::NONE {
+            let n = &self.state.nodes[node.0 as usize];
+            if n.parent == NodeId::NONE || n.memo().is_some() {
                 break;
             }
-            node = parent;
+            node = n.parent;
         }
         node
     }
 
     /// Visits the choices at and below an activation, in no order: each with its place, its number (`None` where the
-    /// open transaction added it) and how many levels it is below.
+    /// open transaction added it) and how many levels it is below. Memoised calls that are asked for are not below.
     pub fn below(
         &self,
         program: &Program<S>,
@@ -67,7 +68,11 @@ impl<S: Scalar> Trace<S> {
                 let slot = self.kept.slots[n.slots as usize + i];
                 match &site.kind {
                     _ if !slot.is_filled() => {}
-                    kind if kind.makes_activation() => work.push((NodeId(slot.held), level + 1)),
+                    kind if kind.makes_activation() => {
+                        if self.kept.shared(&self.state, slot).is_none() {
+                            work.push((NodeId(slot.held), level + 1));
+                        }
+                    }
                     SiteKind::Sample(_) if !slot.is_held() => {
                         let number = (slot.held & Slot::BORN == 0).then_some(slot.held as usize);
                         each(self.place_at(program, node, i as u16), number, level);

@@ -7,6 +7,7 @@ use crate::code::{Function, Mode, Program, Site, SiteKind};
 use crate::value::Value;
 use niwaki_geom::{Aabb, Primitive};
 use niwaki_math::Scalar;
+use std::collections::HashSet;
 
 /// One thing that a trace holds.
 pub enum Item<'a, S: Scalar> {
@@ -70,13 +71,18 @@ pub struct Activation {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// The activations in program order, callers first. A loop is not an activation, its iterations are.
+    /// The activations in program order, callers first. A loop is not an activation, its iterations are. A memoised call is
+    /// listed at its first caller.
     pub fn outline(&self, program: &Program<S>) -> Vec<Activation> {
         let mut activations = Vec::new();
         let mut work = vec![(NodeId(0), 0, 0usize)];
+        let mut seen = HashSet::new();
         while let Some((node, parent, depth)) = work.pop() {
             let n = &self.state.nodes[node.0 as usize];
             let f = program.function(n.function);
+            if n.memo().is_some_and(|number| !seen.insert(number)) {
+                continue;
+            }
             if f.mode == Mode::Loop {
                 let children = &self.kept.loops[n.slots as usize];
                 work.extend(children.iter().rev().map(|child| (*child, parent, depth)));
@@ -100,7 +106,7 @@ impl<S: Scalar> Trace<S> {
     pub fn is_below(&self, node: NodeId, above: NodeId) -> bool {
         let mut at = node;
         while at != NodeId::NONE && at != above {
-            at = self.state.nodes[at.0 as usize].parent;
+            at = self.state.above(at);
         }
         at == above && node != above
     }
@@ -111,13 +117,18 @@ impl<S: Scalar> Trace<S> {
         (program.function(n.function).mode != Mode::Loop).then_some(n.path)
     }
 
-    /// Visits everything that the trace holds, in program order.
+    /// Visits everything that the trace holds, in program order; a memoised call at its first caller.
     pub fn visit(&self, program: &Program<S>, mut each: impl FnMut(Place<'_, S>, Item<'_, S>)) {
         // What is still to be visited, the next last: a node from one of its sites on, or a whole activation.
         let mut work = vec![(NodeId(0), 0usize)];
+        let mut seen = HashSet::new();
         while let Some((node, from)) = work.pop() {
             let n = &self.state.nodes[node.0 as usize];
             let f = program.function(n.function);
+            let memo = n.memo().filter(|_| from == 0);
+            if memo.is_some_and(|number| !seen.insert(number)) {
+                continue;
+            }
             if f.mode == Mode::Loop {
                 let children = &self.kept.loops[n.slots as usize];
                 work.extend(children.iter().rev().map(|child| (*child, 0)));
@@ -169,7 +180,8 @@ impl<S: Scalar> Trace<S> {
                             Item::Query(value(key), &self.kept.resolved(&self.state, value(written))),
                         );
                     }
-                    SiteKind::Force | SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => {}
+                    SiteKind::Force | SiteKind::Memoise { .. } => {}
+                    SiteKind::Cell { .. } | SiteKind::Append { .. } | SiteKind::Read => {}
                 }
             }
         }
@@ -194,7 +206,7 @@ impl<S: Scalar> Trace<S> {
                 return Some(part);
             }
             let n = &self.state.nodes[node.0 as usize];
-            if n.parent == NodeId::NONE {
+            if n.parent == NodeId::NONE || n.memo().is_some() {
                 return None;
             }
             let parent = &self.state.nodes[n.parent.0 as usize];
@@ -284,7 +296,7 @@ impl<S: Scalar> Trace<S> {
         while at != NodeId::NONE {
             let n = &self.state.nodes[at.0 as usize];
             depth += usize::from(program.function(n.function).mode == Mode::Node);
-            at = n.parent;
+            at = self.state.above(at);
         }
         depth - 1
     }

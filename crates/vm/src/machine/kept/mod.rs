@@ -9,6 +9,7 @@
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, created and removed; `adapt`: calls where reuse does not
 //!   pay;
+//! * `memo`: memoised calls, which have several callers;
 //! * `slices`: activations that are entered for one change only, and run no more than what depends on it;
 //! * `cells`: elements of collections, and their readers;
 //! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
@@ -30,6 +31,7 @@ mod changes;
 pub mod inspect;
 mod journal;
 mod loops;
+mod memo;
 pub mod part;
 mod questions;
 mod scene;
@@ -54,6 +56,7 @@ use crate::value::{Census, Value, same};
 use adapt::Sites;
 use cells::{Reader, Readers};
 use journal::{Journal, MOVING};
+use memo::Memos;
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
 use slices::Entry;
@@ -185,6 +188,7 @@ pub(crate) struct Kept<S: Scalar> {
     /// The readers of each cell.
     pub readers: Vec<Readers>,
     pub free_readers: Vec<u32>,
+    pub memos: Memos<S>,
     pub sites: Sites,
     pub result: Value<S>,
     /// How often each held choice is in the trace, and how many of them are not.
@@ -246,6 +250,7 @@ impl<S: Scalar> Kept<S> {
             free_emits: vec![],
             readers: vec![],
             free_readers: vec![],
+            memos: Memos::default(),
             sites: Sites::new(program, Some(Adaptation::default())),
             result: Value::None,
             met: vec![],
@@ -362,6 +367,7 @@ impl<S: Scalar> Kept<S> {
             + self.emits.len() * (size_of::<Option<Primitive>>() + 16)
             + self.readers.iter().map(Readers::bytes).sum::<usize>()
             + self.marks.len() * size_of::<u32>()
+            + self.memos.bytes()
     }
 
     /// Releases a node, its slots empty.
@@ -406,6 +412,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         self.result_before.iter().for_each(|value| census.add(value));
         journal.registers.iter().for_each(|(_, value)| census.add(value));
         journal.anew.iter().for_each(|(_, value)| census.add(value));
+        self.memos.values().for_each(|value| census.add(value));
         let primitives = self.emits.iter().flatten();
         primitives.flat_map(|primitive| primitive.shapes()).for_each(|shape| census.add_shape(shape));
         census.add_bytes(self.own_bytes() + journal.bytes());

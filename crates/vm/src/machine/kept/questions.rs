@@ -4,6 +4,7 @@ use super::super::Machine;
 use super::super::address::join;
 use super::super::answers::{Answer, Answers, At};
 use super::super::budget;
+use super::super::memo::memoised;
 use super::super::question::{Halt, as_real};
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State, make_room};
@@ -11,6 +12,7 @@ use super::super::suspend::After;
 use super::cells::Reader;
 use super::journal::Birth;
 use super::{ChoiceAt, Kept, Slot};
+use crate::builtins::value_to_draw;
 use crate::code::{Args, Operand, Site, SiteId, SiteKind, Source};
 use crate::fault::Fault;
 use crate::value::{Value, ops, same};
@@ -20,12 +22,19 @@ use niwaki_math::{Dist, Family, Scalar, grid};
 pub(super) use super::super::question::log_density;
 
 /// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
-/// and the one value of a delta is drawn again.
+/// counts the right sum, and the one value of a delta is drawn again.
 #[inline]
 pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
     match value {
         Value::Real(_) | Value::Int(_) | Value::Bool(_) => !matches!(dist, Dist::Delta(_)),
-        other => dist.dimension().is_none_or(|n| crate::value::iter_len(other).is_ok_and(|len| len == n)),
+        // Counts of another number of trials are never values: kept, they would hold that number for ever.
+        other => match dist {
+            Dist::Multinomial(m) => {
+                let counts = value_to_draw(other).and_then(|draw| draw.as_counts());
+                counts.is_some_and(|all| all.len() == m.len() && all.iter().sum::<i64>() == m.n)
+            }
+            _ => dist.dimension().is_none_or(|n| crate::value::iter_len(other).is_ok_and(|len| len == n)),
+        },
     }
 }
 
@@ -123,6 +132,12 @@ impl<S: Scalar> Kept<S> {
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
                 }
+                Ok(After::Next)
+            }
+            SiteKind::Memoise { of } => {
+                let function = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]);
+                let value = memoised(state, machine.program, node, site, *of, function)?;
+                self.write_to(state, self.quiet, r.own + site.to.index(), value);
                 Ok(After::Next)
             }
             SiteKind::Cell { content } => {

@@ -10,7 +10,7 @@ use niwaki_math::Scalar;
 impl<S: Scalar> Trace<S> {
     /// Numbers of the primitives that a choice can be said to lead to, in ascending order: those of its activation and of
     /// all below it, without those that the activation itself emitted before the choice. Of an iteration of a loop, those
-    /// after it are below it, as in the recursion that the loop could be.
+    /// after it are below it, as in the recursion that the loop could be. Memoised calls that are asked for are not below.
     pub fn emits_below(&self, program: &Program<S>, choice: usize) -> Vec<u32> {
         let ChoiceAt { node, site } = self.kept.choices[choice];
         self.emits_from(program, node, site as usize, true)
@@ -42,7 +42,9 @@ impl<S: Scalar> Trace<S> {
                     _ if !slot.is_filled() => {}
                     SiteKind::Emit if node == own && i < site => {}
                     SiteKind::Emit => numbers.push(slot.held),
-                    kind if kind.makes_activation() => work.push(NodeId(slot.held)),
+                    kind if kind.makes_activation() && self.kept.shared(&self.state, slot).is_none() => {
+                        work.push(NodeId(slot.held));
+                    }
                     _ => {}
                 }
             }

@@ -81,6 +81,7 @@ impl<S: Scalar> Kept<S> {
         self.woken.clear();
         self.taken = 0;
         (self.confined, self.tangled) = (false, false);
+        self.memos.prepare();
     }
 
     /// Log densities of the proposal itself: of the changes, and of their reverse.
@@ -181,6 +182,7 @@ impl<S: Scalar> Trace<S> {
         while let Some(id) = kept.journal.removed.pop() {
             kept.release(program, state, id);
         }
+        kept.memos.commit();
         while let Some(number) = kept.journal.retracted.pop() {
             kept.emits[number as usize] = None;
             kept.free_emits.push(number);
@@ -222,6 +224,7 @@ impl<S: Scalar> Trace<S> {
             children.truncate(cut.len as usize);
             children.extend(cut.removed);
         }
+        kept.memos.undo(state);
         while let Some(id) = kept.journal.created.pop() {
             kept.release(program, state, id);
         }
@@ -292,7 +295,12 @@ impl<S: Scalar> Machine<'_, S> {
         if same(&proposed.value, &state.registers[place]) {
             return Ok(Change::Same);
         }
-        kept.prepare(strategy);
+        let at_choice = strategy.starts_at_choice() && !kept.is_remembered(state, node);
+        kept.prepare(match strategy {
+            _ if at_choice => strategy,
+            _ if strategy.reuses() => Strategy::Cache,
+            _ => Strategy::Rerun,
+        });
         kept.changed.push((at as u32, proposed.forward, proposed.backward));
         kept.slots[at].mark |= Slot::CHANGED;
         let value = proposed.value;
@@ -301,7 +309,7 @@ impl<S: Scalar> Machine<'_, S> {
         if kept.outside {
             return Ok(Change::Impossible);
         }
-        if strategy.starts_at_choice() {
+        if at_choice {
             kept.set_log(false, at, log, true);
             let next = if strategy == Strategy::C3 { site.again } else { site.next } as usize;
             let change = self.run_kept(trace, node, next, answers);
@@ -388,23 +396,36 @@ impl<S: Scalar> Machine<'_, S> {
         let stop = self.interpret(state, kept, super::super::state::FutureId(0), (node, pc), answers);
         match stop.and_then(|stop| self.take_steps(state.steps).map(|()| stop)) {
             Ok(Stop::Impossible) => Ok(Change::Impossible),
-            Ok(_) => Ok(Change::Done),
+            Ok(_) => {
+                if !trace.kept.tangled {
+                    trace.kept.remove_unread(self.program, &mut trace.state);
+                }
+                Ok(Change::Done)
+            }
             Err(fault) => Err(Box::new(self.report(state, fault))),
         }
     }
 }
 
 impl<S: Scalar> Kept<S> {
-    /// Marks a node and those above it: a run from the root must enter them.
+    /// Marks a node and those above it: a run from the root must enter them. Above a memoised call are all its readers.
     pub(super) fn mark_above(&mut self, state: &super::State<S>, node: NodeId) {
         self.marking = true;
         if self.marks.len() < state.nodes.len() {
             self.marks.resize(state.nodes.len(), 0);
         }
-        let mut at = node;
-        while at != NodeId::NONE && self.marks[at.0 as usize] != self.now {
-            self.marks[at.0 as usize] = self.now;
-            at = state.nodes[at.0 as usize].parent;
+        let (mut work, mut next) = (Vec::new(), Some(node));
+        while let Some(mut at) = next {
+            while at != NodeId::NONE && self.marks[at.0 as usize] != self.now {
+                self.marks[at.0 as usize] = self.now;
+                let n = &state.nodes[at.0 as usize];
+                if let Some(number) = n.memo() {
+                    work.extend(self.memos.readers(number));
+                    break;
+                }
+                at = n.parent;
+            }
+            next = work.pop();
         }
     }
 }

@@ -1,0 +1,264 @@
+//! Memoised functions: one activation for each value of the arguments in a run, whoever asks.
+//!
+//! A function value that `mem` gave has an identity ([`Memo`]): the address of the place where it was made, and the function. The address of
+//! a call is made of that identity and of the text of the arguments, `color(3)`, so it is the same in every order of running, and
+//! its choices have the same random numbers, whoever asks first. The first who asks runs the call as a part of its own future; those who ask
+//! while it runs wait for it as for a future; everybody else has the value at once.
+//!
+//! Arguments are the same when they are written the same: numbers, truths, strings, `None`, and tuples and lists of
+//! them, by `repr`. So 1, 1.0 and `True` are three arguments.
+//!
+//! Source: `mem` of Church (Goodman et al. 2008, section 2.1). differs: the table belongs to the run and is copied with it.
+
+use super::address::{ROOT, join, site_key};
+use super::registers::Registers;
+use super::state::{FutureId, NodeId, State, Status};
+use super::suspend::After;
+use super::{Machine, Stop};
+use crate::code::{FunctionId, Program, Site, SiteId};
+use crate::core::Name;
+use crate::fault::Fault;
+use crate::machine::keep::Dropped;
+use crate::value::{Closure, Memo, Value, print};
+use niwaki_math::Scalar;
+use std::sync::Arc;
+
+/// So many characters of a call's address cost one step.
+pub(super) const TEXT: u64 = 64;
+
+/// The memoised calls of a run, by their addresses.
+#[derive(Debug, Default)]
+pub(crate) struct Memos(Vec<Call>);
+
+/// One call.
+#[derive(Clone, Debug)]
+struct Call {
+    path: u128,
+    /// Its number among the futures: whether it has returned, what, and who waits.
+    future: FutureId,
+    /// Its readable address.
+    name: Name,
+}
+
+impl Clone for Memos {
+    fn clone(&self) -> Self {
+        Memos(self.0.clone())
+    }
+
+    #[inline]
+    fn clone_from(&mut self, source: &Self) {
+        if !(self.0.is_empty() && source.0.is_empty()) {
+            self.0.clone_from(&source.0);
+        }
+    }
+}
+
+impl Memos {
+    fn place(&self, path: u128) -> Result<usize, usize> {
+        self.0.binary_search_by_key(&path, |call| call.path)
+    }
+
+    fn find(&self, path: u128) -> Option<FutureId> {
+        self.place(path).ok().map(|at| self.0[at].future)
+    }
+
+    fn add(&mut self, path: u128, future: FutureId, name: &str) {
+        if let Err(at) = self.place(path) {
+            self.0.insert(at, Call { path, future, name: Name::from(name) });
+        }
+    }
+
+    /// The readable address of a call.
+    pub fn name(&self, path: u128) -> Option<&str> {
+        self.place(path).ok().map(|at| &*self.0[at].name)
+    }
+
+    /// Notes the readable address of a call, in a trace: the call is there under another number.
+    pub fn note(&mut self, path: u128, name: &str) {
+        self.add(path, FutureId::NONE, name);
+    }
+
+    /// Forgets a call.
+    pub fn forget(&mut self, path: u128) {
+        if let Ok(at) = self.place(path) {
+            self.0.remove(at);
+        }
+    }
+
+    /// A hash of which calls there are.
+    pub fn hash(&self, start: u128) -> u128 {
+        self.0.iter().fold(start, |hash, call| join(join(hash, call.path), u128::from(call.future.0)))
+    }
+
+    /// Bytes of the table.
+    pub fn bytes(&self) -> usize {
+        self.0.len() * (size_of::<Call>() + 32)
+    }
+}
+
+/// The text of arguments, by which they are compared. No component of an address has a slash inside.
+///
+/// # Errors
+/// A value that cannot be an argument of a memoised function.
+fn text_of<S: Scalar>(args: &[Value<S>]) -> Result<String, Fault> {
+    let mut work: Vec<Value<S>> = args.to_vec();
+    while let Some(value) = work.pop() {
+        match &value {
+            Value::None | Value::Bool(_) | Value::Int(_) | Value::Str(_) => {}
+            Value::Real(x) if x.varies() => {
+                let message =
+                    "an argument of a memoised function depends on a choice that follows a gradient";
+                return Err(Fault::new("memo-argument-varies", message).with_help(
+                    "use a method without gradients, or do not compute the argument from that choice",
+                ));
+            }
+            Value::Real(_) => {}
+            Value::Tuple(tuple) => work.extend(tuple.items().iter().cloned()),
+            Value::List(list) => work.extend(list.iter().cloned()),
+            Value::Future(_) | Value::Returned(_) => {
+                return Err(Fault::not_forced("a future cannot be an argument of a memoised function"));
+            }
+            other => {
+                let found = other.described();
+                let message = format!("{found} cannot be an argument of a memoised function");
+                return Err(Fault::new("memo-argument", message));
+            }
+        }
+    }
+    let texts = args.iter().map(print::repr).collect::<Result<Vec<_>, Fault>>()?;
+    Ok(format!("({})", texts.join(", ")).replace('/', "\\x2f"))
+}
+
+/// The identity of a memoised function, from the place where it was made and the function: one place may memoise one of
+/// several, as a choice decides.
+pub(crate) fn identity<S: Scalar>(place: u128, program: &Program<S>, called: FunctionId) -> u128 {
+    join(place, site_key(&program.function(called).name, 0))
+}
+
+/// The address of a call, from the identity of the function and the text of the arguments in brackets.
+pub(crate) fn path_of(function: u128, text: &str) -> u128 {
+    join(join(ROOT, function), site_key(text, 0))
+}
+
+/// The address of a call of a memoised function with these arguments, and the readable one.
+pub(super) fn call_of<S: Scalar>(memo: &Memo, args: &[Value<S>]) -> Result<(u128, String), Fault> {
+    let text = text_of(args)?;
+    Ok((path_of(memo.path, &text), memo.name.clone() + &text))
+}
+
+/// The memoised function of a function value.
+///
+/// # Errors
+/// It is no function.
+pub(super) fn memoised<S: Scalar>(
+    state: &State<S>,
+    program: &Program<S>,
+    node: NodeId,
+    site: &Site,
+    of: Option<u128>,
+    value: &Value<S>,
+) -> Result<Value<S>, Fault> {
+    let Value::Function(closure) = value else {
+        let found = value.described();
+        return Err(Fault::new("not-callable", format!("`mem` takes a function, found {found}")));
+    };
+    if closure.memo.is_some() {
+        return Ok(value.clone());
+    }
+    let called = FunctionId(closure.function);
+    let memo = match of {
+        Some(place) => Memo { path: identity(place, program, called), name: site.label.to_string() },
+        None => {
+            let above = state.path(program, node);
+            let name =
+                if above.is_empty() { site.label.to_string() } else { format!("{above}/{}", site.label) };
+            let place = join(state.nodes[node.0 as usize].path, site.key);
+            Memo { path: identity(place, program, called), name }
+        }
+    };
+    let captures = closure.captures.clone();
+    Ok(Value::Function(Arc::new(Closure {
+        function: closure.function,
+        memo: Some(Arc::new(memo)),
+        captures,
+    })))
+}
+
+/// The fault of a memoised call that needs its own value.
+pub(super) fn cycle(name: &str) -> Fault {
+    Fault::new("memo-cycle", format!("the memoised call `{name}` needs its own value"))
+        .with_help("let it call itself only with other arguments, which end")
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// A call of a memoised function, its arguments and captures in the buffer: the value, where it is known; otherwise
+    /// the activation, or a wait for it. `deferred`: a future of the call is wanted, and whether its handle is read.
+    #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
+    pub(super) fn recall(
+        &mut self,
+        state: &mut State<S>,
+        future: FutureId,
+        r: Registers<'_, S>,
+        (node, site_id, pc): (NodeId, SiteId, usize),
+        site: &Site,
+        function: FunctionId,
+        memo: &Memo,
+        deferred: Option<bool>,
+    ) -> Result<After, Fault> {
+        let deferred = deferred.filter(|_| !state.depth_first);
+        let place = r.own + site.to.index();
+        let params = self.program.function(function).params as usize;
+        let (path, name) = call_of(memo, &self.buffer[..params])?;
+        state.steps = state.steps.saturating_add(name.len() as u64 / TEXT);
+        if let Some(known) = state.memos.find(path) {
+            if let Some(detached) = deferred {
+                state.registers[place].store(if detached { Value::None } else { Value::Future(known.0) });
+                return Ok(After::Next);
+            }
+            if let Status::Returned(value) = &state.futures[known.0 as usize].status {
+                let value = value.clone();
+                let value = if site.kind.gives_future() { Value::returned(value) } else { value };
+                state.registers[place].store(value);
+                return Ok(After::Next);
+            }
+            if state.depth_first || state.runs_inside(node, known) {
+                return Err(cycle(&name));
+            }
+            state.nodes[node.0 as usize].pc = pc as u32;
+            state.futures[future.0 as usize].receives = place as u32;
+            state.wait(future, node, known);
+            return Ok(After::Stop(Stop::Waiting));
+        }
+        let parent = if deferred.is_some() { NodeId::NONE } else { node };
+        let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
+        let at = state.nodes[created.0 as usize].registers as usize;
+        for (i, value) in self.buffer.drain(..).enumerate() {
+            state.registers[at + i].store(value);
+        }
+        let status = if deferred.is_some() { Status::Runnable(created) } else { Status::Inside(created) };
+        let id = state.new_future(status, false);
+        state.nodes[created.0 as usize].set_memo(id.0);
+        state.memos.add(path, id, &name);
+        self.afford(state, &Dropped)?;
+        let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
+        state.nodes[created.0 as usize].site = id.0;
+        state.runnable.push(id);
+        state.registers[place].store(if detached { Value::None } else { Value::Future(id.0) });
+        Ok(After::Next)
+    }
+}
+
+impl<S: Scalar> State<S> {
+    /// Whether a node belongs to a memoised call that has not returned.
+    fn runs_inside(&self, node: NodeId, call: FutureId) -> bool {
+        let mut at = node;
+        while at != NodeId::NONE {
+            let n = &self.nodes[at.0 as usize];
+            if n.memo() == Some(call.0) {
+                return true;
+            }
+            at = n.parent;
+        }
+        false
+    }
+}
