@@ -6,6 +6,7 @@ chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
 normals     variational inference
 improve     a search for the best run, by several of these
+order       an order of futures that was learned
 guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
 method      the base class: a method as data
@@ -30,6 +31,7 @@ from niwaki.methods.guide import Guide
 from niwaki.methods.improve import Improve, improve
 from niwaki.methods.method import Method
 from niwaki.methods.normals import FAMILIES, STARTS, Vi, vi
+from niwaki.methods.order import FutureOrder
 from niwaki.methods.particles import (
     ORDERS,
     RESAMPLING,
@@ -52,6 +54,7 @@ __all__ = [
     "WEIGHTS",
     "EnumerateAll",
     "Forward",
+    "FutureOrder",
     "Guide",
     "Hmc",
     "Importance",

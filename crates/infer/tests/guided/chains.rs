@@ -122,7 +122,8 @@ fn guided_sweeps_keep_the_posterior() {
                 (2, Ancestors::Sampled, Resampling::Multinomial),
                 (1, Ancestors::Sampled, Resampling::Tempered),
             ] {
-                let own = particles::Settings { resampling, ..settings(&task, number, WILD, 3, order) };
+                let own =
+                    particles::Settings { resampling, ..settings(&task, number, WILD, 3, order.clone()) };
                 let after = |(seed, start): (u64, &Vec<Entry>)| {
                     let own = particles::Settings { seed, ..own.clone() };
                     let chain = particle_gibbs(&task, &own, ancestors, 2, Some(start), &mut |_| true);
