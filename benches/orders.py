@@ -2,11 +2,11 @@
 
     python benches/orders.py [SEEDS [PARTICLES]]
 
-For each program and its target (those of figure 5.9): an order is learned from searches with PARTICLES particles at power
-16 (`nw.grow`'s own sharpness), then each order searches by SEEDS seeds that no training had, on one thread. The mean best log
-score and the mean log normalising constant with standard errors, how many searches died, and CPU seconds of a search; and
-the differences of learned to uniform, seed by seed. Uniform orders with 1.5 times the particles show what the time would buy
-otherwise. One JSON line for each program follows, with the numbers of its order.
+For each program and its target (those of figure 5.9): an order is learned from searches with PARTICLES particles at
+power 16 (`nw.grow`'s own sharpness), then each order searches by SEEDS seeds that no training had, on one thread. The
+mean best log score and the mean log normalising constant with standard errors, how many searches died, and CPU seconds
+of a search; and the differences of learned to uniform, seed by seed. Uniform orders with 1.5 times the particles show
+what the time would buy otherwise. One JSON line for each program follows, with the numbers of its order.
 """
 
 import json
@@ -52,7 +52,7 @@ def main(seeds: int = 40, particles: int = 100) -> int:
         base = nw.Search(model, score=score_of(named_target(target), voxel))
         method = nw.smc(particles, power=POWER)
         start = time.process_time()
-        found = train_order(model, [base, base], method=method, seed=1)
+        found = train_order(model, [base], method=method, seed=1)
         took = time.process_time() - start
         orders = {
             "uniform": (nw.smc(particles, power=POWER), []),

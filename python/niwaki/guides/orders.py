@@ -1,10 +1,10 @@
 """Learning in which order futures should run, from which orders won.
 
-The cross-entropy method (Rubinstein 1999): draw orders from normals over their numbers, search with each by the same seeds,
-keep the quarter that won, fit the normals to them, and begin again. An order wins by the log of its searches' estimate of
-the normalising constant. The estimate is unbiased under any order, so its log is lower the more it scatters: the mean log is
-a bound that is tight where no weight is wasted. (What survives inside one population is no judge: it rewards orders that put
-bad news off.)
+The cross-entropy method (Rubinstein 1999): draw orders from normals over their numbers, search with each by the same
+seeds, keep the quarter that won, fit the normals to them, and begin again. An order wins by the log of its searches'
+estimates of the normalising constant. The estimate is unbiased under any order, so its log is lower the more it
+scatters: the mean log is a bound that is tight where no weight is wasted. What survives inside one population is no
+judge of orders, because it also rewards those that put bad news off.
 """
 
 from __future__ import annotations
@@ -74,6 +74,7 @@ def train_order(
     method: Smc | None = None,
     rounds: int = 6,
     orders: int = 32,
+    runs: int = 4,
     judging: int = 16,
     seed: int | None = None,
     threads: int | None = None,
@@ -85,12 +86,14 @@ def train_order(
     model
         The model of the searches.
     searches
-        What to be good at: each order of a round makes all of them, by seeds of the round.
+        What to be good at.
     method
         How: 100 particles at the power 1 when left out. Its own order does not matter. Ratio weights alone have a
         normalising constant.
     rounds, orders
         How many rounds, and how many orders each tries.
+    runs
+        How often each order makes each search in a round, by seeds that all orders of the round share.
     judging
         How often each search is made to compare the order that was learned with the uniform one, by seeds that no round
         had.
@@ -106,14 +109,14 @@ def train_order(
     >>> from niwaki.gallery.spaceship import spaceship
     >>> score = nw.match_volume(nw.targets.examples.ship(), voxel=1.0)
     >>> found = train_order(
-    ...     spaceship, [nw.Search(spaceship, score=score)], method=nw.smc(20), rounds=1, orders=4, judging=2, seed=1
+    ...     spaceship, [nw.Search(spaceship, score=score)], method=nw.smc(20), rounds=1, orders=4, runs=1, judging=2, seed=1
     ... )
     >>> found.order == found.rounds[-1] or found.order == nw.methods.FutureOrder()
     True
     """
     model, seed, method = as_model(model), fresh(seed), method or smc(100)
     check_seed(seed)
-    for name, value in (("rounds", rounds), ("orders", orders), ("judging", judging)):
+    for name, value in (("rounds", rounds), ("orders", orders), ("runs", runs), ("judging", judging)):
         at_least_one(name, value)
     if not searches:
         raise bad("searches", searches, "at least one search", "`[Search(model, score=score)]`")
@@ -128,7 +131,7 @@ def train_order(
         def judged(tried: Sequence[FutureOrder], seeds: Sequence[int]) -> NDArray[np.float64]:
             """Log normalising constants: a row for each order, a column for each search and seed."""
             jobs = [
-                replace(search, method=replace(method, order=order), seed=int(own))
+                replace(search, method=replace(method, order=order), seed=own)
                 for order in tried
                 for search in searches
                 for own in seeds
@@ -137,12 +140,12 @@ def train_order(
 
         for _ in range(rounds):
             numbers = np.clip(mean + spread * draw.normal(size=(orders, len(mean))), -LARGEST, LARGEST)
-            found = judged([_order(own, names) for own in numbers], draw.integers(2**63, size=1))
+            found = judged([_order(own, names) for own in numbers], draw.integers(2**63, size=runs).tolist())
             # Ranks, because a search that died is as bad as can be, and one that nearly did says little about the rest.
             won = np.argsort(-_ranks(found).mean(axis=1), kind="stable")[: max(2, round(WINNERS * orders))]
             mean, spread = numbers[won].mean(axis=0), np.maximum(numbers[won].std(axis=0), LEAST)
             means.append(_order(mean, names))
-        learned, uniform = judged([means[-1], FutureOrder()], draw.integers(2**63, size=judging))
+        learned, uniform = judged([means[-1], FutureOrder()], draw.integers(2**63, size=judging).tolist())
     lived = np.isfinite(learned) & np.isfinite(uniform)
     died = (int(np.sum(learned == -inf)), int(np.sum(uniform == -inf)))
     by = (learned - uniform)[lived]
@@ -176,9 +179,9 @@ def _ranks(found: NDArray[np.float64]) -> NDArray[np.float64]:
 def _log_normaliser(search: Search) -> float:
     """The estimate of a search, nats; minus infinity where every particle became impossible."""
     try:
-        found = search.run(threads=1).info.log_normaliser
+        info: Any = search.run(threads=1).info
     except InputError as error:
         if error.code != "everything-impossible":
             raise
         return -inf
-    return float(found)
+    return float(info.log_normaliser)

@@ -95,9 +95,7 @@ class Method:
             if isinstance(value, dict):
                 with inside(f".{name}"):
                     is_order = name == "order"
-                    given[name] = (
-                        FutureOrder.of_data(value) if is_order else Kernel.of_data(value, function)
-                    )
+                    given[name] = FutureOrder.of_data(value) if is_order else Kernel.of_data(value, function)
             elif isinstance(value, list):
                 given[name] = tuple(value)
         try:

@@ -4,7 +4,9 @@
 //! Thresholds are those of the parent module: a z beyond 5 happens once in 1.7 million.
 
 use super::chains::{counted, exact_draws, small, values_after};
+use super::rejuvenated::{draws, moved_draws};
 use super::*;
+use crate::chain::kernel::Kernel;
 use crate::log::Entry;
 use crate::rejection::rejection;
 
@@ -150,6 +152,26 @@ fn threads_change_nothing_under_a_learned_order() {
         })
     };
     assert_eq!(run(1), run(2));
+}
+
+/// A coin decides which function a future calls, so how likely the order is depends on the coin: a move that turns it would
+/// keep the futures, their paths and the barrier. (The uniform order does not see which function it is.)
+const TURNED: &str = r#"(module (fn "leaf" (params) (do (factor -0.1)) (return 0)) (fn "late" (params) (do (factor 0.1))
+      (return 1)) (fn "x" (params) (do (factor 0.0)) (return 2))
+    (fn "m" (params) (set $c (sample (dist bernoulli 0.5))) (set $f (cond $c (closure "leaf") (closure "late")))
+      (do (future_apply $f)) (do (future "x")) (do (future "x")) (return $c)) (entry "m"))"#;
+
+#[test]
+fn moves_keep_the_law_under_a_learned_order() {
+    let texts = with_futures().map(|(_, text)| text).chain([TURNED]);
+    for text in texts {
+        let task = task(text);
+        for barriers in 1..=3 {
+            let (worst, states, _) =
+                on_one_thread(|| moved_draws(&task, &draws(Kernel::PRIOR, skewed(), 1.7), barriers));
+            assert!(worst < LIMIT, "barrier {barriers}: z {worst}, {states} states: {text}");
+        }
+    }
 }
 
 /// Particles with equal logs are copies of one another, so a policy has seen the same of each.

@@ -85,7 +85,7 @@ fn text(p: &Particle) -> String {
 }
 
 /// The worst z of the counts of moved draws from the law at a barrier, the number of states, and the moves.
-fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, MoveCounts) {
+pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, MoveCounts) {
     let mut population = Population::start(task, settings, false).unwrap();
     let (mut machine, mut log_orders) = (task.machine(), vec![0.0; settings.particles]);
     for _ in 0..barriers {
@@ -138,7 +138,7 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     (worst, law.len(), population.moved)
 }
 
-fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {
+pub(super) fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {
     Settings {
         particles: 40_000,
         power,
