@@ -3,12 +3,15 @@
 //!
 //! Thresholds are those of the parent module: a z beyond 5 happens once in 1.7 million.
 
+use super::super::smc::Outcome;
 use super::chains::{counted, exact_draws, small, values_after};
 use super::rejuvenated::{draws, moved_draws};
 use super::*;
 use crate::chain::kernel::Kernel;
 use crate::log::Entry;
 use crate::rejection::rejection;
+use niwaki_geom::Primitive;
+use niwaki_geom::sketch::{Sketch, SketchSpec};
 
 /// A policy far from uniform, on every program: whatever waited is left to wait, and names count.
 fn skewed() -> Order {
@@ -133,6 +136,69 @@ fn the_held_run_is_ordered_anew_in_each_sweep() {
     let chain = particle_gibbs(&task, &own, Ancestors::Kept, 4000, Some(&start), &mut |_| true).unwrap();
     let all: Vec<_> = chain.states.iter().map(|state| picks(&state.record.log.entries())).collect();
     check_orders(&all);
+}
+
+/// A post carries a beam: a scene with a beam alone is forbidden, so that only one of two orders is possible.
+#[derive(Clone, Default)]
+struct Carried {
+    posts: usize,
+    beams: usize,
+}
+
+impl Carried {
+    fn count(&mut self, primitive: &Primitive) -> &mut usize {
+        let extent = primitive.shapes()[0].aabb().high - primitive.shapes()[0].aabb().low;
+        if extent.y > extent.x { &mut self.posts } else { &mut self.beams }
+    }
+}
+
+impl Sketch for Carried {
+    fn name(&self) -> &'static str {
+        "carried"
+    }
+    fn add(&mut self, primitive: &Primitive) {
+        *self.count(primitive) += 1;
+    }
+    fn remove(&mut self, primitive: &Primitive) -> bool {
+        let count = self.count(primitive);
+        *count = count.saturating_sub(1);
+        true
+    }
+    fn log_score(&self) -> f64 {
+        if self.beams > self.posts { f64::NEG_INFINITY } else { 0.0 }
+    }
+    fn measures(&self) -> Vec<(&'static str, f64)> {
+        vec![]
+    }
+}
+
+struct CarriedSpec;
+
+impl SketchSpec for CarriedSpec {
+    fn name(&self) -> &'static str {
+        "carried"
+    }
+    fn start(&self) -> Box<dyn Sketch> {
+        Box::new(Carried::default())
+    }
+}
+
+/// The held run keeps its order where the new one leads through a scene that is forbidden.
+#[test]
+fn an_order_that_is_impossible_is_not_taken() {
+    let text = r#"(module (fn "post" (params) (do (emit (box (tuple 0.0 0.0 0.0) (tuple 0.2 2.0 0.2)))) (return 0))
+        (fn "beam" (params) (do (emit (box (tuple 0.0 1.0 0.0) (tuple 2.0 0.2 0.2)))) (return 0))
+        (fn "m" (params) (set $x (sample (dist bernoulli 0.5))) (do (future "beam")) (do (future "post"))
+          (return $x)) (entry "m"))"#;
+    let task = Task { sketches: vec![Arc::new(CarriedSpec)], ..task(text) };
+    for order in [Order::Stochastic, skewed()] {
+        let own = Settings { seed: 4, ..small(3, order) };
+        let chain = particle_gibbs(&task, &own, Ancestors::Sampled, 200, None, &mut |_| true).unwrap();
+        // The root has returned before the first pick; then the post runs, which was created second.
+        let first = |state: &Outcome| *picks(&state.record.log.entries()).first().unwrap();
+        assert_eq!(chain.states.len(), 200);
+        assert!(chain.states.iter().all(|state| first(state) == 1));
+    }
 }
 
 #[test]
