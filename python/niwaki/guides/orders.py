@@ -108,9 +108,8 @@ def train_order(
     >>> from niwaki.guides import train_order
     >>> from niwaki.gallery.spaceship import spaceship
     >>> score = nw.match_volume(nw.targets.examples.ship(), voxel=1.0)
-    >>> found = train_order(
-    ...     spaceship, [nw.Search(spaceship, score=score)], method=nw.smc(20), rounds=1, orders=4, runs=1, judging=2, seed=1
-    ... )
+    >>> searches, quick = [nw.Search(spaceship, score=score)], {"rounds": 1, "orders": 4, "runs": 1, "judging": 2}
+    >>> found = train_order(spaceship, searches, method=nw.smc(20), seed=1, **quick)
     >>> found.order == found.rounds[-1] or found.order == nw.methods.FutureOrder()
     True
     """
