@@ -60,9 +60,9 @@ fn ancestors_count_the_learned_order_of_what_follows() {
     assert!(worst(&scores) < LIMIT, "{scores:?}");
 }
 
-/// Three leaves, of which two have names that the policy knows.
-const LEAVES: &str = r#"(module (fn "a" (params) (do (factor 0.0)) (return 0)) (fn "b" (params) (return 0))
-    (fn "c" (params) (return 0))
+/// Three leaves, of which two have names that the policy knows. (A future that neither draws nor scores has returned at once.)
+const LEAVES: &str = r#"(module (fn "a" (params) (do (factor 0.0)) (return 0))
+    (fn "b" (params) (return (sample (dist bernoulli 0.5)))) (fn "c" (params) (return (sample (dist bernoulli 0.5))))
     (fn "m" (params) (set $x (sample (dist bernoulli 0.0001))) (do (condition $x)) (do (future "a")) (do (future "b"))
       (do (future "c")) (return 0)) (entry "m"))"#;
 
@@ -104,11 +104,11 @@ fn check_orders(all: &[Vec<usize>]) {
     all.iter().for_each(|one| *counts.entry(one).or_insert(0.0) += 1.0);
     let n = all.len() as f64;
     let mass: f64 = counts.keys().map(|order| expected(order)).sum();
-    assert!((mass - 1.0).abs() < 1e-9 && counts.len() <= 12, "{counts:?}");
+    assert!((mass - 1.0).abs() < 1e-9 && (6..=12).contains(&counts.len()), "{mass}: {counts:?}");
     let term =
         |(order, count): (&&[usize], &f64)| (count - n * expected(order)).powi(2) / (n * expected(order));
     let statistic: f64 = counts.iter().map(term).sum();
-    assert!(statistic < 48.5, "{statistic}: {counts:?}");
+    assert!(statistic < 48.9, "{statistic}: {counts:?}");
 }
 
 #[test]
