@@ -441,10 +441,12 @@ def test_what_several_places_write_is_not_set_back() -> None:
 
 @pytest.mark.parametrize("name", METHODS)
 def test_a_factor_that_counts_twice_is_seen(name: str) -> None:
-    """The mutant of every method: what it follows is not the program that it is judged by."""
+    """The mutant of every method: what it follows is not the program that it is judged by. At `TIMES` particle Gibbs is
+    about as far off as the limit, so the wrong program is looked at twice as often.
+    """
     twice = load(ONCE.replace("0.6 * k", "1.2 * k"))
     assert looked_at(load(ONCE), Exact(load(ONCE)), name, TIMES, 5, Tally())[1] < FIRST_LIMIT
-    assert looked_at(twice, Exact(load(ONCE)), name, TIMES, 5, Tally())[1] > LIMIT
+    assert looked_at(twice, Exact(load(ONCE)), name, 2 * TIMES, 5, Tally())[1] > LIMIT
 
 
 def test_an_executor_that_answers_a_look_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

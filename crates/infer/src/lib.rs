@@ -16,6 +16,7 @@
 //! * [`hold`]: a task with choices held;
 //! * [`proposal`]: a user's proposals for a run that begins;
 //! * [`particles`]: sequential Monte Carlo, in program order and in stochastic order;
+//! * [`order`]: which future of a particle runs next;
 //! * [`nested`]: inference inside a model;
 //! * [`improve`]: a search for the best, by all of these;
 //! * [`gradient`]: a task as a log density over its continuous choices, and chains that follow its slope;
@@ -43,6 +44,7 @@ pub mod losses;
 pub mod method;
 pub mod mixed;
 pub mod nested;
+pub mod order;
 mod particle;
 pub mod particles;
 pub mod proposal;

@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::chooser::Chooser;
 use crate::forward::Forward;
+use crate::order::Past;
 use crate::record::Record;
 use crate::task::Task;
 use niwaki_math::{Stream, StreamKey, Total};
@@ -23,6 +24,8 @@ pub(crate) struct Particle {
     pub stream: StreamKey,
     /// How many order choices it has drawn.
     pub picks: u64,
+    /// What the order policy has seen of its run.
+    pub past: Past,
     /// Whether it had ended before the last barrier.
     pub was_ended: bool,
     /// The score that is already in its weight.
@@ -47,6 +50,7 @@ impl Particle {
             lineage,
             stream: StreamKey::new(seed, lineage, 0),
             picks: 0,
+            past: Past::default(),
             was_ended: false,
             log_weight: 0.0,
             pending: 0.0,
@@ -71,10 +75,11 @@ impl Particle {
     ) -> Result<bool, Failure> {
         self.was_ended = self.state.has_ended();
         while self.is_running() {
+            self.past.look(machine.program(), &self.state);
             let which = match self.state.runnable().len() {
                 0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
                 1 => 0,
-                n => self.pick(n, seed),
+                _ => self.pick(seed),
             };
             if self.run(machine, task, which, &mut chooser)? {
                 return Ok(true);
@@ -103,6 +108,7 @@ impl Particle {
             Forward { record, chooser, log_ratio: self.pending, hosts, barriers: true, complete: false };
         let stop = machine.resume(&mut self.state, future, &mut answers);
         self.pending = answers.log_ratio;
+        self.past.ran(future, &self.state);
         match stop {
             Ok(stop) => Ok(stop == Stop::Paused),
             Err(met) => self.record.forgive(task, met).map(|()| false),
@@ -115,10 +121,10 @@ impl Particle {
         self.record.log.count(census);
     }
 
-    /// A uniform draw among the runnable futures.
-    pub fn pick(&self, n: usize, seed: u64) -> usize {
+    /// A draw among the runnable futures, by the order policy.
+    pub fn pick(&self, seed: u64) -> usize {
         let u = Stream::new(seed, self.lineage, u128::from(self.picks + 1), ORDER).uniform();
-        ((u * n as f64) as usize).min(n - 1)
+        self.past.pick(&self.state, u)
     }
 
     /// A copy for a trial. It has the same lineage, so it must not draw random numbers.
@@ -129,6 +135,7 @@ impl Particle {
             lineage: self.lineage,
             stream: self.stream,
             picks: self.picks,
+            past: self.past.clone(),
             was_ended: self.was_ended,
             weighed: self.weighed.clone(),
             log_weight: self.log_weight,
@@ -145,6 +152,7 @@ impl Particle {
         self.lineage = lineage;
         self.stream = StreamKey::new(seed, lineage, 0);
         self.picks = parent.picks;
+        self.past.clone_from(&parent.past);
         self.was_ended = parent.was_ended;
         self.weighed.clone_from(&parent.weighed);
         self.log_weight = parent.log_weight;

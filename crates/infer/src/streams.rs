@@ -17,7 +17,7 @@ pub(crate) enum Reserved {
     Sweep = u64::MAX - 2,
     /// Particle Gibbs: the ancestor of the run that is kept; the address is the barrier.
     Ancestor = u64::MAX - 3,
-    /// Particle Gibbs: an order that a first run lacks.
+    /// Particle Gibbs: the orders of held runs.
     Order = u64::MAX - 4,
     /// Particle independent Metropolis-Hastings: whether a sweep is accepted.
     SweepAcceptance = u64::MAX - 5,

@@ -2,14 +2,16 @@
 
 settings    of a network and its training
 training    traces from searches in rounds, and a guide from them; or one that learns from runs of its own
+orders      which future should run next, learned
 traces      many searches side by side, each for its best run
 report      what a round of training did
 shipped     the guides that come with the package
 """
 
+from niwaki.guides.orders import OrderTraining, train_order
 from niwaki.guides.report import Round
 from niwaki.guides.settings import Training
 from niwaki.guides.shipped import shipped
 from niwaki.guides.training import EVERY, train_guide
 
-__all__ = ["EVERY", "Round", "Training", "shipped", "train_guide"]
+__all__ = ["EVERY", "OrderTraining", "Round", "Training", "shipped", "train_guide", "train_order"]

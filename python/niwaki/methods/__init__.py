@@ -7,6 +7,7 @@ chains      Metropolis-Hastings
 gradients   Hamiltonian Monte Carlo
 normals     variational inference
 improve     a search for the best run, by several of these
+order       an order of futures that was learned
 guide       a network that draws choices in place of the prior
 kernels     Markov kernels, for chains
 method      the base class: a method as data
@@ -32,6 +33,7 @@ from niwaki.methods.guide import Guide
 from niwaki.methods.improve import Improve, improve
 from niwaki.methods.method import Method
 from niwaki.methods.normals import FAMILIES, STARTS, Vi, vi
+from niwaki.methods.order import FutureOrder
 from niwaki.methods.particles import (
     ORDERS,
     RESAMPLING,
@@ -55,6 +57,7 @@ __all__ = [
     "Ais",
     "EnumerateAll",
     "Forward",
+    "FutureOrder",
     "Guide",
     "Hmc",
     "Importance",

@@ -17,6 +17,7 @@ from msgspec import defstruct
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
 from niwaki.methods.kernels import Kernel
+from niwaki.methods.order import FutureOrder
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,8 @@ class Method:
             value = getattr(self, field.name)
             if isinstance(value, Kernel):
                 value = value.data(function)
+            elif isinstance(value, FutureOrder):
+                value = value.data()
             found[field.name] = list(value) if isinstance(value, tuple) else value
         return found
 
@@ -91,7 +94,8 @@ class Method:
         for name, value in given.items():
             if isinstance(value, dict):
                 with inside(f".{name}"):
-                    given[name] = Kernel.of_data(value, function)
+                    is_order = name == "order"
+                    given[name] = FutureOrder.of_data(value) if is_order else Kernel.of_data(value, function)
             elif isinstance(value, list):
                 given[name] = tuple(value)
         try:
@@ -112,14 +116,19 @@ class Method:
 
 @cache
 def _schema(name: str) -> type:
-    """The types of a method's settings as data, where a kernel is a table."""
+    """The types of a method's settings as data, where a kernel or a learned order is a table."""
     own = Method.KNOWN[name]
     hints = get_type_hints(own)
     types = {field.name: hints[field.name] for field in fields(own)}
-    tables = {
-        name: dict[str, Any] | None if Kernel in _choices(kind) else kind for name, kind in types.items()
-    }
+    tables = {name: _table(kind) for name, kind in types.items()}
     return defstruct(own.__name__, [(name, kind | None, None) for name, kind in tables.items()])
+
+
+def _table(kind: Any) -> Any:
+    """The type of a setting as data."""
+    if FutureOrder in _choices(kind):
+        return str | dict[str, Any]
+    return dict[str, Any] | None if Kernel in _choices(kind) else kind
 
 
 def _choices(kind: Any) -> tuple[Any, ...]:

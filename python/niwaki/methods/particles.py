@@ -14,6 +14,7 @@ from niwaki.methods.checks import particles as check_particles
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
+from niwaki.methods.order import FutureOrder
 
 ORDERS = ("stochastic", "depth-first")
 WEIGHTS = ("ratio", "absolute")
@@ -34,7 +35,7 @@ class Smc(Method):
         search.
     order
         "stochastic": after each barrier a uniform draw among the futures that can run; "depth-first": futures run
-        where they are created.
+        where they are created; a `FutureOrder`: a draw by an order that was learned.
     weights
         "ratio": the ratio of successive scores, so that the final set follows the posterior; "absolute": the whole
         score at every step, an undeclared sharpening without evidence.
@@ -85,7 +86,7 @@ class Smc(Method):
 
     NAME = "smc"
     particles: int | Sequence[int] = 300
-    order: str = "stochastic"
+    order: str | FutureOrder = "stochastic"
     weights: str = "ratio"
     power: float = 1.0
     resampling: str = "systematic"
@@ -117,7 +118,7 @@ class Smc(Method):
         sizes: Any = self.particles if isinstance(self.particles, tuple) else (self.particles,)
         for size in sizes or (0,):
             check_particles(size)
-        one_of("order", self.order, ORDERS)
+        _check_order(self.order)
         one_of("weights", self.weights, WEIGHTS)
         one_of("resampling", self.resampling, RESAMPLING)
         if self.resampling == "tempered" and self.weights == "absolute":
@@ -206,7 +207,7 @@ class ParticleGibbs(Method):
     NAME = "particle_gibbs"
     particles: int = 100
     sweeps: int = 100
-    order: str = "stochastic"
+    order: str | FutureOrder = "stochastic"
     power: float = 1.0
     resampling: str = "multinomial"
     ess: float | None = None
@@ -219,7 +220,7 @@ class ParticleGibbs(Method):
         """Check the settings."""
         check_particles(self.particles, 2)
         at_least_one("sweeps", self.sweeps)
-        one_of("order", self.order, ORDERS)
+        _check_order(self.order)
         one_of("resampling", self.resampling, HELD_RESAMPLING)
         _check_power(self)
         self._set("anneal", _fixed(self.anneal))
@@ -250,7 +251,7 @@ class Pimh(Method):
     NAME = "pimh"
     particles: int = 100
     sweeps: int = 100
-    order: str = "stochastic"
+    order: str | FutureOrder = "stochastic"
     power: float = 1.0
     resampling: str = "systematic"
     ess: float | None = None
@@ -262,7 +263,7 @@ class Pimh(Method):
         """Check the settings."""
         check_particles(self.particles)
         at_least_one("sweeps", self.sweeps)
-        one_of("order", self.order, ORDERS)
+        _check_order(self.order)
         one_of("resampling", self.resampling, RESAMPLING)
         _check_power(self)
         self._set("anneal", _fixed(self.anneal))
@@ -270,6 +271,12 @@ class Pimh(Method):
 
 
 smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh
+
+
+def _check_order(order: Any) -> None:
+    """Check which future runs next."""
+    if not isinstance(order, FutureOrder):
+        one_of("order", order, ORDERS)
 
 
 def _check_power(method: Smc | ParticleGibbs | Pimh) -> None:

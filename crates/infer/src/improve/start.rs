@@ -68,7 +68,7 @@ impl Improve {
                 power: self.power * form.power,
                 resampling: form.resampling,
                 anneal: form.anneal.clone(),
-                order: form.order,
+                order: form.order.clone(),
                 seed: population_seed(seed, number as u64),
                 proposal: self.drawn_by.clone(),
                 ..Settings::default()

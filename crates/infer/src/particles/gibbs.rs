@@ -17,6 +17,10 @@
 //! `log p - log q` of its choices like that of any other particle, although they were not drawn. It is computed anew as
 //! the run is followed, so it is that of the prefix after its ancestor was drawn.
 //!
+//! The order of the held run is drawn anew before each sweep, by the order policy given its choices: a Gibbs step on the order
+//! alone. Without it a past that is kept would keep its order, too. What a guide says of the held choices is computed as the
+//! run is followed, so it is that of the new order. An order that is impossible at some barrier is not taken.
+//!
 //! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an
 //! address.
 //!
@@ -39,10 +43,12 @@
 use super::many::Watch;
 use super::partial_run::{FollowSettings, PartialRun, Step};
 use super::population::Population;
-use super::settings::{Anneal, Order, Settings, Weights};
+use super::settings::{Anneal, Settings, Weights};
 use super::smc::{Outcome, Progress, outcome, run};
 use crate::log::Entry;
+use crate::order::Order;
 use crate::particle::Particle;
+use crate::record::Record;
 use crate::resampling::conditional_multinomial;
 use crate::streams::Reserved;
 use crate::weights::Normalised;
@@ -138,12 +144,16 @@ pub fn particle_gibbs(
     let mut chain = Chain::default();
     let mut orders = Reserved::Order.stream(settings.seed, 0, 0);
     let mut machine = task.machine();
-    let depth_first = settings.order == Order::DepthFirst;
-    let with = FollowSettings { task, depth_first, origins: false, weigh: &|_| Box::default() };
+    let with = FollowSettings { task, order: &settings.order, origins: false, weigh: &|_| Box::default() };
     let mut held = |entries: &[Entry]| {
-        let mut draw = |n: usize| ((orders.uniform() * n as f64) as usize).min(n - 1);
-        let run = PartialRun::of(with, &mut machine, entries, usize::MAX, &mut draw)?;
-        run.ok_or_else(Failure::no_start)
+        let mut draw = || orders.uniform();
+        let choices: Vec<Entry> = entries.iter().filter(|entry| !entry.is_order()).cloned().collect();
+        let ordered_anew = PartialRun::of(with, &mut machine, &choices, usize::MAX, &mut draw)?;
+        match ordered_anew {
+            Some(run) if is_possible(task, settings, &mut machine, &run)? => Ok(run),
+            _ => PartialRun::of(with, &mut machine, entries, usize::MAX, &mut draw)?
+                .ok_or_else(Failure::no_start),
+        }
     };
     let mut now = match from {
         Some(entries) => held(entries)?,
@@ -167,6 +177,24 @@ pub fn particle_gibbs(
         now = next;
     }
     Ok(chain)
+}
+
+/// Whether a run is possible at each of its barriers, and not only at its end.
+fn is_possible(
+    task: &Task,
+    settings: &Settings,
+    machine: &mut Machine<'_>,
+    run: &PartialRun,
+) -> Result<bool, Failure> {
+    let start = task.start(machine, settings.order == Order::DepthFirst)?;
+    let mut particle = Particle::start(start, Record::start(&task.sketches), 0, settings.seed);
+    let segments = run.segments();
+    for (number, segment) in (1..).zip(&segments) {
+        if particle.follow(machine, task, segment, number == segments.len(), None)?.is_none() {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// A run of the first population that survives, of at most one more than there are sweeps. `None` when it was stopped.

@@ -48,6 +48,7 @@ mod tempered;
 #[cfg(test)]
 mod tests;
 
+pub use crate::order::{Order, Policy};
 pub use crate::resampling::Resampling;
 pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
@@ -55,5 +56,5 @@ pub(crate) use many::side_by_side;
 pub use many::{AT_ONCE, Share, Watch, population_seed, populations, united, within};
 pub use pimh::pimh;
 pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
-pub use settings::{Anneal, Order, Settings, Weights, When};
+pub use settings::{Anneal, Settings, Weights, When};
 pub use smc::{Outcome, Progress, Result, smc};

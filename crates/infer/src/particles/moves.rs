@@ -3,7 +3,6 @@
 
 use super::partial_run::{Choice, Densities, FollowSettings, PartialRun};
 use super::rejuvenation::{Mover, Round};
-use super::settings::Order;
 use crate::chain::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
 use crate::chain::block::{self, Block};
 use crate::chain::counts::Count;
@@ -61,12 +60,12 @@ pub(super) fn move_running(
     };
     let with = FollowSettings {
         task: round.task,
-        depth_first: round.settings.order == Order::DepthFirst,
+        order: &round.settings.order,
         origins: !mover.choosy.is_empty()
             || round.settings.proposal.as_ref().is_some_and(|own| own.needs_origins()),
         weigh: &weigh,
     };
-    let run = PartialRun::of(with, machine, &p.record.log.entries(), round.barriers, &mut |_| 0)?;
+    let run = PartialRun::of(with, machine, &p.record.log.entries(), round.barriers, &mut || 0.0)?;
     let now = run.ok_or_else(Failure::no_start)?;
     if now.choices().next().is_none() {
         return Ok(Count::default());

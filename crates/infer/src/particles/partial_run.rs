@@ -3,11 +3,13 @@
 //!
 //! Other values must not change the *skeleton*: which futures could run at each pick, the address of each
 //! barrier, and where each future is suspended at the end. Under one skeleton the order policy gives equal order choices
-//! equal probability (one over the number of futures that can run, pick by pick), so it cancels in a ratio.
+//! equal probability (one over the number of futures that can run, or what a learned policy says, pick by pick), so it
+//! cancels in a ratio. A learned policy whose weights of the futures at a pick differ to the bit has another skeleton there.
 
 use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use crate::guide::bound::Sight;
 use crate::log::{Entry, Log};
+use crate::order::{Order, Past};
 use crate::particle::Particle;
 use crate::proposal::{Proposal, as_if_drawn};
 use crate::record::check_factor;
@@ -68,7 +70,7 @@ pub(super) struct PartialRun {
 #[derive(Clone, Copy)]
 pub(super) struct FollowSettings<'a> {
     pub task: &'a Task,
-    pub depth_first: bool,
+    pub order: &'a Order,
     /// Whether addresses are to be readable from the root.
     pub origins: bool,
     /// The selection weights of a choice.
@@ -85,7 +87,8 @@ pub(super) struct Densities {
 
 impl PartialRun {
     /// The run with the choices of a log, to its `barriers`-th barrier or to its end. Futures run in the order of the log's
-    /// order choices; where one is missing, `draw` picks one of the given number. `None` where the run is impossible.
+    /// order choices; where one is missing, the order policy picks one by a number between 0 and 1 from `draw`. `None` where
+    /// the run is impossible.
     ///
     /// # Errors
     /// Choices of another model, a fault of the program.
@@ -94,15 +97,15 @@ impl PartialRun {
         machine: &mut Machine<'_>,
         entries: &[Entry],
         barriers: usize,
-        draw: &mut dyn FnMut(usize) -> usize,
+        draw: &mut dyn FnMut() -> f64,
     ) -> Result<Option<PartialRun>, Failure> {
         let values = by_address(entries);
         let otherwise = Refuse("start from a run of the same model with the same arguments");
         let mut chooser = Known { values: Some(&values), otherwise };
         let mut logged = entries.iter().filter(|e| e.is_order()).map(Entry::address);
-        let mut pick = |state: &State| {
+        let mut pick = |state: &State, past: &Past| {
             let known = logged.next().and_then(|path| place(state, path));
-            known.unwrap_or_else(|| draw(state.runnable().len()))
+            known.unwrap_or_else(|| past.pick(state, draw()))
         };
         PartialRun::run(with, machine, &mut chooser, None, &mut pick, barriers)
     }
@@ -123,7 +126,7 @@ impl PartialRun {
         let densities = Densities { fresh: fresh_sum, stale, forward: 0.0, backward: 0.0 };
         let mut chooser = Changed { before: self, at: 0, propose, fresh: Prior(fresh), densities };
         let barriers = self.steps.iter().filter(|step| step.is_barrier()).count();
-        match PartialRun::run(with, machine, &mut chooser, Some(self), &mut |_| 0, barriers) {
+        match PartialRun::run(with, machine, &mut chooser, Some(self), &mut |_, _| 0, barriers) {
             Ok(next) => {
                 let next = next.filter(|next| next.state.suspension_hash() == self.state.suspension_hash());
                 Ok(next.map(|next| (next, chooser.densities)))
@@ -139,10 +142,11 @@ impl PartialRun {
         machine: &mut Machine<'_>,
         chooser: &mut impl Chooser,
         before: Option<&PartialRun>,
-        pick: &mut dyn FnMut(&State) -> usize,
+        pick: &mut dyn FnMut(&State, &Past) -> usize,
         barriers: usize,
     ) -> Result<Option<PartialRun>, Failure> {
-        let mut state = with.task.start(machine, with.depth_first)?;
+        let mut state = with.task.start(machine, *with.order == Order::DepthFirst)?;
+        let mut past = Past::start(with.order);
         if with.origins {
             state.remember_origins();
         }
@@ -151,13 +155,16 @@ impl PartialRun {
         let mut recorder = Recorder { chooser, with, skeleton, steps, log_prior, log_factors, lost: false };
         let mut met = 0;
         while met < barriers && !state.has_ended() {
+            past.look(machine.program(), &state);
             let runnable = state.runnable();
             let mut picked = None;
             if runnable.len() > 1 {
                 let hash = |hash, future: FutureId| join(hash, state.path_of(future));
                 let among = runnable.iter().fold(runnable.len() as u128, hash);
+                let logs = past.logs(&state).unwrap_or_default();
+                let among = logs.iter().fold(among, |hash, log| join(hash, u128::from(log.to_bits())));
                 let which = match recorder.next_mark() {
-                    None => pick(&state),
+                    None => pick(&state, &past),
                     Some(Some(Step::Ran { pick: Some((which, then)), .. })) if *then == among => *which,
                     Some(_) => return Ok(None),
                 };
@@ -168,6 +175,7 @@ impl PartialRun {
             };
             recorder.steps.push(Step::Ran { path: state.path_of(future), pick: picked });
             met += usize::from(machine.resume(&mut state, future, &mut recorder)? == Stop::Paused);
+            past.ran(future, &state);
             if recorder.lost {
                 return Ok(None);
             }
@@ -394,9 +402,9 @@ impl Particle {
         while self.is_running() && !paused {
             let Some(Step::Ran { path, .. }) = follow.steps.next() else { return Ok(None) };
             let Some(which) = place(&self.state, *path) else { return Ok(None) };
-            let futures = self.state.runnable().len();
-            if futures > 1 {
-                log_order -= (futures as f64).ln();
+            self.past.look(machine.program(), &self.state);
+            if self.state.runnable().len() > 1 {
+                log_order += self.past.log_probability(&self.state, which);
             }
             paused = self.run(machine, task, which, &mut follow)?;
         }

@@ -4,13 +4,14 @@
 use super::copies::{Copies, Indexed, copy};
 use super::rejuvenation::{MoveCounts, Mover};
 use super::resident::{Growth, Resident, counted, too_large};
-use super::settings::{Anneal, Order, Settings, Weights, When};
+use super::settings::{Anneal, Settings, Weights, When};
 use super::shared::share;
 use super::tempered::Tempered;
 use crate::blame::{Dead, RUNS};
 use crate::chooser::Prior;
 use crate::guide::bound::Sight;
 use crate::losses::Losses;
+use crate::order::{Order, Past};
 use crate::particle::Particle;
 use crate::proposal::ByProposal;
 use crate::record::{AllInvalid, Record};
@@ -98,6 +99,7 @@ impl<'a> Population<'a> {
         let particles: Vec<Particle> = (0..n as u64)
             .map(|lineage| Particle {
                 home: lineage as usize % rayon::current_num_threads(),
+                past: Past::start(&settings.order),
                 ..Particle::start(first.clone(), empty.fork(), lineage, settings.seed)
             })
             .collect();

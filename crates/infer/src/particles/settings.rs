@@ -1,21 +1,12 @@
 //! The settings of SMC.
 
 use super::rejuvenation::Rejuvenation;
+use crate::order::Order;
 use crate::proposal::Proposal;
 use crate::resampling::Resampling;
 use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Deserializer};
 use std::sync::Arc;
-
-/// Which future runs next.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "kebab-case")]
-pub enum Order {
-    /// Futures run where they are created: ordinary SMC.
-    DepthFirst,
-    /// A uniform draw among all runnable futures after each barrier (SOSMC, dissertation 5.3).
-    Stochastic,
-}
 
 /// How scores become weights.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -135,6 +126,9 @@ impl Settings {
                 "absolute weights carry nothing from one barrier to the next",
             )
             .with_help("use ratio weights, or another resampling than \"tempered\""));
+        }
+        if let Some(policy) = self.order.policy() {
+            policy.check()?;
         }
         if let Some(rejuvenation) = &self.rejuvenate {
             rejuvenation.check(self.weights)?;

@@ -15,11 +15,12 @@ use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::forward::forward;
 use niwaki_infer::log::Entry;
 use niwaki_infer::method::{Given, Method};
-use niwaki_infer::particles::{self, Ancestors, Order, Resampling, particle_gibbs, pimh};
+use niwaki_infer::particles::{self, Ancestors, Order, Policy, Resampling, particle_gibbs, pimh};
 use niwaki_infer::rejection::rejection;
 use niwaki_infer::replay::by_address;
 use niwaki_vm::value::repr;
 use serde_json::json;
+use std::sync::Arc;
 
 /// Exact draws from the posterior.
 fn draws(task: &Task, count: usize) -> Vec<Vec<Entry>> {
@@ -110,19 +111,30 @@ fn settings(task: &Task, number: u64, spread: f64, particles: usize, order: Orde
     particles::Settings { particles, order, proposal, ..particles::Settings::default() }
 }
 
+/// An order that is far from uniform. The held run is ordered anew in each sweep, and a guide sees another scene at the same
+/// choice in another order.
+fn learned() -> Order {
+    Order::Learned(Arc::new(Policy { depth: 0.5, turns: -1.0, waited: -0.7, stay: 1.2, ..Policy::default() }))
+}
+
 #[test]
 fn guided_sweeps_keep_the_posterior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         let (law, starts) = (Law::of(&task), draws(&task, 4000));
-        let futures = text.contains("future").then_some(Order::DepthFirst);
-        for order in futures.into_iter().chain([Order::Stochastic]) {
+        let orders = if text.contains("future") {
+            vec![Order::DepthFirst, learned(), Order::Stochastic]
+        } else {
+            vec![Order::Stochastic]
+        };
+        for order in orders {
             for (number, ancestors, resampling) in [
                 (1, Ancestors::Kept, Resampling::Multinomial),
                 (2, Ancestors::Sampled, Resampling::Multinomial),
                 (1, Ancestors::Sampled, Resampling::Tempered),
             ] {
-                let own = particles::Settings { resampling, ..settings(&task, number, WILD, 3, order) };
+                let own =
+                    particles::Settings { resampling, ..settings(&task, number, WILD, 3, order.clone()) };
                 let after = |(seed, start): (u64, &Vec<Entry>)| {
                     let own = particles::Settings { seed, ..own.clone() };
                     let chain = particle_gibbs(&task, &own, ancestors, 2, Some(start), &mut |_| true);

@@ -58,9 +58,10 @@ fn evidence_and_posterior_do_not_depend_on_the_guide() {
                 (2, 100, Resampling::Tempered, 100),
             ] {
                 let proposal = Some(by(&task, number, MILD));
+                let order = order.clone();
                 let own = Settings { particles, order, resampling, proposal, ..Settings::default() };
                 let far = wrong(&task, &law, &own, seeds);
-                assert!(far.is_empty(), "{name}, {order:?}, {particles} particles: {far:?}");
+                assert!(far.is_empty(), "{name}, {:?}, {particles} particles: {far:?}", own.order);
             }
         }
     }

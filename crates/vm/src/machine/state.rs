@@ -253,6 +253,23 @@ impl<S: Scalar> State<S> {
         }
     }
 
+    /// The function of the activation in which a runnable future is suspended; of one that has not begun, the function that
+    /// it calls.
+    pub fn function_of(&self, future: FutureId) -> Option<FunctionId> {
+        match self.futures.get(future.0 as usize)?.status {
+            Status::Runnable(node) => Some(self.nodes[node.0 as usize].function),
+            _ => None,
+        }
+    }
+
+    /// Whether a future has returned; another one may get its number.
+    pub fn has_returned(&self, future: FutureId) -> bool {
+        matches!(
+            self.futures.get(future.0 as usize).map(|own| &own.status),
+            Some(Status::Returned(_) | Status::Free)
+        )
+    }
+
     /// What the program returned, once it has ended, with futures replaced by their values.
     pub fn result(&self) -> Value<S> {
         match self.futures.first().map(|f| &f.status) {

@@ -66,7 +66,8 @@ fn particle_gibbs_keeps_the_posterior() {
         let starts = exact_draws(&task, SEEDS);
         for order in orders(text) {
             for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
-                let scores = counted(&task, &values_after(&task, &starts, &small(4, order), ancestors, 3));
+                let scores =
+                    counted(&task, &values_after(&task, &starts, &small(4, order.clone()), ancestors, 3));
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {ancestors:?}: {scores:?}");
             }
         }

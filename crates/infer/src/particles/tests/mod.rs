@@ -22,6 +22,7 @@ use std::time::Duration;
 mod annealed;
 mod chains;
 mod final_chains;
+mod ordered;
 mod proposed;
 mod rejuvenated;
 mod seeing;
@@ -234,7 +235,7 @@ fn evidence_and_posterior_are_right_for_every_order_and_resampling() {
         let task = task(text);
         for order in orders(text) {
             for resampling in Resampling::ALL {
-                let scores = z_scores(&task, &settings(order, resampling), 0..4000);
+                let scores = z_scores(&task, &settings(order.clone(), resampling), 0..4000);
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {resampling:?}: {scores:?}");
             }
         }
@@ -264,7 +265,7 @@ fn fresh_seeds_agree_too() {
         let task = task(text);
         for order in orders(text) {
             for resampling in Resampling::ALL {
-                let scores = z_scores(&task, &settings(order, resampling), first..first + 40_000);
+                let scores = z_scores(&task, &settings(order.clone(), resampling), first..first + 40_000);
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {resampling:?}: {scores:?}");
             }
         }

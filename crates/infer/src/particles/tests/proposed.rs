@@ -91,7 +91,7 @@ fn evidence_and_posterior_do_not_depend_on_the_proposal() {
     for (name, text, task, proposal) in cases() {
         for order in orders(text) {
             for (particles, seeds) in [(1, 8000), (3, 4000), (8, 2000), (100, 200)] {
-                let scores = z_scores(&task, &with(&proposal, order, particles), 0..seeds);
+                let scores = z_scores(&task, &with(&proposal, order.clone(), particles), 0..seeds);
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {particles} particles: {scores:?}");
             }
         }
@@ -181,9 +181,9 @@ fn numbers_have_the_known_evidence() {
     let log_evidence =
         -0.5 * (y[0] * solved[0] + y[1] * solved[1]) - 0.5 * determinant.ln() - std::f64::consts::TAU.ln();
     let mean = 0.9 * solved[0] + 1.06 * solved[1];
-    let look = |order, particles, seeds: u64| {
+    let look = |order: Order, particles, seeds: u64| {
         let one = |seed| {
-            let own = Settings { seed, ..with(&proposal, order, particles) };
+            let own = Settings { seed, ..with(&proposal, order.clone(), particles) };
             let run = smc(&task, &own, &mut |_| true).unwrap();
             let evidence = (run.log_evidence.unwrap() - log_evidence).exp();
             let total: f64 = run.particles.iter().map(|p| p.log_weight.exp()).sum();
@@ -197,7 +197,7 @@ fn numbers_have_the_known_evidence() {
     };
     for order in [Order::DepthFirst, Order::Stochastic] {
         for (particles, seeds) in [(1, 20_000), (5, 4000), (100, 400)] {
-            let z = look(order, particles, seeds);
+            let z = look(order.clone(), particles, seeds);
             assert!(z.iter().all(|z| z.abs() < LIMIT), "{order:?}, {particles}: {z:?}");
         }
     }
@@ -209,7 +209,7 @@ fn particle_gibbs_keeps_the_posterior_under_a_proposal() {
         let starts = exact_draws(&task, 3000);
         for order in orders(text) {
             for ancestors in [Ancestors::Kept, Ancestors::Sampled] {
-                let own = Settings { proposal: Some(proposal.clone()), ..small(3, order) };
+                let own = Settings { proposal: Some(proposal.clone()), ..small(3, order.clone()) };
                 let scores = counted(&task, &values_after(&task, &starts, &own, ancestors, 3));
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {ancestors:?}: {scores:?}");
             }

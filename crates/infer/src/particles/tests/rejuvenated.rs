@@ -85,16 +85,16 @@ fn text(p: &Particle) -> String {
 }
 
 /// The worst z of the counts of moved draws from the law at a barrier, the number of states, and the moves.
-fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, MoveCounts) {
+pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize, MoveCounts) {
     let mut population = Population::start(task, settings, false).unwrap();
     let (mut machine, mut log_orders) = (task.machine(), vec![0.0; settings.particles]);
     for _ in 0..barriers {
         for (p, log_order) in population.particles.iter_mut().zip(&mut log_orders) {
             p.was_ended = p.state.has_ended();
             while p.is_running() {
-                let n = p.state.runnable().len();
-                let which = if n > 1 { p.pick(n, settings.seed) } else { 0 };
-                *log_order -= (n as f64).ln();
+                p.past.look(machine.program(), &p.state);
+                let which = if p.state.runnable().len() > 1 { p.pick(settings.seed) } else { 0 };
+                *log_order += p.past.log_probability(&p.state, which);
                 if p.run(&mut machine, task, which, Prior(p.stream)).unwrap() {
                     break;
                 }
@@ -138,7 +138,7 @@ fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> (f64, usize
     (worst, law.len(), population.moved)
 }
 
-fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {
+pub(super) fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {
     Settings {
         particles: 40_000,
         power,
@@ -156,7 +156,7 @@ fn moves_of_partial_programs_leave_their_law_as_it_is() {
         for order in orders(text) {
             let power = if order == Order::Stochastic { 1.7 } else { 1.0 };
             for barriers in 1..=3 {
-                let settings = draws(every_kind(), order, power);
+                let settings = draws(every_kind(), order.clone(), power);
                 let (worst, states, moved) = on_one_thread(|| moved_draws(&task, &settings, barriers));
                 all += moved;
                 assert!(worst < LIMIT, "{name}, {order:?}, barrier {barriers}: z {worst}, {states} states");
@@ -178,7 +178,7 @@ fn evidence_and_posterior_stay_right() {
         for (order, at) in forms.chain([(Order::Stochastic, Moment::End)]) {
             let settings = Settings {
                 rejuvenate: rejuvenation(every_kind(), 2, at),
-                ..settings(order, Resampling::Systematic)
+                ..settings(order.clone(), Resampling::Systematic)
             };
             let scores = z_scores(&task, &settings, 0..2000);
             assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {at:?}: {scores:?}");

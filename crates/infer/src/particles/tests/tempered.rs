@@ -59,7 +59,7 @@ fn evidence_and_posterior_are_right_for_any_number_of_particles() {
             (30, 1500, Order::DepthFirst, low),
             (100, 600, Order::Stochastic, When::Always),
         ] {
-            let own = Settings { when, ..tempered(particles, order) };
+            let own = Settings { when, ..tempered(particles, order.clone()) };
             let scores = z_scores(&task, &own, 0..seeds);
             assert!(worst(&scores) < LIMIT, "{name}, {particles}, {order:?}, {when:?}: {scores:?}");
         }
@@ -104,7 +104,7 @@ fn particle_gibbs_keeps_the_posterior_by_tempered_weights() {
             (5, Order::Stochastic, low, Ancestors::Sampled),
             (6, Order::DepthFirst, When::Always, Ancestors::Sampled),
         ] {
-            let own = Settings { when, ..tempered(particles, order) };
+            let own = Settings { when, ..tempered(particles, order.clone()) };
             let scores = counted(&task, &values_after(&task, &starts, &own, ancestors, 3));
             assert!(worst(&scores) < LIMIT, "{name}, {particles}, {order:?}, {ancestors:?}: {scores:?}");
         }
