@@ -91,7 +91,7 @@ impl Policy {
     /// Such a number.
     pub fn check(&self) -> Result<(), Fault> {
         let own = [self.depth, self.turns, self.waited, self.stay];
-        match self.functions.values().chain(&own).find(|x| !(x.abs() <= LARGEST)) {
+        match self.functions.values().chain(&own).find(|x| x.is_nan() || x.abs() > LARGEST) {
             None => Ok(()),
             Some(x) => Err(Fault::new("bad-setting", format!("a number of the order policy is {x}"))
                 .with_help("use numbers between -50 and 50")),
