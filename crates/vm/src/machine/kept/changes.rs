@@ -68,10 +68,8 @@ impl<S: Scalar> Trace<S> {
                 let slot = self.kept.slots[n.slots as usize + i];
                 match &site.kind {
                     _ if !slot.is_filled() => {}
-                    kind if kind.makes_activation() => {
-                        if self.kept.shared(&self.state, slot).is_none() {
-                            work.push((NodeId(slot.held), level + 1));
-                        }
+                    kind if kind.makes_activation() && self.kept.shared(&self.state, slot).is_none() => {
+                        work.push((NodeId(slot.held), level + 1));
                     }
                     SiteKind::Sample(_) if !slot.is_held() => {
                         let number = (slot.held & Slot::BORN == 0).then_some(slot.held as usize);
