@@ -73,10 +73,12 @@ def test_the_bound_comes_near_the_log_evidence(guide: nw.Guide) -> None:
     for strength in (1.0, 2.0):
         exact = log_evidence(agree, strength)
         reached, error = bound(agree, guide, strength)
-        # Without a guide it is 0.4 and 1.3 nats below. Its errors: 5 deviations, once in 1.7 million runs.
+        # Without a guide it is 0.24 and 0.87 nats below. Its errors: 5 deviations, once in 1.7 million runs.
         assert exact - 0.05 - 5 * error < reached < exact + 5 * error
     bounds = [one[2] for one in guide.report["rounds"][0]["bounds"]]
-    assert len(bounds) == 21 and max(bounds) > bounds[0] + 0.3
+    # The first target judges, by 512 runs: of the prior with a standard error of 0.03, of the last guide with less.
+    assert len(bounds) == 21 and bounds[0] == pytest.approx(1.0, abs=0.15)
+    assert bounds[-1] == pytest.approx(log_evidence(agree, 1.0), abs=0.05)
     assert all(one == [0, 0] for one in guide.report["rounds"][0]["lost"])
 
 
@@ -131,7 +133,7 @@ def test_impossible_runs_are_counted_and_become_rare(objective: str) -> None:
 def test_it_goes_on_with_a_guide(guide: nw.Guide) -> None:
     more = trained(agree, start=guide, seed=3, training=Training.bound(**FAST | {"steps": 40}))
     before, after = (one.report["rounds"][-1]["bounds"] for one in (guide, more))
-    assert after[0][2] > before[0][2] + 0.2
+    assert after[0][2] > before[0][2] + 0.15
     by_examples = trained(
         agree,
         start=more,
