@@ -1,7 +1,8 @@
 //! The probabilities of an `infer` by enumeration, recorded: those of the plain run to the bit, with their derivatives.
 //!
 //! An inner coin has the prior 0.3 and heads score `x`, so that `p = 0.3 e^x / (0.3 e^x + 0.7)` and `dp/dx = p (1 - p)`. Mutant in
-//! `tests/mutants`: a normaliser that does not vary, for which `dp/dx = p`.
+//! `tests/mutants`: a normaliser that does not vary, for which `dp/dx = p`. Log densities lie on a grid of 2^-32, so
+//! probabilities are compared up to 1e-9.
 
 use niwaki_infer::Task;
 use niwaki_infer::forward::forward;
@@ -58,8 +59,8 @@ fn a_probability_has_the_slope_of_a_logistic() {
         let mut slope = [0.0];
         let value = density.value_and_gradient(&[x], &mut slope).expect("a value");
         let normal = -0.5 * x * x - 0.5 * (2.0 * std::f64::consts::PI).ln();
-        assert!((value - normal - p).abs() < 1e-12, "{x}: {value}");
-        assert!((slope[0] + x - p * (1.0 - p)).abs() < 1e-12, "{x}: {}", slope[0]);
+        assert!((value - normal - p).abs() < 1e-9, "{x}: {value}");
+        assert!((slope[0] + x - p * (1.0 - p)).abs() < 1e-9, "{x}: {}", slope[0]);
         let plain = density.values(&[x]).expect("values");
         let trace = replay(&task, Source::Addresses(plain), Missing::Refuse).expect("a run");
         assert!((trace.sums.0.plus(&trace.sums.1).value() - value).abs() < 1e-8);
@@ -69,7 +70,7 @@ fn a_probability_has_the_slope_of_a_logistic() {
     let (x, mut slope) = (1.2f64, [0.0]);
     density.value_and_gradient(&[x], &mut slope).expect("a value");
     let p = 0.7 / (0.3 * x.exp() + 0.7);
-    assert!((slope[0] + x + p * (1.0 - p)).abs() < 1e-12 && density.recordings() == 2);
+    assert!((slope[0] + x + p * (1.0 - p)).abs() < 1e-9 && density.recordings() == 2);
 }
 
 #[test]

@@ -26,7 +26,7 @@ use programs::{PROGRAMS, leaf, task};
 use serde_json::json;
 use std::sync::Arc;
 
-/// One of every kind, and all of them together.
+/// One of every kind that the program may have, and all of them together.
 fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let drift = || leaf("drift", json!({"step": 0.7, "target": 0.44}));
     let neighbour = || leaf("neighbour", json!({"reach": 2}));
@@ -36,29 +36,35 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let deep = Selection { depth: vec![1.0, 3.0, 0.5], ..Selection::default() };
     let first = choices(task).swap_remove(0).0;
     let by_site = Selection { weights: vec![(first, 3.0)], ..Selection::default() };
-    let all = Kernel::Cycle(vec![
+    let mut parts = vec![
         Kernel::PRIOR,
         Kernel::Repeat(2, Box::new(drift())),
         Kernel::Mixture(vec![(1.0, neighbour()), (2.0, block())]),
         regenerate(0),
-        regrow(0.5, "size"),
         Kernel::On(deep.clone(), Box::new(Kernel::PRIOR)),
-    ]);
-    vec![
+    ];
+    let mut regrown = vec![];
+    // The parts of a run share its memoised calls.
+    if !task.program.memoises() {
+        parts.push(regrow(0.5, "size"));
+        regrown = vec![("regrow", regrow(0.3, "size")), ("regrow by choice", regrow(1.0, "choice"))];
+    }
+    let all = Kernel::Cycle(parts);
+    let mut found = vec![
         ("prior", Kernel::PRIOR),
         ("drift", drift()),
         ("neighbour", neighbour()),
         ("block", block()),
         ("regenerate 0", regenerate(0)),
         ("regenerate 2", regenerate(2)),
-        ("regrow", regrow(0.3, "size")),
-        ("regrow by choice", regrow(1.0, "choice")),
         ("weights by depth", Kernel::On(deep, Box::new(Kernel::Cycle(vec![Kernel::PRIOR, regenerate(1)])))),
         ("weights by site", Kernel::On(by_site, Box::new(Kernel::PRIOR))),
         ("own proposals", own_proposals(task)),
         ("annealed", Kernel::Anneal { start: 0.25, end: 2.0, steps: 200, kernel: Box::new(all.clone()) }),
         ("all", all),
-    ]
+    ];
+    found.extend(regrown);
+    found
 }
 
 /// Choices of a first state: the last part of the address, and the value.
