@@ -106,9 +106,9 @@ def pimh(sweeps: int, seed: int) -> nw.methods.Pimh:
     return nw.pimh(5 + seed % 3, sweeps, ("stochastic", "depth-first")[seed // 2 % 2])
 
 
-def annealed(seed: int) -> nw.methods.Ais:
+def annealed(seed: int, moves: Any = MOVES) -> nw.methods.Ais:
     """Two particles on a short ladder, which is as sensitive as few particles are."""
-    return nw.ais(2, ((0.3, 1), (0.1, 0.4, 1))[seed % 2], MOVES, 1 + seed % 3, tries=10**6)
+    return nw.ais(2, ((0.3, 1), (0.1, 0.4, 1))[seed % 2], moves, 1 + seed % 3, tries=10**6)
 
 
 METHODS = (*populations(1, 0), *gibbs(0), "PIMH", "AIS")
@@ -225,9 +225,8 @@ def looked_at(
         ).samples
         scores = exact.of_chain([repr(sample.value) for sample in found])
     elif name == "AIS":
-        searches = [
-            nw.run(model, annealed(seed), seed=seed + i, threads=1) for i in range(POPULATIONS * times)
-        ]
+        method = annealed(seed, moves)
+        searches = [nw.run(model, method, seed=seed + i, threads=1) for i in range(POPULATIONS * times)]
         scores = exact.of_searches(searches)
         found = [sample for one in searches for sample in one]
     else:

@@ -149,9 +149,9 @@ def test_every_flag_of_a_search_can_be_written(place: Path) -> None:
         'target = "pillar.obj"', 'avoid = ["pillar.obj"]\nfloor = 0\nwithin = [-5, 0, -5, 5, 10, 5]'
     )
     place.write_text(
-        text.replace("voxel = 0.5", 'target = "pillar.obj"\nmethod = "smc"\npower = 8\nkernel = 1')
+        text.replace("voxel = 0.5", 'target = "pillar.obj"\nmethod = "smc"\npower = 8\nkernels = 1')
     )
-    with pytest.raises(Exception, match=r"\$.grow.kernel"):
+    with pytest.raises(Exception, match=r"\$.grow.kernels"):
         batch_files.load(place)
     place.write_text(text.replace("voxel = 0.5", 'target = "pillar.obj"\nmethod = "smc"\npower = 8'))
     with warnings.catch_warnings():
