@@ -364,8 +364,8 @@ class _Fit:
                 self.progress(replace(now, step=step, steps=steps))
 
         # The weights of a guide that lacks choices of the model would have to be those of a smaller network.
-        known = self.start is not None and not self.start._engine.lost(search.task)
-        first = self.start._engine if self.start is not None and known else None
+        start = self.start
+        first = None if start is None or start._engine.lost(search.task) else start._engine
         settings = asdict(self.training) | {"model": search.model.name, "seed": self.seed}
         with translated(search.model.name, f"seed={self.seed}"):
             seen = watch if self.stage is None else self.stage.watched(watch)
