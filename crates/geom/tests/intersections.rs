@@ -7,8 +7,9 @@
 
 mod scenes;
 
+use niwaki_geom::intersect::{SOLID_TOLERANCE, axes};
 use niwaki_geom::{
-    Look, Mat3, NoSelfIntersection, Primitive, Rule, Shape, Sketch, TriMesh, Vec3, intersects, vec3,
+    Look, Mat3, NoSelfIntersection, Primitive, Rule, Shape, Sketch, Solid, TriMesh, Vec3, intersects, vec3,
 };
 use scenes::{Dice, any_shape, torus};
 use std::sync::Arc;
@@ -94,6 +95,97 @@ fn the_surface_rule_sees_all_overlaps_but_containment() {
         }
     }
     assert!(seen > 800 && missed == 0, "{seen} {missed}");
+}
+
+/// A box as long as wide, a beam or a plate, turned or not.
+fn any_box(dice: &mut Dice, at: Vec3) -> Shape {
+    let thin = [1.0, 1e-2, 1e-4];
+    let size = vec3(1.0, thin[dice.below(3)], thin[dice.below(3)]) * dice.uniform(0.1, 3.0);
+    let turn = match dice.below(4) {
+        0 => None,
+        // Nearly along the axes: products of edges that nearly vanish.
+        1 => Some(Mat3::rotation(dice.point(1.0).unit().unwrap(), 10f64.powf(dice.uniform(-9.0, -2.0)))),
+        _ => Some(Mat3::rotation(dice.point(1.0).unit().unwrap(), dice.uniform(0.0, 7.0))),
+    };
+    Shape::cuboid(at, size, &Look { rotation: turn, ..Look::default() }).unwrap()
+}
+
+#[test]
+fn two_boxes_agree_with_the_code_for_all_convex_solids() {
+    let mut dice = Dice::new(15);
+    let (mut apart, mut overlapping, mut at_the_tolerance) = (0, 0, 0);
+    for pair in 0..40_000 {
+        let far = [0.0, 0.0, 30.0, 3e4][dice.below(4)];
+        let middle = dice.point(1.0) * far;
+        let a = any_box(&mut dice, middle);
+        let other = middle + dice.point(1.2);
+        let mut b = any_box(&mut dice, other);
+        let general = |b: &Shape, share: f64| {
+            let tolerance = share * a.thickness().min(b.thickness());
+            let (p, q) = (a.convex().unwrap(), b.convex().unwrap());
+            !axes::boxes_apart(a.aabb(), b.aabb(), tolerance) && axes::overlap(&p, &q, tolerance)
+        };
+        if pair % 2 == 0 && general(&b, SOLID_TOLERANCE) {
+            // Moved until they hardly overlap.
+            let (mut least, mut most) = (0.0, 10.0);
+            let away = dice.point(1.0).unit().unwrap();
+            let moved = |by: f64| {
+                let Solid::Box { size } = b.solid() else { panic!("a box") };
+                let look = Look { rotation: Some(b.placement().rotation), ..Look::default() };
+                Shape::cuboid(b.placement().translation + away * by, *size, &look).unwrap()
+            };
+            for _ in 0..dice.below(30) {
+                let middle = 0.5 * (least + most);
+                *(if general(&moved(middle), SOLID_TOLERANCE) { &mut least } else { &mut most }) = middle;
+            }
+            b = moved(if dice.below(2) == 0 { least } else { most });
+        }
+        let found = intersects(&a, &b, Rule::Solid);
+        assert_eq!(found, intersects(&b, &a, Rule::Solid), "pair {pair}");
+        // Corners are rounded to about 1e-16 of their distance from the origin, which is a share of the thinner box.
+        let rounding = 1e-4 * SOLID_TOLERANCE + 3e-15 * (far + 3.0) / a.thickness().min(b.thickness());
+        let [more, less] = [1.0, -1.0].map(|sign| general(&b, SOLID_TOLERANCE + sign * rounding));
+        if more == less {
+            assert_eq!(found, more, "pair {pair}\n{a:?}\n{b:?}");
+            *(if found { &mut overlapping } else { &mut apart }) += 1;
+        } else {
+            at_the_tolerance += 1;
+        }
+    }
+    assert!(apart > 5_000 && overlapping > 5_000, "{apart} {overlapping} {at_the_tolerance}");
+    assert!(at_the_tolerance < 2_000, "{at_the_tolerance}");
+}
+
+#[test]
+fn boxes_that_touch_in_any_direction_do_not_overlap() {
+    let mut dice = Dice::new(16);
+    for _ in 0..4000 {
+        let turn = Mat3::rotation(dice.point(1.0).unit().unwrap(), dice.uniform(0.0, 7.0));
+        let turn = if dice.below(2) == 0 { turn } else { Mat3::IDENTITY };
+        let size =
+            |dice: &mut Dice| vec3(dice.uniform(0.1, 3.0), dice.uniform(0.1, 3.0), dice.uniform(0.1, 3.0));
+        let (p, q, at) = (size(&mut dice), size(&mut dice), dice.point(20.0));
+        let look = Look { rotation: Some(turn), ..Look::default() };
+        // Block by block along a side, shifted across it.
+        let way = vec3(0.5 * (p.x + q.x), dice.uniform(-0.04, 0.04), dice.uniform(-0.04, 0.04));
+        let a = Shape::cuboid(at, p, &look).unwrap();
+        for (deeper, overlaps) in [(0.0, false), (1e-4, true), (-1e-4, false)] {
+            let to = at + turn.apply(way - vec3(deeper, 0.0, 0.0));
+            assert_eq!(intersects(&a, &Shape::cuboid(to, q, &look).unwrap(), Rule::Solid), overlaps);
+        }
+        // An edge on an edge across it: along their common normal the boxes touch there.
+        let quarter = Mat3::rotation(Vec3::AXES[2], std::f64::consts::FRAC_PI_4);
+        let crossed = turn.after(&Mat3::rotation(Vec3::AXES[1], std::f64::consts::FRAC_PI_2)).after(&quarter);
+        let (low, high) = (turn.after(&quarter), crossed);
+        let [a, b] = [(low, at), (high, at + turn.apply(vec3(0.0, 2f64.sqrt(), 0.0)))].map(|(turn, at)| {
+            let look = Look { rotation: Some(turn), ..Look::default() };
+            Shape::cuboid(at, vec3(1.0, 1.0, 3.0), &look).unwrap()
+        });
+        assert!(!intersects(&a, &b, Rule::Solid));
+        let lower = at + turn.apply(vec3(0.0, 2f64.sqrt() - 1e-4, 0.0));
+        let look = Look { rotation: Some(high), ..Look::default() };
+        assert!(intersects(&a, &Shape::cuboid(lower, vec3(1.0, 1.0, 3.0), &look).unwrap(), Rule::Solid));
+    }
 }
 
 /// The same coarse mesh as a mesh shape.

@@ -8,11 +8,22 @@ use crate::bounds::Aabb;
 use crate::convex::{Convex, span};
 use crate::vector::Vec3;
 
+/// The sine up to which edges count as parallel: what they could separate, a face normal does.
+pub(super) const PARALLEL: f64 = 1e-6;
+
 /// True when the boxes overlap by no more than `tolerance` along some coordinate.
 #[inline]
 pub fn boxes_apart(a: &Aabb, b: &Aabb, tolerance: f64) -> bool {
     let apart = |axis: usize| (a.high[axis] - b.low[axis]).min(b.high[axis] - a.low[axis]) <= tolerance;
     apart(0) || apart(1) || apart(2)
+}
+
+/// True when the solids overlap by no more than `tolerance` along the way from one middle to the other; `between` is that way.
+///
+/// It is a direction as good as any: no overlap is smaller than the least one over face normals and products of edges. So it
+/// decides nothing that these would not, but most solids that are apart are so along it.
+pub fn middles_apart(a: &Convex<'_>, b: &Convex<'_>, between: Vec3, tolerance: f64) -> bool {
+    between.unit().is_some_and(|way| apart(a, b, way, tolerance))
 }
 
 /// True when the solids overlap by no more than `tolerance` along a face normal of either.
@@ -30,8 +41,7 @@ pub fn overlap(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
         for q in b.edges() {
             let product = p.cross(*q);
             let length = product.norm();
-            // Edges parallel to a millionth: what they could separate, a face normal does.
-            if length > 1e-6 && apart(a, b, product * (1.0 / length), tolerance) {
+            if length > PARALLEL && apart(a, b, product * (1.0 / length), tolerance) {
                 return false;
             }
         }
@@ -39,7 +49,18 @@ pub fn overlap(a: &Convex<'_>, b: &Convex<'_>, tolerance: f64) -> bool {
     true
 }
 
+/// True when the solids overlap by no more than `tolerance` along `axis`. The corners of the second are looked at only until some
+/// of them are too far inside, from either end.
 fn apart(a: &Convex<'_>, b: &Convex<'_>, axis: Vec3, tolerance: f64) -> bool {
-    let ((a_low, a_high), (b_low, b_high)) = (span(a.corners(), axis), span(b.corners(), axis));
-    (a_high - b_low).min(b_high - a_low) <= tolerance
+    let (low, high) = span(a.corners(), axis);
+    let (mut above, mut below) = (true, true);
+    for p in b.corners() {
+        let along = p.dot(axis);
+        above &= high - along <= tolerance;
+        below &= along - low <= tolerance;
+        if !above && !below {
+            return false;
+        }
+    }
+    true
 }

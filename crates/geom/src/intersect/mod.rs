@@ -1,6 +1,7 @@
 //! Do two shapes intersect? Touching never counts, so that parts can be built flush.
 //!
 //! - [`axes`]: convex solids, by separating axes
+//! - [`boxes`]: the same for two boxes, from their middles and sides
 //! - [`triangles`]: surfaces, triangle by triangle
 //! - [`inside`]: containment in a closed mesh
 //!
@@ -9,12 +10,14 @@
 //! are not detected. Use it to compare with the published figures.
 
 pub mod axes;
+pub mod boxes;
 pub mod inside;
 pub mod triangles;
 
 use crate::convex::Convex;
 use crate::primitive::Primitive;
 use crate::shape::Shape;
+use boxes::Turned;
 use serde::Deserialize;
 use triangles::Crossing;
 
@@ -52,13 +55,20 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
     if rule == Rule::Solid && a.is_aligned_box() && b.is_aligned_box() {
         return true;
     }
+    if rule == Rule::Solid
+        && let (Some(p), Some(q)) = (Turned::of(a), Turned::of(b))
+    {
+        return p.overlaps(&q, tolerance);
+    }
     let (Some(p), Some(q)) = (a.convex(), b.convex()) else {
         return match rule {
             Rule::Solid => triangles::cross(a, b, Crossing::Deeper(tolerance)) || inside::overlap(a, b),
             Rule::Surface => triangles::cross(a, b, Crossing::Original),
         };
     };
-    !axes::faces_apart(&p, &q, tolerance)
+    let between = b.aabb().center() - a.aabb().center();
+    !axes::middles_apart(&p, &q, between, tolerance)
+        && !axes::faces_apart(&p, &q, tolerance)
         && match rule {
             Rule::Solid => any_piece(a, &p, |p| any_piece(b, &q, |q| axes::overlap(p, q, tolerance))),
             Rule::Surface => triangles::cross(a, b, Crossing::Original),
