@@ -95,7 +95,7 @@ demo: $(STAMPS)/engine
 
 test: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace
-	$(PY) -m pytest
+	$(PY) -m pytest -n auto --dist worksteal
 
 # The types of the page come from the messages; the bundle is committed, and a test compares it where node is found.
 studio-page: $(STAMPS)/engine $(STAMPS)/test
