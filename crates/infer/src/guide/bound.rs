@@ -64,6 +64,11 @@ impl Sight {
         self.seen = None;
     }
 
+    /// Where was looked from last, since what was seen was forgotten.
+    pub fn place(&self) -> Option<Place> {
+        self.seen.map(|(_, here, _)| here)
+    }
+
     /// The window that was seen last, and the inputs beside it.
     pub fn inputs(&self) -> (&[f32], &[(u32, f32)]) {
         (&self.window, &self.features)

@@ -21,6 +21,9 @@
 //! alone. Without it a past that is kept would keep its order, too. What a guide says of the held choices is computed as the
 //! run is followed, so it is that of the new order. An order that is impossible at some barrier is not taken.
 //!
+//! What a forecast counted of the prefix ([`look_ahead`](super::look_ahead)) is in `w_i` and divided out above: the whole
+//! run is followed to its end, where it has none. The held run has its forecasts as it is followed, like any other.
+//!
 //! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an
 //! address.
 //!
@@ -190,7 +193,7 @@ fn is_possible(
     let mut particle = Particle::start(start, Record::start(&task.sketches), 0, settings.seed);
     let segments = run.segments();
     for (number, segment) in (1..).zip(&segments) {
-        if particle.follow(machine, task, segment, number == segments.len(), None)?.is_none() {
+        if particle.follow(machine, task, segment, number == segments.len(), None, None)?.is_none() {
             return Ok(false);
         }
     }
@@ -240,8 +243,9 @@ fn conditional(
         population.advance(Some(held))?;
         if let Some(segment) = segments.get(population.barriers) {
             let last = population.barriers + 1 == segments.len();
-            let (particle, proposal) = (&mut population.particles[held], settings.proposal.as_deref());
-            if particle.follow(&mut machine, &task, segment, last, proposal)?.is_none() {
+            let (proposal, ahead) = (settings.proposal.as_deref(), settings.look_ahead.as_ref());
+            let particle = &mut population.particles[held];
+            if particle.follow(&mut machine, &task, segment, last, proposal, ahead)?.is_none() {
                 return Err(Failure::no_start());
             }
         }
@@ -289,7 +293,7 @@ fn sample_ancestor(
         let mut trial = p.fork();
         let mut log_order = 0.0;
         for (number, segment) in rest.iter().enumerate() {
-            match trial.follow(machine, task, segment, number + 1 == rest.len(), None)? {
+            match trial.follow(machine, task, segment, number + 1 == rest.len(), None, None)? {
                 Some(log) => log_order += log,
                 None => return Ok(f64::NEG_INFINITY),
             }
@@ -301,7 +305,7 @@ fn sample_ancestor(
         } else {
             settings.power * score.value() - power * p.weighed.value()
         };
-        Ok(p.log_weight + log_prior + log_order + log_scores)
+        Ok(p.log_weight - power * p.foreseen + log_prior + log_order + log_scores)
     };
     let logs: Vec<f64> = if population.parallel {
         let particles = population.particles.par_iter_mut();

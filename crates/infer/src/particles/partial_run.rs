@@ -6,6 +6,7 @@
 //! equal probability (one over the number of futures that can run, or what a learned policy says, pick by pick), so it
 //! cancels in a ratio. A learned policy whose weights of the futures at a pick differ to the bit has another skeleton there.
 
+use super::look_ahead::LookAhead;
 use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use crate::guide::bound::Sight;
 use crate::log::{Entry, Log};
@@ -388,7 +389,8 @@ impl Chooser for Follow<'_> {
 impl Particle {
     /// Follows a segment of another run from the present state: to its next barrier, or to the end where the segment is
     /// the run's `last`. Returns the log probability of its order choices. `None` where the segment cannot be followed or
-    /// has density zero; the particle must then not be used again. With a `proposal` its choices count as drawn by it.
+    /// has density zero; the particle must then not be used again. With a `proposal` its choices count as drawn by it; with a
+    /// `look_ahead` it has its twist.
     pub fn follow(
         &mut self,
         machine: &mut Machine<'_>,
@@ -396,6 +398,7 @@ impl Particle {
         segment: &[Step],
         last: bool,
         proposal: Option<&Proposal>,
+        look_ahead: Option<&LookAhead>,
     ) -> Result<Option<f64>, Failure> {
         let mut follow = Follow { steps: segment.iter(), proposal, sight: Sight::default(), lost: false };
         let (mut log_order, mut paused) = (0.0, false);
@@ -408,6 +411,7 @@ impl Particle {
             }
             paused = self.run(machine, task, which, &mut follow)?;
         }
+        self.foresee(look_ahead, &mut follow.sight);
         let arrived = if last { self.state.has_ended() } else { paused && self.record.cause.is_none() };
         Ok((arrived && !follow.lost && follow.steps.len() == 0).then_some(log_order))
     }

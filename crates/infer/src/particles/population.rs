@@ -19,7 +19,7 @@ use crate::resampling::Resampling;
 use crate::streams::Reserved;
 use crate::weights::{Normalised, conditional_share, log_step};
 use crate::{Failure, Task};
-use niwaki_math::Stream;
+use niwaki_math::{Stream, Total};
 use niwaki_vm::machine::{Limits, Machine};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -244,10 +244,11 @@ impl<'a> Population<'a> {
                 self.losses.note(&p.record);
             }
             match self.settings.weights {
-                Weights::Ratio => p.log_weight += log_step(next, &score, self.power, &p.weighed),
+                Weights::Ratio => p.log_weight += step(p, next, &score, self.power),
                 Weights::Absolute => p.log_weight = self.settings.power * score.value(),
             }
             p.weighed = score;
+            p.foreseen = p.ahead;
             self.logs.push(p.log_weight);
         }
         self.power = next;
@@ -275,8 +276,7 @@ impl<'a> Population<'a> {
     fn adapted(&self, share: f64) -> f64 {
         let keeps = |next: f64| {
             let old = self.particles.iter().map(|p| p.log_weight);
-            let steps =
-                self.particles.iter().map(|p| log_step(next, &p.record.score(), self.power, &p.weighed));
+            let steps = self.particles.iter().map(|p| step(p, next, &p.record.score(), self.power));
             conditional_share(old, steps) >= share
         };
         let (mut low, mut high) = (self.power, self.settings.power);
@@ -329,6 +329,10 @@ impl<'a> Population<'a> {
     /// Weighs the final set by the declared power, and reads its weights; false when no particle is possible.
     pub fn finish(&mut self) -> bool {
         self.settle();
+        // Those that ended have no twist; of a search that was stopped others are left.
+        for p in self.particles.iter_mut().filter(|p| p.is_running() && p.foreseen != 0.0) {
+            p.log_weight -= self.power * std::mem::take(&mut p.foreseen);
+        }
         if self.power != self.settings.power {
             let change = self.settings.power - self.power;
             for p in &mut self.particles {
@@ -349,6 +353,13 @@ impl<'a> Population<'a> {
     pub fn ancestors(&self) -> usize {
         self.ancestor.iter().collect::<HashSet<_>>().len()
     }
+}
+
+/// The log weight of a particle's step to a score at the next power, nats: its forecast is counted, and the one before
+/// taken back.
+#[inline(always)]
+fn step(p: &Particle, next: f64, score: &Total, power: f64) -> f64 {
+    log_step(next, score, power, &p.weighed) + (next * p.ahead - power * p.foreseen)
 }
 
 /// Runs a particle to its next barrier, or to its end: choices are drawn by the proposal, where there is one for them.
@@ -372,6 +383,7 @@ fn advance(
             )?
         }
     };
+    particle.foresee(settings.look_ahead.as_ref(), sight);
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The settings of SMC.
 
-use super::rejuvenation::Rejuvenation;
+use super::look_ahead::LookAhead;
+use super::rejuvenation::{Moment, Rejuvenation};
 use crate::order::Order;
 use crate::proposal::Proposal;
 use crate::resampling::Resampling;
@@ -72,6 +73,9 @@ pub struct Settings {
     /// The proposal for the choices that the prior does not draw.
     #[serde(skip)]
     pub proposal: Option<Arc<Proposal>>,
+    /// What weights count of the rest of a run; nothing where there is none.
+    #[serde(skip)]
+    pub look_ahead: Option<LookAhead>,
     /// Seed.
     #[serde(skip)]
     pub seed: u64,
@@ -89,6 +93,7 @@ impl Default for Settings {
             when: When::Always,
             rejuvenate: None,
             proposal: None,
+            look_ahead: None,
             seed: 0,
         }
     }
@@ -99,7 +104,8 @@ impl Settings {
     ///
     /// # Errors
     /// No particles, a power that is not positive, a threshold outside `[0, 1]`, a schedule of powers that is
-    /// empty; beside absolute weights a schedule, a proposal, moves or tempered resampling.
+    /// empty; beside absolute weights a schedule, a proposal, moves, tempered resampling or look-ahead; beside look-ahead moves
+    /// of particles that still run.
     pub fn check(&self) -> Result<(), Fault> {
         if self.particles == 0 {
             return Err(
@@ -127,6 +133,9 @@ impl Settings {
             )
             .with_help("use ratio weights, or another resampling than \"tempered\""));
         }
+        if let Some(own) = &self.look_ahead {
+            self.check_look_ahead(own)?;
+        }
         if let Some(policy) = self.order.policy() {
             policy.check()?;
         }
@@ -148,6 +157,29 @@ impl Settings {
         if self.weights == Weights::Absolute {
             return Err(Fault::new("bad-anneal", "absolute weights have no schedule of powers")
                 .with_help("use ratio weights"));
+        }
+        Ok(())
+    }
+
+    fn check_look_ahead(&self, own: &LookAhead) -> Result<(), Fault> {
+        if !(own.strength > 0.0 && own.strength.is_finite()) {
+            return Err(Fault::new(
+                "bad-setting",
+                format!("the strength of the look-ahead is {}", own.strength),
+            )
+            .with_help("use a positive number, such as 0.2"));
+        }
+        if self.weights == Weights::Absolute {
+            return Err(Fault::new(
+                "bad-setting",
+                "absolute weights carry nothing on that a forecast could be taken back from",
+            )
+            .with_help("use ratio weights, or no look-ahead"));
+        }
+        if self.rejuvenate.as_ref().is_some_and(|moves| moves.at != Moment::End) {
+            let what = "particles that still run are not moved under a look-ahead";
+            return Err(Fault::new("bad-setting", what)
+                .with_help("move the particles at the end, or do not look ahead"));
         }
         Ok(())
     }
