@@ -58,17 +58,44 @@ fn shared_cells_are_those_of_a_loop_and_removing_undoes_adding() {
     };
     let empty = Avoid::new(obstacle.clone());
     let mut sketch = empty.clone();
+    let mut allowed = 0;
     for p in &primitives {
         let before = sketch.shared();
         sketch.add(p);
         assert_eq!(sketch.shared() - before, by_hand(p));
+        let mut alone = empty.clone();
+        alone.add(p);
+        assert_eq!(alone.log_score() == 0.0, by_hand(p) == 0);
+        allowed += usize::from(alone.log_score() == 0.0);
     }
+    assert!((5..55).contains(&allowed), "{allowed}");
     assert!(sketch.shared() > 1000);
     let mut backward = empty.clone();
     primitives.iter().rev().for_each(|p| backward.add(p));
     assert!(sketch == backward);
     primitives.iter().for_each(|p| assert!(sketch.remove(p) && !sketch.remove(p)));
     assert!(sketch == empty && sketch.log_score() == 0.0);
+}
+
+#[test]
+fn a_shape_is_forbidden_exactly_when_it_shares_a_cell() {
+    let mut dice = Dice::new(5);
+    let obstacle = Arc::new(Target::new(torus(2.0, 0.5, 24, 12), 0.1).unwrap());
+    let [mut allowed, mut near, mut forbidden] = [0; 3];
+    for _ in 0..3000 {
+        let shape = any_shape(&mut dice, 3.5);
+        let cells = obstacle.grid().cells_of(shape.aabb());
+        let shared = Voxels::of(&shape, obstacle.grid()).map_or(0, |v| obstacle.shared_with(&v));
+        let mut sketch = Avoid::new(obstacle.clone());
+        sketch.add(&Primitive::new([shape]));
+        assert_eq!(sketch.log_score() == 0.0, shared == 0);
+        assert_eq!(sketch.shared(), shared);
+        let boxed = cells.is_some_and(|cells| obstacle.meets(&Voxels::block(cells)));
+        forbidden += usize::from(shared > 0);
+        near += usize::from(shared == 0 && boxed);
+        allowed += usize::from(shared == 0 && !boxed);
+    }
+    assert!(allowed > 500 && near > 100 && forbidden > 500, "{allowed} {near} {forbidden}");
 }
 
 #[test]

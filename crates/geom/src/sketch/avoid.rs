@@ -2,13 +2,18 @@
 //!
 //! The obstacle and each shape are voxelised as solids on the obstacle's own grid, conservatively, so that a scene
 //! that is allowed never touches the obstacle and keeps up to two cells away from it (dissertation 5.5.1). The sketch
-//! keeps the sum over shapes of the cells that each shares with the obstacle: an integer that is zero exactly when
-//! no shape shares one, so no grid of the scene is needed and a step costs the new shape's own cells.
+//! keeps the number of primitives that share a cell with the obstacle: an integer that is zero exactly when none does, so
+//! no grid of the scene is needed.
+//!
+//! Whether a shape shares a cell is mostly decided without its cells: it shares none when the obstacle fills no cell of the box
+//! around it, and one when the obstacle fills the cell of a point of it. The shared cells are counted when a person asks.
 
 use super::bag::Bag;
 use super::volume::Target;
 use super::{Sketch, SketchSpec, share};
 use crate::primitive::Primitive;
+use crate::shape::Shape;
+use crate::vector::Vec3;
 use crate::voxel::Voxels;
 use std::sync::Arc;
 
@@ -31,24 +36,28 @@ impl SketchSpec for AvoidSpec {
     }
 }
 
-/// How many cells of the obstacle the shapes fill, each shape counted by itself.
+/// How many primitives fill a cell of the obstacle.
 #[derive(Debug)]
 pub struct Avoid {
     obstacle: Arc<Target>,
-    shared: u64,
-    /// With the cells of the obstacle that each primitive fills.
-    bag: Bag<u64>,
+    touching: u64,
+    /// With whether each primitive fills a cell of the obstacle.
+    bag: Bag<bool>,
 }
 
 impl Avoid {
     /// The empty scene.
     pub fn new(obstacle: Arc<Target>) -> Avoid {
-        Avoid { obstacle, shared: 0, bag: Bag::default() }
+        Avoid { obstacle, touching: 0, bag: Bag::default() }
     }
 
     /// Cells of the obstacle that shapes fill, each shape counted by itself.
     pub fn shared(&self) -> u64 {
-        self.shared
+        let mut shared = 0;
+        if self.touching > 0 {
+            self.bag.each(|primitive| shared += shared_by(&self.obstacle, primitive));
+        }
+        shared
     }
 }
 
@@ -58,21 +67,51 @@ fn shared_by(obstacle: &Target, primitive: &Primitive) -> u64 {
     voxels.map(|voxels| obstacle.shared_with(&voxels)).sum()
 }
 
+/// True when a shape of `primitive` fills a cell of `obstacle`.
+fn touches(obstacle: &Target, primitive: &Primitive) -> bool {
+    primitive.shapes().iter().any(|shape| shares_a_cell(obstacle, shape))
+}
+
+fn shares_a_cell(obstacle: &Target, shape: &Shape) -> bool {
+    let Some(cells) = obstacle.grid().cells_of(shape.aabb()) else { return false };
+    if !obstacle.meets(&Voxels::block(cells)) {
+        return false;
+    }
+    shape.is_aligned_box()
+        || has_a_point_in(obstacle, shape)
+        || Voxels::of(shape, obstacle.grid()).is_some_and(|voxels| obstacle.meets(&voxels))
+}
+
+/// True when a corner of the shape, or the mean of a convex shape's corners, lies in a cell of the obstacle.
+fn has_a_point_in(obstacle: &Target, shape: &Shape) -> bool {
+    let inside = |p: Vec3| obstacle.grid().cell_at(p).is_some_and(|cell| obstacle.contains(cell));
+    match shape.convex() {
+        Some(convex) => {
+            let corners = convex.corners();
+            let sum = corners.iter().fold(Vec3::ZERO, |sum, p| sum + *p);
+            inside(sum * (1.0 / corners.len() as f64)) || corners.iter().any(|p| inside(*p))
+        }
+        None => shape.world_mesh().corners().flatten().any(inside),
+    }
+}
+
 impl Clone for Avoid {
     fn clone(&self) -> Avoid {
-        Avoid { obstacle: self.obstacle.clone(), shared: self.shared, bag: self.bag.clone() }
+        Avoid { obstacle: self.obstacle.clone(), touching: self.touching, bag: self.bag.clone() }
     }
 
     fn clone_from(&mut self, source: &Avoid) {
         share(&mut self.obstacle, &source.obstacle);
-        self.shared = source.shared;
+        self.touching = source.touching;
         self.bag.clone_from(&source.bag);
     }
 }
 
 impl PartialEq for Avoid {
     fn eq(&self, other: &Avoid) -> bool {
-        Arc::ptr_eq(&self.obstacle, &other.obstacle) && self.shared == other.shared && self.bag == other.bag
+        Arc::ptr_eq(&self.obstacle, &other.obstacle)
+            && self.touching == other.touching
+            && self.bag == other.bag
     }
 }
 
@@ -82,15 +121,15 @@ impl Sketch for Avoid {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        let shared = shared_by(&self.obstacle, primitive);
-        self.shared += shared;
-        self.bag.add(primitive, shared);
+        let touches = touches(&self.obstacle, primitive);
+        self.touching += u64::from(touches);
+        self.bag.add(primitive, touches);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {
-        let shared = self.bag.remove(primitive, || shared_by(&self.obstacle, primitive));
-        self.shared -= shared.unwrap_or(0);
-        shared.is_some()
+        let touched = self.bag.remove(primitive, || touches(&self.obstacle, primitive));
+        self.touching -= u64::from(touched.unwrap_or(false));
+        touched.is_some()
     }
 
     fn expect_removals(&mut self) {
@@ -98,10 +137,10 @@ impl Sketch for Avoid {
     }
 
     fn log_score(&self) -> f64 {
-        if self.shared == 0 { 0.0 } else { f64::NEG_INFINITY }
+        if self.touching == 0 { 0.0 } else { f64::NEG_INFINITY }
     }
 
     fn measures(&self) -> Vec<(&'static str, f64)> {
-        vec![("cells_in_obstacle", self.shared as f64)]
+        vec![("cells_in_obstacle", self.shared() as f64)]
     }
 }

@@ -93,6 +93,20 @@ impl<M: Clone> Bag<M> {
         removed.map(|item| item.mark.once(mark).clone())
     }
 
+    /// Calls `f` with every primitive.
+    pub fn each(&self, mut f: impl FnMut(&Primitive)) {
+        match &self.held {
+            Held::Tree(tree) => tree.each(|item| f(&item.primitive)),
+            Held::List(newest) => {
+                let mut next = newest.as_ref();
+                while let Some(entry) = next {
+                    f(&entry.primitive);
+                    next = entry.older.as_ref();
+                }
+            }
+        }
+    }
+
     /// Becomes a tree, as by the first removal: copies then share it.
     pub fn expect_removals(&mut self) {
         self.held = Held::Tree(self.tree());
@@ -101,13 +115,11 @@ impl<M: Clone> Bag<M> {
     fn tree(&self) -> BoxTree<Marked<M>> {
         match &self.held {
             Held::Tree(tree) => tree.clone(),
-            Held::List(newest) => {
+            Held::List(_) => {
                 let mut tree = BoxTree::default();
-                let mut next = newest.as_ref();
-                while let Some(entry) = next {
-                    tree.insert(Marked { primitive: entry.primitive.clone(), mark: Arc::default() });
-                    next = entry.older.as_ref();
-                }
+                self.each(|primitive| {
+                    tree.insert(Marked { primitive: primitive.clone(), mark: Arc::default() });
+                });
                 tree
             }
         }

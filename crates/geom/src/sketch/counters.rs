@@ -163,25 +163,26 @@ impl Counters {
     }
 }
 
-/// Visits the bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
+/// The bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
+#[inline]
+pub(super) fn bricks_at(cells: &CellBox, across: [usize; 3]) -> impl Iterator<Item = (usize, usize, Words)> {
+    let CellBox { low, high } = *cells;
+    let range = move |a: usize| low[a] / BRICK[a]..=high[a] / BRICK[a];
+    let within =
+        move |a: usize, b: usize| (low[a].max(b * BRICK[a]), high[a].min(b * BRICK[a] + BRICK[a] - 1));
+    let rows = range(2).flat_map(move |bz| range(1).map(move |by| (by, bz)));
+    rows.flat_map(move |(by, bz)| {
+        let (y, z) = (within(1, by), within(2, bz));
+        range(0).map(move |bx| {
+            let words = Words { first_y: y.0, last_y: y.1, y: y.0, z: z.0, last_z: z.1 };
+            ((bz * across[1] + by) * across[0] + bx, bx, words)
+        })
+    })
+}
+
+/// Visits the bricks that `cells` touch, as [`bricks_at`] has them.
 pub(super) fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Words)) {
-    let range = |a: usize| cells.low[a] / BRICK[a]..=cells.high[a] / BRICK[a];
-    for bz in range(2) {
-        for by in range(1) {
-            for bx in range(0) {
-                let within = |a: usize, b: usize| {
-                    let first = cells.low[a].max(b * BRICK[a]);
-                    (first, cells.high[a].min(b * BRICK[a] + BRICK[a] - 1))
-                };
-                let (y, z) = (within(1, by), within(2, bz));
-                f(
-                    (bz * across[1] + by) * across[0] + bx,
-                    bx,
-                    Words { first_y: y.0, last_y: y.1, y: y.0, z: z.0, last_z: z.1 },
-                );
-            }
-        }
-    }
+    bricks_at(cells, across).for_each(|(index, column, words)| f(index, column, words));
 }
 
 pub(super) struct Words {

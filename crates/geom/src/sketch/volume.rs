@@ -11,7 +11,7 @@
 
 use super::bag::Bag;
 use super::brick::Plane;
-use super::counters::{Counters, bricks_of, planes_of, visit};
+use super::counters::{Counters, bricks_at, bricks_of, planes_of, visit};
 use super::overshoot::overshoot;
 use super::{Sketch, SketchSpec, log_normal, share};
 use crate::bounds::Aabb;
@@ -91,6 +91,15 @@ impl Target {
                 .sum::<u64>();
         });
         shared
+    }
+
+    /// True when the target and `voxels`, of the same grid, both fill some cell.
+    pub fn meets(&self, voxels: &Voxels) -> bool {
+        let mut bricks = bricks_at(&voxels.cells, bricks_of(self.grid.dims()));
+        bricks.any(|(index, column, mut words)| {
+            let plane = &self.planes[index];
+            words.any(|(word, y, z)| plane[word] != 0 && plane[word] & voxels.word(column, y, z) != 0)
+        })
     }
 
     /// Calls `fill` with each cell that shapes fill, those of several more than once: the cells that the score counts.

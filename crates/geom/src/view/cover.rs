@@ -4,7 +4,7 @@
 //! the outline are left, those inside are taken whole, and only bundles on its border are looked at ray by ray. So
 //! the cost is that of the shape's own pixels.
 
-use super::outline::{Checks, Outline, of_convex, of_triangle};
+use super::outline::{Checks, Outline, Outliner};
 use super::rays::{Node, Rays};
 use crate::mesh::TriMesh;
 use crate::shape::Shape;
@@ -53,15 +53,13 @@ impl Cover {
 impl Rays {
     /// The rays that meet `shape`.
     pub fn meeting(&self, shape: &Shape) -> Cover {
+        let Some(convex) = shape.convex() else { return self.meeting_mesh(shape.world_mesh()) };
         let mut words = Vec::new();
         let mut pieces = 0;
-        match shape.convex() {
-            Some(convex) => of_convex(&convex, self.projection(), self.near, |outline| {
-                self.take(outline, &mut words);
-                pieces += 1;
-            }),
-            None => return self.meeting_mesh(shape.world_mesh()),
-        }
+        self.outliner().of_convex(&convex, |outline| {
+            self.take(outline, &mut words);
+            pieces += 1;
+        });
         // The words of one piece are in order.
         if pieces == 1 { Cover(words) } else { Cover::settled(words) }
     }
@@ -69,8 +67,9 @@ impl Rays {
     /// The rays that meet a triangle of `mesh`.
     pub fn meeting_mesh(&self, mesh: &TriMesh) -> Cover {
         let mut words = Vec::new();
+        let mut outliner = self.outliner();
         for corners in mesh.corners() {
-            of_triangle(&corners, self.projection(), self.near, |outline| self.take(outline, &mut words));
+            outliner.of_triangle(&corners, |outline| self.take(outline, &mut words));
             // Not more than a few words for each bundle at any time, however many triangles there are.
             if words.len() > 8 * self.words() + 1024 {
                 words = Cover::settled(std::mem::take(&mut words)).0;
@@ -82,11 +81,15 @@ impl Rays {
     /// The rays that meet one triangle.
     pub(super) fn meeting_triangle(&self, corners: &[crate::vector::Vec3; 3]) -> Cover {
         let mut words = Vec::new();
-        of_triangle(corners, self.projection(), self.near, |outline| self.take(outline, &mut words));
+        self.outliner().of_triangle(corners, |outline| self.take(outline, &mut words));
         Cover(words)
     }
 
-    fn take(&self, outline: &Outline, words: &mut Vec<(u32, u64)>) {
+    fn outliner(&self) -> Outliner<'_> {
+        Outliner::new(self.projection(), self.near)
+    }
+
+    fn take(&self, outline: &Outline<'_>, words: &mut Vec<(u32, u64)>) {
         if let Some(root) = self.nodes.first() {
             self.visit(root, 0, outline, outline.all_checks(), words);
         }
@@ -97,7 +100,7 @@ impl Rays {
         &self,
         node: &Node,
         index: usize,
-        outline: &Outline,
+        outline: &Outline<'_>,
         checks: Checks,
         words: &mut Vec<(u32, u64)>,
     ) {

@@ -5,9 +5,12 @@
 //! bundle is a word of bits in every set of rays; 64 bundles make a tile.
 
 use crate::vector::Vec3;
+use wide::f64x4;
 
 /// Rays of one bundle.
 pub const BUNDLE: usize = 64;
+/// Rays of one row, where the rays of a bundle are in rows.
+pub(super) const ROW: usize = 8;
 
 /// The projection of points of space to the plane of a family of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,16 +81,21 @@ pub struct Ray {
 /// Sixty-four rays, coordinate by coordinate; those beyond `live` repeat one of the others.
 #[derive(Clone, Debug)]
 pub(super) struct Bundle {
-    pub at: [[f64; BUNDLE]; 2],
-    pub start: [[f64; BUNDLE]; 3],
+    pub at: [Coordinates; 2],
+    pub start: [Coordinates; 3],
     pub live: u64,
+    /// Eight rows of eight: all rays of a row have the same v, all of a column the same u.
+    pub is_raster: bool,
 }
+
+/// A coordinate of the rays of a bundle, four by four.
+type Coordinates = [f64x4; BUNDLE / 4];
 
 /// A box of the plane and the range of depths at which its rays begin, over the bundles `first..first + count`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    pub low: [f64; 2],
-    pub high: [f64; 2],
+    /// Least and most u and v.
+    pub ends: [[f64; 2]; 2],
     pub depth: [f64; 2],
     pub first: u32,
     pub count: u32,
@@ -122,8 +130,7 @@ impl Rays {
         let index = self.nodes.len();
         let first = self.bundles.len() as u32;
         let mut node = Node {
-            low: [f64::INFINITY; 2],
-            high: [f64::NEG_INFINITY; 2],
+            ends: [[f64::INFINITY, f64::NEG_INFINITY]; 2],
             depth: [f64::INFINITY, f64::NEG_INFINITY],
             first,
             count: 1,
@@ -133,8 +140,8 @@ impl Rays {
             let depth = self.projection.depth(ray.start);
             node.depth = [node.depth[0].min(depth), node.depth[1].max(depth)];
             for a in 0..2 {
-                node.low[a] = node.low[a].min(ray.at[a]);
-                node.high[a] = node.high[a].max(ray.at[a]);
+                let [low, high] = node.ends[a];
+                node.ends[a] = [low.min(ray.at[a]), high.max(ray.at[a])];
             }
         }
         self.nodes.push(node);
@@ -144,7 +151,8 @@ impl Rays {
             self.bundles.push(bundle(rays));
             return index as u32;
         }
-        let axis = usize::from(node.high[1] - node.low[1] > node.high[0] - node.low[0]);
+        let [u, v] = node.ends;
+        let axis = usize::from(v[1] - v[0] > u[1] - u[0]);
         // Full bundles, and full tiles above them.
         let unit = if rays.len() > BUNDLE * BUNDLE { BUNDLE * BUNDLE } else { BUNDLE };
         let half = rays.len().div_ceil(unit).div_ceil(2) * unit;
@@ -191,16 +199,22 @@ impl Rays {
     /// The ray with this number, in the order of bits.
     pub fn ray(&self, number: usize) -> Ray {
         let (bundle, k) = (&self.bundles[number / BUNDLE], number % BUNDLE);
-        let [x, y, z] = bundle.start.map(|c| c[k]);
-        Ray { at: bundle.at.map(|c| c[k]), start: Vec3::from([x, y, z]), pixel: self.pixels[number] }
+        let of = |c: &Coordinates| c[k / 4].to_array()[k % 4];
+        let [x, y, z] = bundle.start.each_ref().map(of);
+        Ray { at: bundle.at.each_ref().map(of), start: Vec3::from([x, y, z]), pixel: self.pixels[number] }
     }
 }
 
-fn bundle(rays: &[Ray]) -> Bundle {
+pub(super) fn bundle(rays: &[Ray]) -> Bundle {
     let of = |k: usize| rays[k.min(rays.len() - 1)];
+    let fours = |coordinate: &dyn Fn(Ray) -> f64| -> Coordinates {
+        std::array::from_fn(|four| f64x4::from([0, 1, 2, 3].map(|k| coordinate(of(4 * four + k)))))
+    };
+    let is_raster = (0..BUNDLE).all(|k| of(k).at == [of(k % ROW).at[0], of(k / ROW * ROW).at[1]]);
     Bundle {
-        at: std::array::from_fn(|a| std::array::from_fn(|k| of(k).at[a])),
-        start: std::array::from_fn(|a| std::array::from_fn(|k| of(k).start[a])),
+        at: [fours(&|ray| ray.at[0]), fours(&|ray| ray.at[1])],
+        start: [fours(&|ray| ray.start.x), fours(&|ray| ray.start.y), fours(&|ray| ray.start.z)],
         live: u64::MAX >> (BUNDLE - rays.len()),
+        is_raster: is_raster && rays.len() == BUNDLE,
     }
 }

@@ -86,6 +86,14 @@ impl Grid {
         self.domain.low + vec3(p.x * self.cell.x, p.y * self.cell.y, p.z * self.cell.z)
     }
 
+    /// The cell of a point, world space; `None` when it is outside.
+    #[inline]
+    pub fn cell_at(&self, p: Vec3) -> Option<[usize; 3]> {
+        let at = self.to_grid(p).to_array();
+        let inside = (0..3).all(|a| at[a] >= 0.0 && at[a] < self.dims[a] as f64);
+        inside.then(|| at.map(|x| x as usize))
+    }
+
     /// Cells that a closed world box touches; `None` when it is outside.
     #[inline]
     pub fn cells_of(&self, bounds: &Aabb) -> Option<CellBox> {

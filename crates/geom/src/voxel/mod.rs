@@ -55,6 +55,12 @@ impl Voxels {
         Some(Voxels { cells, kind })
     }
 
+    /// Every cell of a box.
+    #[inline]
+    pub fn block(cells: CellBox) -> Voxels {
+        Voxels { cells, kind: Kind::Block }
+    }
+
     /// Cells that a closed mesh fills, by its triangles.
     pub fn of_mesh(mesh: &crate::mesh::TriMesh, grid: &Grid) -> Option<Voxels> {
         let bits = fill::solid(mesh, grid)?;
