@@ -51,13 +51,18 @@ pub(crate) fn index(weights: &[f64], u: f64) -> usize {
     at.unwrap_or(last)
 }
 
+/// [`log_step`] of scores that are exact as `f64`.
+#[inline(always)]
+pub(crate) fn near_log_step(next: f64, score: f64, power: f64, weighed: f64) -> f64 {
+    // Equal powers by one product: the difference of scores is exact.
+    if next == power { next * (score - weighed) } else { next * score - power * weighed }
+}
+
 /// The log weight, nats, of a step from the score weighed before at a power to a score at the next power. At zero it does not look at the score, unless the run is
 /// impossible.
 #[inline(always)]
 pub(crate) fn log_step(next: f64, score: &Total, power: f64, weighed: &Total) -> f64 {
-    let (now, before) = (score.near(), weighed.near());
-    // Equal powers by one product: the difference of scores is exact.
-    let log = if next == power { next * (now - before) } else { next * now - power * before };
+    let log = near_log_step(next, score.near(), power, weighed.near());
     if log.is_nan() { wide_log_step(next, score, power, weighed) } else { log }
 }
 

@@ -103,9 +103,14 @@ impl Copies {
         self.counts.get(index).copied().unwrap_or(1)
     }
 
+    /// Parent, index and lineage of each.
+    pub fn with_lineages(&self) -> impl Iterator<Item = (usize, usize, u64)> {
+        self.moves.iter().zip(self.lineage..).map(|(&(parent, to), lineage)| (parent, to, lineage))
+    }
+
     /// Makes all of them.
     pub fn make(&mut self, particles: &mut [Particle], seed: u64) {
-        for (&(parent, to), lineage) in self.moves.iter().zip(self.lineage..) {
+        for (parent, to, lineage) in self.with_lineages() {
             let [parent, child] = pair(particles, parent, to);
             child.copy_from(parent, lineage, seed);
         }

@@ -5,6 +5,7 @@
 //!
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`particle`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
+//!    Particles at the same place run together (`in_lanes`).
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
 //!    proposal drew since the last barrier ([`Proposal`](crate::proposal::Proposal)) `p(x) / q(x)` counts too, which is
 //!    not raised to a power. A forecast of what is still to come may count on the way ([`look_ahead`]).
@@ -33,6 +34,7 @@ mod copies;
 pub mod distinct;
 mod final_chains;
 mod gibbs;
+mod in_lanes;
 pub mod look_ahead;
 mod many;
 mod moves;

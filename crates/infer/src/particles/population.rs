@@ -2,6 +2,7 @@
 //! conditional SMC, with one particle held.
 
 use super::copies::{Copies, Indexed, copy};
+use super::in_lanes::{InLanes, LEAST};
 use super::rejuvenation::{MoveCounts, Mover};
 use super::resident::{Growth, Resident, counted, too_large};
 use super::settings::{Anneal, Settings, Weights, When};
@@ -68,6 +69,34 @@ pub(super) struct Population<'a> {
     resident: Resident,
     /// The log weights at a barrier; kept from one to the next, so that none allocates.
     logs: Vec<f64>,
+    /// The particles, while they run together; `particles` then means nothing.
+    lanes: Option<InLanes>,
+    /// When they may line up next.
+    rest: Rest,
+}
+
+/// When particles that went apart try to line up again: after one barrier at first, then after twice as many each time that they
+/// did not stay together for as long as they had waited.
+#[derive(Default)]
+struct Rest {
+    /// The barrier from which on they may.
+    until: usize,
+    /// How many barriers they wait the next time.
+    length: usize,
+    /// The barrier at which they lined up last.
+    since: usize,
+}
+
+impl Rest {
+    /// The longest rest, barriers.
+    const LONGEST: usize = 256;
+
+    /// They went apart at this barrier, or could not line up.
+    fn begin(&mut self, barrier: usize) {
+        let stayed = barrier - self.since;
+        self.length = if stayed > self.length { 1 } else { (2 * self.length).clamp(1, Rest::LONGEST) };
+        self.until = barrier + self.length;
+    }
 }
 
 /// The best score and the ended particles at a barrier.
@@ -130,12 +159,66 @@ impl<'a> Population<'a> {
             copies: Copies::default(),
             resident: Resident::default(),
             logs: Vec::with_capacity(n),
+            lanes: None,
+            rest: Rest::default(),
             task,
         })
     }
 
+    /// Whether its particles may run together at all: with all else than numbers, weights and copies they run one by one.
+    fn has_lanes(&self) -> bool {
+        let (own, task) = (self.settings, &self.task);
+        own.lanes
+            && own.particles >= LEAST
+            && own.proposal.is_none()
+            && own.rejuvenate.is_none()
+            && own.look_ahead.is_none()
+            && own.order.policy().is_none()
+            && own.weights == Weights::Ratio
+            && !matches!(own.anneal, Anneal::Adaptive(_))
+            && task.sketches.is_empty()
+            && task.held.is_none()
+            && task.together.is_none()
+    }
+
+    /// Runs the particles together to the next barrier; false where they are, or have gone, apart.
+    fn advance_together(&mut self) -> bool {
+        if self.lanes.is_none() {
+            if self.barriers < self.rest.until || !self.has_lanes() {
+                return false;
+            }
+            self.settle();
+            self.rest.since = self.barriers;
+            self.lanes = InLanes::line_up(&mut self.particles);
+            if self.lanes.is_none() {
+                self.rest.begin(self.barriers);
+            }
+        }
+        let Some(lanes) = &mut self.lanes else { return false };
+        let limit = self.task.limits.bytes;
+        let own = one(&self.task, self.particles.len());
+        let grown = lanes.advance(&mut own.machine());
+        if grown.is_ok_and(|growth| self.resident.grown_together(growth, limit)) {
+            return true;
+        }
+        self.part();
+        self.rest.begin(self.barriers);
+        false
+    }
+
+    /// The particles go on one by one.
+    fn part(&mut self) {
+        if let Some(lanes) = self.lanes.take() {
+            lanes.part(&mut self.particles);
+        }
+    }
+
     /// Runs every particle to its next barrier, except the one whose index is `held`.
     pub fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
+        if held.is_none() && self.advance_together() {
+            return Ok(());
+        }
+        self.part();
         let (task, settings, seed) = (&self.task, self.settings, self.settings.seed);
         let limit = task.limits.bytes;
         let room = self.resident.room(limit);
@@ -211,11 +294,15 @@ impl<'a> Population<'a> {
 
     /// Makes the copies of the last resampling.
     pub fn settle(&mut self) {
+        self.part();
         self.copies.make(&mut self.particles, self.settings.seed);
     }
 
     /// How many run, and how many have ended. One pass, because a population does not fit into the cache.
     pub fn count(&self) -> (usize, usize) {
+        if let Some(lanes) = &self.lanes {
+            return if lanes.have_ended() { (0, lanes.len()) } else { (lanes.len(), 0) };
+        }
         self.particles.iter().enumerate().fold((0, 0), |(running, ended), (index, p)| {
             let times = self.copies.count(index);
             (running + times * usize::from(p.is_running()), ended + times * usize::from(p.state.has_ended()))
@@ -236,7 +323,13 @@ impl<'a> Population<'a> {
         let next = self.next_power();
         let (mut best, mut ended) = (f64::NEG_INFINITY, 0);
         self.logs.clear();
-        for p in &mut self.particles {
+        if let Some(lanes) = &mut self.lanes {
+            ended = if lanes.have_ended() { lanes.len() } else { 0 };
+            best = lanes.weigh(next, self.power);
+            self.logs.extend(&lanes.log_weight);
+        }
+        let alone = if self.lanes.is_some() { &mut [] } else { &mut self.particles[..] };
+        for p in alone {
             let score = p.record.score();
             best = best.max(score.value());
             ended += usize::from(p.state.has_ended());
@@ -256,6 +349,7 @@ impl<'a> Population<'a> {
             self.powers.push(next);
         }
         if !self.weights.read(self.logs.iter().copied()) {
+            self.part();
             AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
             return Err(impossible(&self.particles, self.barriers));
         }
@@ -310,18 +404,24 @@ impl<'a> Population<'a> {
     pub fn resample_by(&mut self, draw: impl FnOnce(&[f64], &mut Stream) -> Vec<usize>) {
         let mut random = Reserved::Resampling.stream(self.settings.seed, self.barriers as u128, 0);
         let tempered = match self.settings.resampling {
-            Resampling::Tempered => Tempered::of(self.particles.iter().map(|p| p.log_weight)),
+            Resampling::Tempered => Tempered::of(self.logs.iter().copied()),
             _ => None,
         };
         let weights = tempered.as_ref().map_or(&self.weights, |tempered| &tempered.weights);
         let copies = draw(&weights.relative, &mut random);
         let log_mean = self.weights.log_mean;
         let carried = |log_weight| tempered.as_ref().map_or(0.0, |own| own.carried(log_weight, log_mean));
-        self.particles.iter_mut().for_each(|p| p.log_weight = carried(p.log_weight));
+        match &mut self.lanes {
+            Some(lanes) => lanes.log_weight.iter_mut().for_each(|log| *log = carried(*log)),
+            None => self.particles.iter_mut().for_each(|p| p.log_weight = carried(p.log_weight)),
+        }
         self.log_normaliser += log_mean;
         self.resampled += 1;
         self.copies = Copies::plan(&copies, &mut self.ancestor, &mut self.lineages);
-        if self.parallel {
+        if let Some(lanes) = &mut self.lanes {
+            lanes.copy(&self.copies, self.settings.seed);
+            self.copies.clear();
+        } else if self.parallel {
             self.copies.share_out(&mut self.particles, self.apart.len());
         }
     }

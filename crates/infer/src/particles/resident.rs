@@ -16,6 +16,11 @@ use niwaki_vm::value::Census;
 const DROPPED: usize = 1 << 16;
 const DROPPED_PART: usize = 16;
 
+/// A particle that had so many bytes of values before it ran is counted again where it has more than this.
+pub(super) fn values_to_recount(before: usize) -> usize {
+    before + DROPPED + before / DROPPED_PART
+}
+
 /// How much some particles have grown.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Growth {
@@ -28,6 +33,12 @@ pub(super) struct Growth {
 }
 
 impl Growth {
+    /// That of so many particles alike: bytes of activations, and of values made.
+    pub fn of(particles: usize, own: isize, values: usize) -> Growth {
+        let up = particles * (values + own.max(0) as usize);
+        Growth { own: own * particles as isize, values: values * particles, up }
+    }
+
     /// Adds that of other particles.
     pub fn add(&mut self, other: Growth) {
         self.own += other.own;
@@ -52,6 +63,30 @@ impl Resident {
         (limit + limit / 8).saturating_sub(self.total())
     }
 
+    /// With that growth.
+    fn with(&self, growth: Growth) -> Resident {
+        Resident {
+            own: self.own + growth.own,
+            values: self.values.saturating_add(growth.values),
+            fresh: self.fresh.saturating_add(growth.values),
+        }
+    }
+
+    /// Whether a census may find that there is less, and it matters.
+    fn is_close(&self, limit: usize) -> bool {
+        self.total() > limit || self.total() > limit / 4 * 3 && self.fresh > limit / 8
+    }
+
+    /// Adds the growth of particles that cannot be counted one by one; false, and nothing is added, where they would have to be.
+    pub fn grown_together(&mut self, growth: Growth, limit: usize) -> bool {
+        let next = self.with(growth);
+        let fits = growth.up <= self.room(limit) && !next.is_close(limit);
+        if fits {
+            *self = next;
+        }
+        fits
+    }
+
     fn total(&self) -> usize {
         usize::try_from(self.own).unwrap_or(0).saturating_add(self.values)
     }
@@ -62,11 +97,8 @@ impl Resident {
     /// They take more than their budget.
     pub fn grown(&mut self, growth: Growth, task: &Task, particles: &[Particle]) -> Result<(), Failure> {
         let limit = task.limits.bytes;
-        self.own += growth.own;
-        self.values = self.values.saturating_add(growth.values);
-        self.fresh = self.fresh.saturating_add(growth.values);
-        let close = self.total() > limit / 4 * 3 && self.fresh > limit / 8;
-        if close || self.total() > limit {
+        *self = self.with(growth);
+        if self.is_close(limit) {
             let machine = task.machine();
             let mut census = Census::new();
             if let Some(first) = particles.first() {
@@ -104,7 +136,7 @@ pub(super) fn counted(
 ) -> Result<(), Failure> {
     let before = particle.state.value_bytes();
     advance(particle, machine).map_err(|failure| of_share(failure, all))?;
-    if particle.state.value_bytes() > before + DROPPED + before / DROPPED_PART {
+    if particle.state.value_bytes() > values_to_recount(before) {
         machine.recount(&mut particle.state);
     }
     let own = particle.state.own_bytes() as isize;

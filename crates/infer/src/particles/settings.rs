@@ -7,7 +7,7 @@ use crate::proposal::Proposal;
 use crate::resampling::Resampling;
 use niwaki_vm::fault::Fault;
 use serde::{Deserialize, Deserializer};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// How scores become weights.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -76,9 +76,18 @@ pub struct Settings {
     /// What weights count of the rest of a run; nothing where there is none.
     #[serde(skip)]
     pub look_ahead: Option<LookAhead>,
+    /// Whether particles at the same place run together, in lanes. It changes time only.
+    #[serde(skip, default = "lanes")]
+    pub lanes: bool,
     /// Seed.
     #[serde(skip)]
     pub seed: u64,
+}
+
+/// Lanes are used, unless the environment has `NIWAKI_LANES=0`.
+fn lanes() -> bool {
+    static USED: LazyLock<bool> = LazyLock::new(|| std::env::var_os("NIWAKI_LANES").is_none_or(|set| set != "0"));
+    *USED
 }
 
 impl Default for Settings {
@@ -94,6 +103,7 @@ impl Default for Settings {
             rejuvenate: None,
             proposal: None,
             look_ahead: None,
+            lanes: lanes(),
             seed: 0,
         }
     }

@@ -477,7 +477,7 @@ impl<S: Scalar> Machine<'_, S> {
 
     /// Reserves that many scratch registers; whether they are more than the run has used before.
     #[inline]
-    fn reserve(&mut self, registers: usize) -> bool {
+    pub(super) fn reserve(&mut self, registers: usize) -> bool {
         let deeper = self.high < registers;
         if deeper {
             self.grow_scratch(registers);

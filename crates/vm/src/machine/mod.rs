@@ -28,6 +28,7 @@ mod interpret;
 pub mod invalid;
 mod keep;
 pub mod kept;
+pub mod lanes;
 mod loops;
 mod memo;
 mod operate;

@@ -18,6 +18,11 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
+    /// Whether the run notes them.
+    pub fn are_noted(&self) -> bool {
+        self.noted
+    }
+
     /// Becomes a copy, in place.
     #[inline]
     pub fn clone_from(&mut self, source: &Parts) {

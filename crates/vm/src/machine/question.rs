@@ -17,7 +17,7 @@ use crate::value::{Value, index, ops};
 use niwaki_math::{Dist, Family, Scalar};
 
 /// Bytes of a choice in a log: its address and value, and a share of the blocks that they are stored in.
-const LOGGED: usize = 36;
+pub(super) const LOGGED: usize = 36;
 
 #[cold]
 fn no_dist<S: Scalar>(value: &Value<S>) -> Fault {
@@ -36,7 +36,7 @@ fn no_number<S: Scalar>(value: &Value<S>) -> Fault {
 
 /// The distribution in a value.
 #[inline(always)]
-fn as_dist<S: Scalar>(value: &Value<S>) -> Result<&Dist<S>, Fault> {
+pub(super) fn as_dist<S: Scalar>(value: &Value<S>) -> Result<&Dist<S>, Fault> {
     match value {
         Value::Dist(dist) => Ok(dist),
         other => Err(no_dist(other)),

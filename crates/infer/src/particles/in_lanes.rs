@@ -1,0 +1,307 @@
+//! A population in lanes: particles at the same place run together ([`Lanes`]), and are weighed and copied as columns.
+//!
+//! It does what particles do one by one, to the bit: choices by the stream of each lineage at the choice's address, sums on the
+//! grid of log densities, weights in the order of the particles. Where lanes go apart (a jump that some take, a score of minus
+//! infinity, a fault), the particles run to that barrier by themselves, from the last one, and may line up again after it.
+//!
+//! The choices are kept as columns, too, a *segment* from one resampling to the next. A segment knows from which lane of
+//! the one before each of its lanes came, so a choice is stored once, and rows that no particle descends from are dropped
+//! now and then.
+
+use super::copies::Copies;
+use super::resident::{Growth, values_to_recount};
+use crate::log::Log;
+use crate::particle::Particle;
+use crate::weights::near_log_step;
+use niwaki_math::{Draw, StreamKey, grid};
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::answers::{Answer, At, Factor};
+use niwaki_vm::machine::lanes::{Apart, Column, Dists, LaneAnswers, Lanes, Logs};
+use std::sync::Arc;
+
+/// Fewer particles than this run one by one.
+pub(super) const LEAST: usize = 16;
+
+/// Choices that are stored before those that no particle descends from are looked for.
+const STORED: usize = 1 << 16;
+
+/// A sum of log densities is exact below this, nats ([`Total`](niwaki_math::Total)).
+const NEAR: f64 = (1u64 << 20) as f64;
+
+/// Particles as columns.
+pub(super) struct InLanes {
+    lanes: Lanes,
+    streams: Vec<StreamKey>,
+    lineages: Vec<u64>,
+    /// Sums of the log densities of the choices, and of the factors, nats.
+    log_prior: Vec<f64>,
+    log_factors: Vec<f64>,
+    /// As [`Particle::weighed`] and [`Particle::log_weight`], nats.
+    weighed: Vec<f64>,
+    pub log_weight: Vec<f64>,
+    past: Choices,
+}
+
+/// The choices of the particles.
+struct Choices {
+    /// Those that they had made one by one.
+    before: Vec<Log>,
+    segments: Vec<Segment>,
+    /// Values in the segments, and how many were left when rows were last dropped.
+    stored: usize,
+    left: usize,
+}
+
+/// Choices from one resampling to the next.
+struct Segment {
+    /// From which row of the segment before (of `before`) each row came.
+    from: Vec<u32>,
+    choices: Vec<(u128, Column)>,
+}
+
+impl InLanes {
+    /// The particles, where they are at the same place. What they hold is then here until [`InLanes::part`].
+    pub fn line_up(particles: &mut [Particle]) -> Option<InLanes> {
+        let near = |p: &Particle| !p.record.log_prior.near().is_nan() && !p.record.log_factors.near().is_nan();
+        let counts = |p: &Particle| (p.picks, p.record.primitives);
+        let first = counts(particles.first()?);
+        if !particles.iter().all(|p| p.is_running() && near(p) && counts(p) == first) {
+            return None;
+        }
+        let lanes = Lanes::line_up(particles.iter().map(|p| &p.state))?;
+        let before = particles.iter_mut().map(|p| std::mem::take(&mut p.record.log)).collect();
+        let of = |f: fn(&Particle) -> f64| particles.iter().map(f).collect::<Vec<f64>>();
+        let first = Segment { from: (0..particles.len() as u32).collect(), choices: vec![] };
+        Some(InLanes {
+            lanes,
+            streams: particles.iter().map(|p| p.stream).collect(),
+            lineages: particles.iter().map(|p| p.lineage).collect(),
+            log_prior: of(|p| p.record.log_prior.near()),
+            log_factors: of(|p| p.record.log_factors.near()),
+            weighed: of(|p| p.weighed.near()),
+            log_weight: of(|p| p.log_weight),
+            past: Choices { before, segments: vec![first], stored: 0, left: 0 },
+        })
+    }
+
+    /// The particles go on one by one.
+    pub fn part(mut self, particles: &mut [Particle]) {
+        let logs = self.past.logs();
+        for (lane, (p, log)) in particles.iter_mut().zip(logs).enumerate() {
+            p.state = self.lanes.apart(lane);
+            (p.stream, p.lineage) = (self.streams[lane], self.lineages[lane]);
+            p.record.log = log;
+            for (total, sum) in [
+                (&mut p.record.log_prior, self.log_prior[lane]),
+                (&mut p.record.log_factors, self.log_factors[lane]),
+                (&mut p.weighed, self.weighed[lane]),
+            ] {
+                total.clear();
+                total.add(sum);
+            }
+            p.log_weight = self.log_weight[lane];
+            p.was_ended = false;
+            p.bytes = p.state.own_bytes() as isize;
+        }
+    }
+
+    /// Whether they have ended.
+    pub fn have_ended(&self) -> bool {
+        self.lanes.shared().has_ended()
+    }
+
+    /// How many they are.
+    pub fn len(&self) -> usize {
+        self.lineages.len()
+    }
+
+    /// Counts their scores in the weights: a step from one power to the `next`. Returns the best score, nats.
+    pub fn weigh(&mut self, next: f64, power: f64) -> f64 {
+        let mut best = f64::NEG_INFINITY;
+        let weights = self.log_weight.iter_mut().zip(&mut self.weighed);
+        for ((weight, weighed), score) in weights.zip(&self.log_factors) {
+            best = best.max(*score);
+            *weight += near_log_step(next, *score, power, *weighed);
+            *weighed = *score;
+        }
+        best
+    }
+
+    /// Runs them to the next barrier, or to the end. After an error they are at the last barrier.
+    ///
+    /// # Errors
+    /// They cannot go on together.
+    pub fn advance(&mut self, machine: &mut Machine<'_>) -> Result<Growth, Apart> {
+        let before = self.lanes.clone();
+        let sums = (self.log_prior.clone(), self.log_factors.clone());
+        let choices = self.past.segments.last().map_or(0, |last| last.choices.len());
+        let done = self.with(|lanes, answers| machine.resume_lanes(lanes, answers));
+        let growth = done.and_then(|_| self.growth(before.shared().own_bytes(), before.shared().value_bytes()));
+        if growth.is_err() {
+            self.lanes = before;
+            (self.log_prior, self.log_factors) = sums;
+            if let Some(last) = self.past.segments.last_mut() {
+                last.choices.truncate(choices);
+            }
+        }
+        growth
+    }
+
+    /// By how much they have grown together, as [`counted`](super::resident::counted) one by one.
+    fn growth(&self, own: usize, values: usize) -> Result<Growth, Apart> {
+        let (n, state) = (self.len(), self.lanes.shared());
+        if state.value_bytes() > values_to_recount(values) {
+            return Err(Apart);
+        }
+        let grown = state.own_bytes() as isize - own as isize;
+        Ok(Growth::of(n, grown, state.value_bytes().saturating_sub(values)))
+    }
+
+    /// Makes the copies of a resampling.
+    pub fn copy(&mut self, copies: &Copies, seed: u64) {
+        let mut from: Vec<u32> = (0..self.len() as u32).collect();
+        for (parent, to, lineage) in copies.with_lineages() {
+            from[to] = parent as u32;
+            self.lineages[to] = lineage;
+            self.streams[to] = StreamKey::new(seed, lineage, 0);
+        }
+        self.lanes.pick(&from);
+        for column in [&mut self.log_prior, &mut self.log_factors, &mut self.weighed, &mut self.log_weight] {
+            *column = from.iter().map(|lane| column[*lane as usize]).collect();
+        }
+        self.past.pick(from);
+    }
+}
+
+impl Choices {
+    fn pick(&mut self, from: Vec<u32>) {
+        self.segments.push(Segment { from, choices: vec![] });
+        if self.stored > 2 * self.left + STORED {
+            self.drop_rows();
+        }
+    }
+
+    /// Drops the rows that no particle descends from.
+    fn drop_rows(&mut self) {
+        self.stored = 0;
+        let mut wanted: Option<Vec<u32>> = None;
+        for segment in self.segments.iter_mut().rev() {
+            if let Some(rows) = &wanted {
+                segment.from = rows.iter().map(|row| segment.from[*row as usize]).collect();
+                segment.choices.iter_mut().for_each(|(_, column)| *column = column.picked(rows));
+            }
+            self.stored += segment.choices.len() * segment.from.len();
+            let mut parents = segment.from.clone();
+            parents.sort_unstable();
+            parents.dedup();
+            for row in &mut segment.from {
+                *row = parents.binary_search(row).unwrap_or(0) as u32;
+            }
+            wanted = Some(parents);
+        }
+        if let Some(rows) = wanted {
+            self.before = rows.iter().map(|row| std::mem::take(&mut self.before[*row as usize])).collect();
+        }
+        self.left = self.stored;
+    }
+
+    /// The choices of each particle.
+    fn logs(&mut self) -> Vec<Log> {
+        self.drop_rows();
+        let mut logs = std::mem::take(&mut self.before);
+        for segment in std::mem::take(&mut self.segments) {
+            let mut uses = vec![0u32; logs.len()];
+            segment.from.iter().for_each(|row| uses[*row as usize] += 1);
+            let mut inherit = |row: &u32| {
+                let (uses, log) = (&mut uses[*row as usize], &mut logs[*row as usize]);
+                *uses -= 1;
+                if *uses == 0 { std::mem::take(log) } else { log.fork() }
+            };
+            let mut next: Vec<Log> = segment.from.iter().map(&mut inherit).collect();
+            for (row, log) in next.iter_mut().enumerate() {
+                for (address, column) in &segment.choices {
+                    log.push(*address, column.get(row));
+                }
+            }
+            logs = next;
+        }
+        logs
+    }
+}
+
+/// Answers the questions of all particles.
+struct Drawing<'a> {
+    streams: &'a [StreamKey],
+    log_prior: &'a mut [f64],
+    log_factors: &'a mut [f64],
+    past: &'a mut Choices,
+}
+
+impl InLanes {
+    /// Runs `f` with the lanes and with what answers them.
+    fn with<T>(&mut self, f: impl FnOnce(&mut Lanes, &mut Drawing<'_>) -> T) -> T {
+        let InLanes { lanes, streams, log_prior, log_factors, past, .. } = self;
+        f(lanes, &mut Drawing { streams, log_prior, log_factors, past })
+    }
+}
+
+/// Adds to a sum that must stay exact.
+fn add(sum: &mut f64, log: f64) -> bool {
+    *sum += log;
+    sum.abs() < NEAR
+}
+
+impl LaneAnswers for Drawing<'_> {
+    fn choices(&mut self, at: &At<'_, f64>, dists: Dists<'_>) -> Result<Column, Apart> {
+        let (address, lanes) = (at.address(), self.streams.len());
+        let mut exact = true;
+        let sums = &mut *self.log_prior;
+        let streams = self.streams;
+        let mut draw = |lane: usize| {
+            let (draw, log) = dists.get(lane).sample_and_score(&mut streams[lane].at(address));
+            exact &= add(&mut sums[lane], grid(log));
+            draw
+        };
+        macro_rules! column {
+            ($draw:path, $column:path, $first:expr) => {{
+                let mut all = Vec::with_capacity(lanes);
+                all.push($first);
+                for lane in 1..lanes {
+                    let $draw(x) = draw(lane) else { return Err(Apart) };
+                    all.push(x);
+                }
+                $column(Arc::new(all))
+            }};
+        }
+        let column = match draw(0) {
+            Draw::Real(x) => column!(Draw::Real, Column::Reals, x),
+            Draw::Int(x) => column!(Draw::Int, Column::Ints, x),
+            Draw::Bool(x) => column!(Draw::Bool, Column::Truths, x),
+            _ => return Err(Apart),
+        };
+        if !exact {
+            return Err(Apart);
+        }
+        if let Some(last) = self.past.segments.last_mut() {
+            last.choices.push((address, column.clone()));
+            self.past.stored += lanes;
+        }
+        Ok(column)
+    }
+
+    fn scores(&mut self, _: &At<'_, f64>, _: Factor, logs: Logs<'_>) -> Result<Answer<()>, Apart> {
+        // A score of minus infinity, or one that is none, is for single runs.
+        let is_usual = |log: f64| log.abs() < NEAR;
+        let exact = match logs {
+            Logs::Same(log) => {
+                let log = grid(log);
+                is_usual(log) && self.log_factors.iter_mut().all(|sum| add(sum, log))
+            }
+            Logs::Each(all) => {
+                let both = self.log_factors.iter_mut().zip(all);
+                both.fold(true, |exact, (sum, log)| exact & is_usual(*log) & add(sum, grid(*log)))
+            }
+        };
+        if exact { Ok(Answer::Pause) } else { Err(Apart) }
+    }
+}
