@@ -63,19 +63,28 @@ impl Resampling {
     }
 }
 
-/// Counts how many of the increasing points `at(0), at(1), ...` are in each particle's share.
+/// Counts how many of the increasing points `at(0), at(1), ...` are in each particle's share: the points up to its end less
+/// those up to the end of the one before. Where the points have about equal distances, the number up to an end is nearly
+/// right at once.
 fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     let n = weights.len();
     let mut copies = vec![0; n];
     let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
-    let (mut i, mut cumulative) = (0, weights[0]);
-    for k in 0..n {
-        while cumulative < at(k) * total && i < last {
-            i += 1;
-            cumulative += weights[i];
+    let (mut cumulative, mut before) = (0.0, 0);
+    let (scale, offset) = (n as f64 / total, n as f64 * at(0));
+    for (copies, weight) in copies[..last].iter_mut().zip(weights) {
+        cumulative += weight;
+        let is_within = |k: usize| at(k) * total <= cumulative;
+        let mut within = ((cumulative * scale - offset + 1.0) as usize).clamp(before, n);
+        while within < n && is_within(within) {
+            within += 1;
         }
-        copies[i] += 1;
+        while within > before && !is_within(within - 1) {
+            within -= 1;
+        }
+        (*copies, before) = (within - before, within);
     }
+    copies[last] = n - before;
     copies
 }
 

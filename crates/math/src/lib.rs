@@ -7,6 +7,7 @@
 //! | [`color`] | sRGB, HSV and CIELAB, and how different two colours look |
 //! | [`polygon`] | simple polygons of the plane |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
+//! | [`first_blocks`] | those of many streams at one address, made together |
 //! | [`rounding`] | the grid on which log scores are added and subtracted exactly |
 //! | [`fingerprint`] | a hash of the bits that this machine computes |
 //! | [`total`] | exact sums of log scores of any size |
@@ -21,6 +22,7 @@
 pub mod color;
 pub mod distributions;
 pub mod fingerprint;
+pub mod first_blocks;
 pub mod log_sums;
 pub mod polygon;
 pub mod rounding;
@@ -33,6 +35,7 @@ pub mod vector;
 pub use distributions::{
     BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, logistic, logit,
 };
+pub use first_blocks::FirstBlocks;
 pub use rounding::grid;
 pub use scalar::{LastLog, Scalar};
 pub use streams::{RngCore, Stream, StreamKey};

@@ -13,9 +13,9 @@ use rand_core::TryRng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// Multipliers of the two lanes (Salmon et al. 2011, table 2).
-const MULTIPLIER: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
+pub(crate) const MULTIPLIER: [u32; 2] = [0xD251_1F53, 0xCD9E_8D57];
 /// Added to the key each round: the golden ratio and the square root of three, less one.
-const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
+pub(crate) const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
 
 /// Ten rounds of Philox4x32: 128 random bits from a counter and a key.
 #[inline]
@@ -34,7 +34,7 @@ pub fn philox(counter: [u32; 4], key: [u32; 2]) -> [u32; 4] {
 
 /// A bijection of 64 bits in which every input bit reaches every output bit (Stafford 2011, mix 13).
 #[inline]
-fn mix(mut x: u64) -> u64 {
+pub(crate) fn mix(mut x: u64) -> u64 {
     x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     x ^ (x >> 31)
@@ -65,7 +65,7 @@ pub struct Stream {
 
 /// The part of the key that all choices of a stream share: it is mixed once for many draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct StreamKey(u64);
+pub struct StreamKey(pub(crate) u64);
 
 impl StreamKey {
     /// The key of `stream` (a particle, a chain) for choices drawn for the `visit`-th time.
@@ -94,6 +94,12 @@ impl StreamKey {
         let counter =
             [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
         Stream { counter, base: self.0, block: 0, spare: None }
+    }
+
+    /// The bits of the choice at `address` behind those of the first block.
+    #[inline]
+    pub(crate) fn behind_first(self, address: u128) -> Stream {
+        Stream { block: 1, ..self.at(address) }
     }
 }
 
@@ -139,11 +145,16 @@ impl TryRng for Stream {
     }
 
     fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
-        for chunk in bytes.chunks_mut(8) {
-            let bits = self.try_next_u64()?.to_le_bytes();
-            chunk.copy_from_slice(&bits[..chunk.len()]);
-        }
+        fill(bytes, || self.next_u64());
         Ok(())
+    }
+}
+
+/// Fills bytes from words of 64 bits.
+pub(crate) fn fill(bytes: &mut [u8], mut word: impl FnMut() -> u64) {
+    for chunk in bytes.chunks_mut(8) {
+        let bits = word().to_le_bytes();
+        chunk.copy_from_slice(&bits[..chunk.len()]);
     }
 }
 

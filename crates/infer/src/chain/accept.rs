@@ -11,7 +11,7 @@
 //! Dissertation 3.2, with selection weights in place of the numbers of choices.
 
 use niwaki_math::streams::open_unit;
-use niwaki_math::{Stream, Total, grid};
+use niwaki_math::{RngCore, Total, grid};
 
 /// The terms of the acceptance ratio, nats.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +63,7 @@ pub(crate) fn selected(total: u64, after: u64) -> f64 {
 
 /// Whether a proposal is accepted: with probability `min(1, exp(log_ratio))`, by the next number of `rng`.
 #[inline(always)]
-pub(crate) fn accepts(log_ratio: f64, rng: &mut Stream) -> bool {
+pub(crate) fn accepts(log_ratio: f64, rng: &mut impl RngCore) -> bool {
     let u = open_unit(rng);
     log_ratio >= 0.0 || u.ln() < log_ratio
 }

@@ -20,9 +20,8 @@ use super::Chain;
 use super::accept::{Rules, Terms, accepts, selected};
 use super::proposal::{Move, MoveProposal};
 use super::state::Fresh;
-use super::streams::Ahead;
 use crate::{Failure, Task};
-use niwaki_math::Stream;
+use niwaki_math::RngCore;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::Change;
@@ -53,8 +52,8 @@ impl<R: Rules> Chain<R> {
     ) -> Result<(), Failure> {
         let visit = self.visit;
         self.visit += 1;
-        let ahead = std::mem::replace(&mut self.ahead, Ahead::of(&self.streams, visit + 1));
-        let now = if ahead.visit == visit { ahead } else { Ahead::of(&self.streams, visit) };
+        let now = self.ahead.of(&self.streams, visit);
+        let coming = self.ahead.of(&self.streams, visit + 1);
 
         let total = table.map_or(self.state.trace.len() as u64, |t| self.tables[t].total());
         if total == 0 {
@@ -62,7 +61,7 @@ impl<R: Rules> Chain<R> {
         }
         let at = now.below(total);
         let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
-        let next = self.ahead.below(total) as usize;
+        let next = coming.below(total) as usize;
         if table.is_none() {
             self.state.trace.approach(next);
         }
@@ -115,7 +114,7 @@ impl<R: Rules> Chain<R> {
         task: &Task,
         change: Change,
         beta: f64,
-        rng: &mut Stream,
+        rng: &mut impl RngCore,
         selection: impl FnOnce(&Self) -> f64,
         moved: impl IntoIterator<Item = (u128, Value)>,
     ) -> Result<Decision, Failure> {

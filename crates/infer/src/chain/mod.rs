@@ -197,7 +197,7 @@ impl<R: Rules> Chain<R> {
             streams,
             plan,
             tables,
-            ahead: Ahead::of(&streams, 0),
+            ahead: Ahead::default(),
             visit: 0,
             grown: 0,
             last: Decision::default(),

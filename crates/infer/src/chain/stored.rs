@@ -11,7 +11,6 @@ use super::ladder::Ladder;
 use super::plan;
 use super::plan::Plan;
 use super::state::State;
-use super::streams::Ahead;
 use super::{Chain, Settings};
 use crate::checkpoint::unfit;
 use crate::log::Log;
@@ -125,7 +124,6 @@ impl<R: Rules> Chain<R> {
         chain.best = Best::restored(stored.best);
         chain.samples.restore(stored.samples, stored.thin);
         (chain.visit, chain.grown) = (stored.visit, stored.grown);
-        chain.ahead = Ahead::of(&chain.streams, chain.visit);
         Ok(chain)
     }
 }

@@ -1,7 +1,8 @@
 //! The random streams of a chain: a function of (seed, chain, address, visit). The visit is the number of the
 //! proposal. So no draw depends on how much of the program was run again.
 
-use niwaki_math::{RngCore, Stream, StreamKey};
+use niwaki_math::first_blocks::Begun;
+use niwaki_math::{FirstBlocks, RngCore, Stream, StreamKey};
 
 /// Stream numbers for each chain, one for each purpose.
 const STREAMS: u64 = 8;
@@ -47,28 +48,53 @@ impl Streams {
     }
 }
 
-/// The random numbers that decide on a proposal. They are drawn while the proposal before runs, so that memory can be
-/// prefetched.
-pub(crate) struct Ahead {
-    /// The number of the proposal.
-    pub visit: u64,
+/// The random numbers that decide on one proposal.
+#[derive(Clone, Debug)]
+pub(crate) struct Decisions {
     /// The first number: which choice.
     first: u64,
     /// The numbers after it.
-    pub rest: Stream,
+    pub rest: Begun,
 }
 
-impl Ahead {
-    /// Of that visit.
-    pub fn of(streams: &Streams, visit: u64) -> Ahead {
-        let mut rest = streams.decisions(visit);
-        Ahead { visit, first: rest.next_u64(), rest }
-    }
-
+impl Decisions {
     /// The first number as one below `n`.
     #[inline(always)]
     pub fn below(&self, n: u64) -> u64 {
         scaled(self.first, n)
+    }
+}
+
+/// How many proposals' decisions are made at once.
+const AT_ONCE: usize = 8;
+
+/// The decisions of the next proposals. They are made together, which is quicker, and before the proposals run, so that memory
+/// can be prefetched.
+#[derive(Debug, Default)]
+pub(crate) struct Ahead {
+    /// The number of the first of these proposals.
+    from: u64,
+    keys: Vec<StreamKey>,
+    blocks: FirstBlocks,
+}
+
+impl Ahead {
+    /// Those of a proposal.
+    #[inline(always)]
+    pub fn of(&mut self, streams: &Streams, visit: u64) -> Decisions {
+        if visit.wrapping_sub(self.from) >= self.keys.len() as u64 {
+            self.make(streams, visit);
+        }
+        let mut rest = self.blocks.stream(&self.keys, (visit - self.from) as usize);
+        Decisions { first: rest.next_u64(), rest }
+    }
+
+    #[inline(never)]
+    fn make(&mut self, streams: &Streams, visit: u64) {
+        self.from = visit;
+        self.keys.clear();
+        self.keys.extend((0..AT_ONCE as u64).map(|n| streams.decisions.revisited(visit + n)));
+        self.blocks.make(&self.keys, 0);
     }
 }
 

@@ -13,7 +13,7 @@ use super::resident::{Growth, values_to_recount};
 use crate::log::Log;
 use crate::particle::Particle;
 use crate::weights::near_log_step;
-use niwaki_math::{Draw, StreamKey, grid};
+use niwaki_math::{Draw, FirstBlocks, StreamKey, grid};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::{Answer, At, Factor};
 use niwaki_vm::machine::lanes::{Apart, Column, Dists, LaneAnswers, Lanes, Logs};
@@ -36,10 +36,15 @@ pub(super) struct InLanes {
     /// Sums of the log densities of the choices, and of the factors, nats.
     log_prior: Vec<f64>,
     log_factors: Vec<f64>,
+    /// `log_prior` at the last barrier.
+    prior_before: Vec<f64>,
+    blocks: FirstBlocks,
     /// As [`Particle::weighed`] and [`Particle::log_weight`], nats.
     weighed: Vec<f64>,
     pub log_weight: Vec<f64>,
     past: Choices,
+    /// Bytes of each one's activations when they were counted last.
+    bytes: isize,
 }
 
 /// The choices of the particles.
@@ -63,7 +68,7 @@ impl InLanes {
     /// The particles, where they are at the same place. What they hold is then here until [`InLanes::part`].
     pub fn line_up(particles: &mut [Particle]) -> Option<InLanes> {
         let near = |p: &Particle| !p.record.log_prior.near().is_nan() && !p.record.log_factors.near().is_nan();
-        let counts = |p: &Particle| (p.picks, p.record.primitives);
+        let counts = |p: &Particle| (p.picks, p.record.primitives, p.bytes);
         let first = counts(particles.first()?);
         if !particles.iter().all(|p| p.is_running() && near(p) && counts(p) == first) {
             return None;
@@ -71,16 +76,19 @@ impl InLanes {
         let lanes = Lanes::line_up(particles.iter().map(|p| &p.state))?;
         let before = particles.iter_mut().map(|p| std::mem::take(&mut p.record.log)).collect();
         let of = |f: fn(&Particle) -> f64| particles.iter().map(f).collect::<Vec<f64>>();
-        let first = Segment { from: (0..particles.len() as u32).collect(), choices: vec![] };
+        let first_segment = Segment { from: (0..particles.len() as u32).collect(), choices: vec![] };
         Some(InLanes {
             lanes,
             streams: particles.iter().map(|p| p.stream).collect(),
             lineages: particles.iter().map(|p| p.lineage).collect(),
             log_prior: of(|p| p.record.log_prior.near()),
             log_factors: of(|p| p.record.log_factors.near()),
+            prior_before: vec![0.0; particles.len()],
+            blocks: FirstBlocks::default(),
             weighed: of(|p| p.weighed.near()),
             log_weight: of(|p| p.log_weight),
-            past: Choices { before, segments: vec![first], stored: 0, left: 0 },
+            past: Choices { before, segments: vec![first_segment], stored: 0, left: 0 },
+            bytes: first.2,
         })
     }
 
@@ -101,7 +109,7 @@ impl InLanes {
             }
             p.log_weight = self.log_weight[lane];
             p.was_ended = false;
-            p.bytes = p.state.own_bytes() as isize;
+            p.bytes = self.bytes;
         }
     }
 
@@ -118,42 +126,45 @@ impl InLanes {
     /// Counts their scores in the weights: a step from one power to the `next`. Returns the best score, nats.
     pub fn weigh(&mut self, next: f64, power: f64) -> f64 {
         let mut best = f64::NEG_INFINITY;
-        let weights = self.log_weight.iter_mut().zip(&mut self.weighed);
+        let weights = self.log_weight.iter_mut().zip(&self.weighed);
         for ((weight, weighed), score) in weights.zip(&self.log_factors) {
             best = best.max(*score);
             *weight += near_log_step(next, *score, power, *weighed);
-            *weighed = *score;
         }
+        self.weighed.copy_from_slice(&self.log_factors);
         best
     }
 
-    /// Runs them to the next barrier, or to the end. After an error they are at the last barrier.
-    ///
-    /// # Errors
-    /// They cannot go on together.
-    pub fn advance(&mut self, machine: &mut Machine<'_>) -> Result<Growth, Apart> {
+    /// Runs them to the next barrier, or to the end; false, and they are at the last barrier, where they cannot go on together,
+    /// or where they have grown by more than fits.
+    pub fn advance(&mut self, machine: &mut Machine<'_>, fits: impl FnOnce(Growth) -> bool) -> bool {
         let before = self.lanes.clone();
-        let sums = (self.log_prior.clone(), self.log_factors.clone());
+        self.prior_before.copy_from_slice(&self.log_prior);
         let choices = self.past.segments.last().map_or(0, |last| last.choices.len());
         let done = self.with(|lanes, answers| machine.resume_lanes(lanes, answers));
-        let growth = done.and_then(|_| self.growth(before.shared().own_bytes(), before.shared().value_bytes()));
-        if growth.is_err() {
+        let growth = done.and_then(|_| self.growth(before.shared().value_bytes()));
+        let done = growth.is_ok_and(fits);
+        if done {
+            self.bytes = self.lanes.shared().own_bytes() as isize;
+        } else {
             self.lanes = before;
-            (self.log_prior, self.log_factors) = sums;
+            self.log_prior.copy_from_slice(&self.prior_before);
+            // The score at the last barrier is the one that was weighed.
+            self.log_factors.copy_from_slice(&self.weighed);
             if let Some(last) = self.past.segments.last_mut() {
                 last.choices.truncate(choices);
             }
         }
-        growth
+        done
     }
 
     /// By how much they have grown together, as [`counted`](super::resident::counted) one by one.
-    fn growth(&self, own: usize, values: usize) -> Result<Growth, Apart> {
+    fn growth(&self, values: usize) -> Result<Growth, Apart> {
         let (n, state) = (self.len(), self.lanes.shared());
         if state.value_bytes() > values_to_recount(values) {
             return Err(Apart);
         }
-        let grown = state.own_bytes() as isize - own as isize;
+        let grown = state.own_bytes() as isize - self.bytes;
         Ok(Growth::of(n, grown, state.value_bytes().saturating_sub(values)))
     }
 
@@ -166,9 +177,10 @@ impl InLanes {
             self.streams[to] = StreamKey::new(seed, lineage, 0);
         }
         self.lanes.pick(&from);
-        for column in [&mut self.log_prior, &mut self.log_factors, &mut self.weighed, &mut self.log_weight] {
+        for column in [&mut self.log_prior, &mut self.log_factors, &mut self.log_weight] {
             *column = from.iter().map(|lane| column[*lane as usize]).collect();
         }
+        self.weighed.copy_from_slice(&self.log_factors);
         self.past.pick(from);
     }
 }
@@ -191,13 +203,7 @@ impl Choices {
                 segment.choices.iter_mut().for_each(|(_, column)| *column = column.picked(rows));
             }
             self.stored += segment.choices.len() * segment.from.len();
-            let mut parents = segment.from.clone();
-            parents.sort_unstable();
-            parents.dedup();
-            for row in &mut segment.from {
-                *row = parents.binary_search(row).unwrap_or(0) as u32;
-            }
-            wanted = Some(parents);
+            wanted = Some(only_used(&mut segment.from));
         }
         if let Some(rows) = wanted {
             self.before = rows.iter().map(|row| std::mem::take(&mut self.before[*row as usize])).collect();
@@ -229,9 +235,26 @@ impl Choices {
     }
 }
 
+/// The numbers in a list, ascending and each once. The list then has their places.
+fn only_used(list: &mut [u32]) -> Vec<u32> {
+    let count = list.iter().max().map_or(0, |most| *most as usize + 1);
+    let mut places = vec![0; count];
+    list.iter().for_each(|number| places[*number as usize] = 1);
+    let mut used = Vec::new();
+    for (number, place) in places.iter_mut().enumerate() {
+        if *place == 1 {
+            *place = used.len() as u32;
+            used.push(number as u32);
+        }
+    }
+    list.iter_mut().for_each(|number| *number = places[*number as usize]);
+    used
+}
+
 /// Answers the questions of all particles.
 struct Drawing<'a> {
     streams: &'a [StreamKey],
+    blocks: &'a mut FirstBlocks,
     log_prior: &'a mut [f64],
     log_factors: &'a mut [f64],
     past: &'a mut Choices,
@@ -240,8 +263,8 @@ struct Drawing<'a> {
 impl InLanes {
     /// Runs `f` with the lanes and with what answers them.
     fn with<T>(&mut self, f: impl FnOnce(&mut Lanes, &mut Drawing<'_>) -> T) -> T {
-        let InLanes { lanes, streams, log_prior, log_factors, past, .. } = self;
-        f(lanes, &mut Drawing { streams, log_prior, log_factors, past })
+        let InLanes { lanes, streams, blocks, log_prior, log_factors, past, .. } = self;
+        f(lanes, &mut Drawing { streams, blocks, log_prior, log_factors, past })
     }
 }
 
@@ -256,9 +279,10 @@ impl LaneAnswers for Drawing<'_> {
         let (address, lanes) = (at.address(), self.streams.len());
         let mut exact = true;
         let sums = &mut *self.log_prior;
-        let streams = self.streams;
+        self.blocks.make(self.streams, address);
+        let (streams, blocks) = (self.streams, &*self.blocks);
         let mut draw = |lane: usize| {
-            let (draw, log) = dists.get(lane).sample_and_score(&mut streams[lane].at(address));
+            let (draw, log) = dists.get(lane).sample_and_score(&mut blocks.stream(streams, lane));
             exact &= add(&mut sums[lane], grid(log));
             draw
         };

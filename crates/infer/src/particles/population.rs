@@ -197,13 +197,19 @@ impl<'a> Population<'a> {
         let Some(lanes) = &mut self.lanes else { return false };
         let limit = self.task.limits.bytes;
         let own = one(&self.task, self.particles.len());
-        let grown = lanes.advance(&mut own.machine());
-        if grown.is_ok_and(|growth| self.resident.grown_together(growth, limit)) {
+        let resident = &mut self.resident;
+        if lanes.advance(&mut own.machine(), |growth| resident.grown_together(growth, limit)) {
             return true;
         }
         self.part();
         self.rest.begin(self.barriers);
         false
+    }
+
+    /// Whether its particles run together now.
+    #[cfg(test)]
+    pub fn is_in_lanes(&self) -> bool {
+        self.lanes.is_some()
     }
 
     /// The particles go on one by one.

@@ -74,7 +74,8 @@ impl<S: Scalar> Weights<S> {
     pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> usize {
         let u = open_unit(rng);
         if self.cumulative.len() <= 16 {
-            self.cumulative.iter().take_while(|sum| **sum <= u).count()
+            // The sums do not fall, so all are compared: there is no jump to be predicted.
+            self.cumulative.iter().filter(|sum| **sum <= u).count()
         } else {
             self.cumulative.partition_point(|sum| *sum <= u)
         }

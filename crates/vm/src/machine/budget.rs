@@ -429,6 +429,10 @@ impl<S: Scalar> Machine<'_, S> {
         keep: &K,
         coming: usize,
     ) -> Result<(), Fault> {
+        if self.in_lanes {
+            // What differs from lane to lane is not in the state, so it cannot be counted here.
+            return Err(self.out_of_memory());
+        }
         let limit = self.limits.bytes;
         let values = self.values_of(state, keep);
         state.charged = values.saturating_add(coming);

@@ -9,6 +9,7 @@
 //! * `budget`: what an operation costs in steps and bytes, and the audit of a run's memory;
 //! * `parts`: what activations emitted last, for guides;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
+//! * [`lanes`]: many runs at the same place, an instruction at a time for all of them;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
@@ -145,6 +146,8 @@ pub struct Machine<'p, S: Scalar = f64> {
     cache: DistCache<S>,
     logs: LastLog<S>,
     here: Here,
+    /// It runs many runs at once, which go apart where their memory would have to be counted.
+    in_lanes: bool,
 }
 
 impl<'p, S: Scalar> Machine<'p, S> {
@@ -163,6 +166,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             cache: DistCache::holding(limits.bytes / 16),
             logs: LastLog::default(),
             here: Here { node: NodeId::NONE, function: program.entry, pc: 0, scratch: 0 },
+            in_lanes: false,
         }
     }
 

@@ -22,6 +22,7 @@ use std::time::Duration;
 mod annealed;
 mod chains;
 mod final_chains;
+mod in_lanes;
 mod look_ahead;
 mod ordered;
 mod proposed;

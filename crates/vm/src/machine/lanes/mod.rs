@@ -174,6 +174,10 @@ impl Machine<'_> {
         else {
             return Err(Apart);
         };
-        interpret::Run::of(self, lanes, future, *node).go(answers)
+        let node = *node;
+        self.in_lanes = true;
+        let stop = interpret::Run::of(self, lanes, future, node).go(answers);
+        self.in_lanes = false;
+        stop
     }
 }

@@ -1,0 +1,91 @@
+"""Searches of random programs by populations; prints all that they say, as JSON by seed.
+
+    python searches_in_lanes.py FIRST COUNT
+
+A program is that of `programs` as a function, called from a loop with choices of all kinds, observations and factors. Some
+have jumps that depend on choices, so that particles part and meet.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import random
+import sys
+
+import niwaki as nw
+from niwaki.errors import NiwakiError
+from programs import program
+from test_engine import load
+
+BODY = """
+
+inner = m
+
+
+@model
+def around():
+    x, n, b = 0.5, 2, True
+    kept = []
+    for i in range({barriers}):
+        x = gaussian(x, 0.5)
+        {choices}
+        {jump}
+        observe(Gaussian(x, 1.0), 0.1 * i)
+        factor(-0.05 * abs(n) * {scale})
+        {call}
+    return (x, n, b, kept)
+
+m = around
+"""
+
+CHOICES = [
+    "n = poisson(2.0)",
+    "b = flip(0.4)",
+    "n = categorical([0.2, 0.5, 0.3]) + n % 3",
+    "x = x * uniform(0.5, 1.0)",
+    "pair = (uniform(0.0, 1.0), n); x = x + pair[0]; kept = kept + [pair[1]]",
+    "kept = kept + [x]",
+    "x = max(-5, min(x, 5.0))",
+    "n = int(abs(x) * 3) - n",
+]
+JUMPS = ["pass", "pass", "if x > 1.2: x = x - uniform(0.0, 1.0)", "if i % 3 == 2: n = n + 1", "if b: x = 0.9 * x"]
+
+
+def text(seed: int) -> str:
+    """The module of a search."""
+    pick = random.Random(seed)
+    base = program(seed, pick.randint(1, 5)).text
+    return base + BODY.format(
+        barriers=pick.randint(2, 8),
+        choices="; ".join(pick.sample(CHOICES, 2)),
+        jump=pick.choice(JUMPS),
+        scale=pick.choice([0.5, 1, 2]),
+        call=pick.choice(["pass", "pass", "if i == 2: inner()"]),
+    )
+
+
+def said(seed: int) -> str:
+    """What a search of that program says, as a hash; of a failure its words."""
+    pick = random.Random(seed + 1)
+    method = nw.smc(
+        particles=pick.choice([16, 40, 100]),
+        order=pick.choice(["depth-first", "stochastic"]),
+        resampling=pick.choice(["systematic", "residual", "stratified", "multinomial", "tempered"]),
+        ess=pick.choice([None, 0.5]),
+    )
+    try:
+        result = nw.run(load(text(seed)), method=method, seed=seed, max_steps=200_000, threads=pick.choice([1, 2]))
+    except NiwakiError as error:
+        return f"{type(error).__name__}: {error}"
+    facts = [
+        (sorted(s.choices.items()), repr(s.value), *(x.hex() for x in (s.log_prior, s.log_score, s.log_weight)))
+        for s in result
+    ]
+    evidence = None if result.log_evidence is None else float(result.log_evidence).hex()
+    return f"{evidence} {result.info.steps} " + hashlib.sha256(repr(facts).encode()).hexdigest()
+
+
+if __name__ == "__main__":
+    first, count = map(int, sys.argv[1:])
+    print(json.dumps({str(seed): said(seed) for seed in range(first, first + count)}))

@@ -1,0 +1,48 @@
+"""Populations in lanes say what particles that run one by one say, to the bit, on random programs.
+
+The programs are those of `programs`, with observations and factors in a loop around them so that a population has
+barriers. A search runs in two processes, of which one has `NIWAKI_LANES=0`; what they print must be equal. Seeds are fixed.
+Nothing here is statistical.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SEARCHES = Path(__file__).with_name("searches_in_lanes.py")
+
+
+def said(lanes: bool, first: int, count: int) -> dict[str, str]:
+    """What each search prints, by the seed of its program."""
+    settings = dict(os.environ, NIWAKI_LANES="1" if lanes else "0")
+    command = [sys.executable, str(SEARCHES), str(first), str(count)]
+    done = subprocess.run(command, env=settings, capture_output=True, text=True, check=True)
+    answers: dict[str, str] = json.loads(done.stdout)
+    return answers
+
+
+def agree(first: int, count: int) -> None:
+    """Compare the searches of so many programs."""
+    together, alone = said(True, first, count), said(False, first, count)
+    assert len(together) == count
+    different = [seed for seed in together if together[seed] != alone[seed]]
+    assert not different, (different[0], together[different[0]], alone[different[0]])
+
+
+def test_lanes_agree_on_random_programs() -> None:
+    """A hundred programs."""
+    agree(7_000_000, 100)
+
+
+@pytest.mark.soak
+def test_lanes_agree_on_many_random_programs() -> None:
+    """Fresh ones."""
+    first = int.from_bytes(os.urandom(4), "big")
+    print(f"first seed {first}")
+    agree(first, 3000)
