@@ -63,9 +63,16 @@ impl Resampling {
     }
 }
 
+/// How many numbers from the start of a range have a property. Apart from its caller, whose usual way needs no loop.
+#[cold]
+#[inline(never)]
+fn count(among: std::ops::Range<usize>, has: impl Fn(usize) -> bool) -> usize {
+    among.take_while(|k| has(*k)).count()
+}
+
 /// Counts how many of the increasing points `at(0), at(1), ...` are in each particle's share: the points up to its end less
-/// those up to the end of the one before. Where the points have about equal distances, the number up to an end is nearly
-/// right at once.
+/// those up to the end of the one before. Where the points have about equal distances, the number up to an end is known
+/// but for rounding.
 fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     let n = weights.len();
     let mut copies = vec![0; n];
@@ -76,11 +83,8 @@ fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
         cumulative += weight;
         let is_within = |k: usize| at(k) * total <= cumulative;
         let mut within = ((cumulative * scale - offset + 1.0) as usize).clamp(before, n);
-        while within < n && is_within(within) {
-            within += 1;
-        }
-        while within > before && !is_within(within - 1) {
-            within -= 1;
+        if within < n && is_within(within) || within > before && !is_within(within - 1) {
+            within = before + count(before..n, is_within);
         }
         (*copies, before) = (within - before, within);
     }
