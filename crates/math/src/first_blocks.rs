@@ -96,6 +96,7 @@ impl TryRng for Begun {
 /// [`philox`](crate::streams::philox) of one counter with many keys. Numbers of 32 bits are held in 64, so that a product is one instruction of the
 /// processor for several of them.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the four quarters of an address")]
 fn wide_philox<const N: usize>(counter: u128, keys: &[u64; N]) -> [[u64; 2]; N] {
     const LOW: u64 = u32::MAX as u64;
     let quarter = |i: u32| [(counter >> (32 * i)) as u64 & LOW; N];

@@ -67,7 +67,8 @@ struct Segment {
 impl InLanes {
     /// The particles, where they are at the same place. What they hold is then here until [`InLanes::part`].
     pub fn line_up(particles: &mut [Particle]) -> Option<InLanes> {
-        let near = |p: &Particle| !p.record.log_prior.near().is_nan() && !p.record.log_factors.near().is_nan();
+        let near =
+            |p: &Particle| !p.record.log_prior.near().is_nan() && !p.record.log_factors.near().is_nan();
         let counts = |p: &Particle| (p.picks, p.record.primitives, p.bytes);
         let first = counts(particles.first()?);
         if !particles.iter().all(|p| p.is_running() && near(p) && counts(p) == first) {

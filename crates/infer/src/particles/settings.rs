@@ -86,7 +86,8 @@ pub struct Settings {
 
 /// Lanes are used, unless the environment has `NIWAKI_LANES=0`.
 fn lanes() -> bool {
-    static USED: LazyLock<bool> = LazyLock::new(|| std::env::var_os("NIWAKI_LANES").is_none_or(|set| set != "0"));
+    static USED: LazyLock<bool> =
+        LazyLock::new(|| std::env::var_os("NIWAKI_LANES").is_none_or(|set| set != "0"));
     *USED
 }
 

@@ -194,7 +194,8 @@ fn limits_stop_lanes_as_they_stop_particles() {
 #[test]
 fn particles_stay_together_where_nothing_parts_them() {
     let barriers_in_lanes = |text: &str| {
-        let (task, settings) = (task(text), Settings { particles: 40, order: Order::DepthFirst, ..Settings::default() });
+        let (task, settings) =
+            (task(text), Settings { particles: 40, order: Order::DepthFirst, ..Settings::default() });
         let mut population = Population::start(&task, &settings, true).unwrap();
         let (mut in_lanes, mut all) = (0, 0);
         while population.count().0 > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {

@@ -34,7 +34,8 @@ impl Run<'_, '_> {
                 Ok(After::Next)
             }
             SiteKind::Append { .. } => {
-                let [list, element] = [0, 1].map(|i| self.side(self.f.operands[site.args.start as usize + i]));
+                let [list, element] =
+                    [0, 1].map(|i| self.side(self.f.operands[site.args.start as usize + i]));
                 let side = match (&list, &element) {
                     (Side::All(list), Side::All(element)) => {
                         let longer = ops::append(list.clone(), element.clone())?;

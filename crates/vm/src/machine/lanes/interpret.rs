@@ -134,12 +134,7 @@ impl<'r, 'p> Run<'r, 'p> {
     }
 
     /// Enters a pure function with these arguments and captures.
-    pub fn enter_pure(
-        &mut self,
-        function: FunctionId,
-        to: Operand,
-        inputs: Vec<Side>,
-    ) -> Result<(), Apart> {
+    pub fn enter_pure(&mut self, function: FunctionId, to: Operand, inputs: Vec<Side>) -> Result<(), Apart> {
         self.step()?;
         let (caller, pc, scratch) = (self.id, self.pc + 1, self.scratch);
         let call = PureCall { caller, pc, scratch, to, as_future: false };

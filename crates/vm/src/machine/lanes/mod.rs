@@ -63,10 +63,15 @@ fn spent(state: &State) -> Spent {
 /// copy.
 fn activations(state: &State) -> Option<Vec<NodeId>> {
     let Some(Status::Runnable(node)) = state.futures.first().map(|root| &root.status) else { return None };
-    if state.futures.len() != 1 || state.origins.is_some() || state.memos.bytes() > 0 || state.parts.are_noted() {
+    if state.futures.len() != 1
+        || state.origins.is_some()
+        || state.memos.bytes() > 0
+        || state.parts.are_noted()
+    {
         return None;
     }
-    let above = |node: &NodeId| Some(state.nodes[node.0 as usize].parent).filter(|above| *above != NodeId::NONE);
+    let above =
+        |node: &NodeId| Some(state.nodes[node.0 as usize].parent).filter(|above| *above != NodeId::NONE);
     Some(std::iter::successors(Some(*node), above).collect())
 }
 
@@ -110,7 +115,8 @@ impl Lanes {
                 *column = Column::of(states.len(), |lane| Ok(states[lane].registers[at].clone())).ok();
             }
         }
-        let most = states.iter().map(|state| spent(state)).fold([0; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
+        let most =
+            states.iter().map(|state| spent(state)).fold([0; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
         (state.steps, state.charged, state.logged) = (most[0], most[1] as usize, most[2] as usize);
         let less = |state: &&State| [0, 1, 2].map(|i| most[i] - spent(state)[i]);
         let behind: Vec<Spent> = states.iter().map(less).collect();

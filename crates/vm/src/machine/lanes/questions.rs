@@ -5,12 +5,12 @@ use super::column::{Column, Side};
 use super::interpret::Run;
 use crate::builtins::{make_dist, quick_dist};
 use crate::code::{Args, Site, SiteId, SiteKind, Source};
+use crate::machine::Stop;
 use crate::machine::answers::{Answer, At, Factor};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
 use crate::machine::question::{LOGGED, as_dist, as_real, log_density};
 use crate::machine::suspend::After;
-use crate::machine::Stop;
 use crate::value::{Dist, Family, Value, index, ops};
 
 /// The distributions of a choice, one for each lane.
@@ -135,12 +135,7 @@ impl Run<'_, '_> {
         }
     }
 
-    fn choose<A: LaneAnswers>(
-        &mut self,
-        site: &Site,
-        source: Source,
-        answers: &mut A,
-    ) -> Result<(), Apart> {
+    fn choose<A: LaneAnswers>(&mut self, site: &Site, source: Source, answers: &mut A) -> Result<(), Apart> {
         let found = self.dists(source, site.args)?;
         let at = self.at(site);
         let column = found.with(|dists| answers.choices(&at, dists))?;
@@ -150,7 +145,13 @@ impl Run<'_, '_> {
     }
 
     fn at<'a>(&'a self, site: &'a Site) -> At<'a, f64> {
-        At { site, function: self.f, node: self.node, state: &self.lanes.state, program: self.machine.program }
+        At {
+            site,
+            function: self.f,
+            node: self.node,
+            state: &self.lanes.state,
+            program: self.machine.program,
+        }
     }
 
     /// The result of a site.
