@@ -2,8 +2,8 @@
 
     python searches_in_lanes.py FIRST COUNT
 
-A program is that of `programs` as a function, called from a loop with choices of all kinds, observations and factors. Some
-have jumps that depend on choices, so that particles part and meet.
+A program is that of `programs` as a function, called from a loop with choices of all kinds, observations and factors.
+Some have jumps that depend on choices, so that particles part and meet.
 """
 
 from __future__ import annotations
@@ -49,7 +49,13 @@ CHOICES = [
     "x = max(-5, min(x, 5.0))",
     "n = int(abs(x) * 3) - n",
 ]
-JUMPS = ["pass", "pass", "if x > 1.2: x = x - uniform(0.0, 1.0)", "if i % 3 == 2: n = n + 1", "if b: x = 0.9 * x"]
+JUMPS = [
+    "pass",
+    "pass",
+    "if x > 1.2: x = x - uniform(0.0, 1.0)",
+    "if i % 3 == 2: n = n + 1",
+    "if b: x = 0.9 * x",
+]
 
 
 def text(seed: int) -> str:
@@ -75,11 +81,17 @@ def said(seed: int) -> str:
         ess=pick.choice([None, 0.5]),
     )
     try:
-        result = nw.run(load(text(seed)), method=method, seed=seed, max_steps=200_000, threads=pick.choice([1, 2]))
+        result = nw.run(
+            load(text(seed)), method=method, seed=seed, max_steps=200_000, threads=pick.choice([1, 2])
+        )
     except NiwakiError as error:
         return f"{type(error).__name__}: {error}"
     facts = [
-        (sorted(s.choices.items()), repr(s.value), *(x.hex() for x in (s.log_prior, s.log_score, s.log_weight)))
+        (
+            sorted(s.choices.items()),
+            repr(s.value),
+            *(x.hex() for x in (s.log_prior, s.log_score, s.log_weight)),
+        )
         for s in result
     ]
     evidence = None if result.log_evidence is None else float(result.log_evidence).hex()

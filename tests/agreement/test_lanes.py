@@ -1,8 +1,8 @@
 """Populations in lanes say what particles that run one by one say, to the bit, on random programs.
 
 The programs are those of `programs`, with observations and factors in a loop around them so that a population has
-barriers. A search runs in two processes, of which one has `NIWAKI_LANES=0`; what they print must be equal. Seeds are fixed.
-Nothing here is statistical.
+barriers. A search runs in two processes, of which one has `NIWAKI_LANES=0`; what they print must be equal. Seeds are
+fixed. Nothing here is statistical.
 """
 
 from __future__ import annotations
