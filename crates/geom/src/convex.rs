@@ -1,10 +1,12 @@
 //! Convex solids as intersection and voxels use them.
 
-use crate::once::Once;
+use crate::segment;
 use crate::shape::Placement;
 use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
-use std::sync::{Arc, OnceLock};
+use std::cell::OnceCell;
+use std::rc::Rc;
+use std::sync::Arc;
 
 /// A convex solid in the world, as scores use it.
 ///
@@ -15,18 +17,30 @@ use std::sync::{Arc, OnceLock};
 pub enum Convex<'a> {
     /// Corners, and unit normals of the faces, along which the edges run too.
     Cuboid([Vec3; 8], [Vec3; 3]),
-    /// Any other convex solid.
+    /// Another convex solid, and what is known about it.
+    Coarse(Rc<Coarse>),
+    /// A piece of one.
     Hull(&'a Hull),
 }
 
-/// A convex solid that is no box, computed once with the shape.
+/// The hull of a coarse mesh, and its pieces where it is larger than the solid.
+#[derive(Debug)]
+pub struct Coarse {
+    whole: Hull,
+    /// Of a segment, whether its base is on a parent's bark.
+    welded: Option<bool>,
+    /// Of a segment, computed when first needed.
+    pieces: OnceCell<Box<[Hull]>>,
+}
+
+/// A convex solid that is no box.
 #[derive(Debug)]
 pub struct Hull {
     /// Vertices, then face normals: one allocation.
     points: Box<[Vec3]>,
     vertices: usize,
     topology: Arc<Topology>,
-    edges: OnceLock<Box<[Vec3]>>,
+    edges: OnceCell<Box<[Vec3]>>,
     width: f64,
 }
 
@@ -69,7 +83,7 @@ impl Hull {
     fn of_parts(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         let width = narrowest(&vertices[..topology.corners], &normals);
         let points = [&vertices[..], &normals].concat().into();
-        let edges = OnceLock::new();
+        let edges = OnceCell::new();
         (width > 0.0).then(|| Hull { points, vertices: vertices.len(), topology, edges, width })
     }
 
@@ -78,8 +92,12 @@ impl Hull {
         self.width
     }
 
+    fn corners(&self) -> &[Vec3] {
+        &self.points[..self.topology.corners]
+    }
+
     fn edges(&self) -> &[Vec3] {
-        self.edges.once(|| {
+        self.edges.get_or_init(|| {
             let mut edges = Vec::new();
             for [a, b] in &self.topology.edges {
                 if let Some(direction) = (self.points[*b as usize] - self.points[*a as usize]).unit() {
@@ -91,7 +109,37 @@ impl Hull {
     }
 }
 
-impl<'a> Convex<'a> {
+impl Coarse {
+    /// Of a convex solid.
+    pub(crate) fn new(whole: Hull) -> Coarse {
+        Coarse { whole, welded: None, pieces: OnceCell::new() }
+    }
+
+    /// Of a segment; `welded` where its base is on a parent's bark.
+    pub(crate) fn of_segment(whole: Hull, welded: bool) -> Coarse {
+        Coarse { welded: Some(welded), ..Coarse::new(whole) }
+    }
+
+    /// Smallest extent along a face normal: how thick the solid is.
+    pub fn width(&self) -> f64 {
+        self.whole.width
+    }
+
+    /// Corners of the hull, world space.
+    pub fn corners(&self) -> &[Vec3] {
+        self.whole.corners()
+    }
+
+    /// Bytes that it takes, or a little more, with all that it may compute.
+    pub(crate) fn bytes(&self) -> usize {
+        let Hull { points, topology, .. } = &self.whole;
+        let whole = (points.len() + topology.edges.len()) * size_of::<Vec3>() + size_of::<Coarse>();
+        // The pieces of a segment have more corners than it.
+        whole * if self.welded.is_some() { 3 } else { 1 } + if Arc::strong_count(topology) == 1 { topology.bytes() } else { 0 }
+    }
+}
+
+impl Convex<'_> {
     /// A box around the origin with full side lengths `size`, placed.
     #[inline]
     pub(crate) fn cuboid(size: Vec3, placement: &Placement) -> Convex<'static> {
@@ -103,6 +151,7 @@ impl<'a> Convex<'a> {
     pub fn width(&self) -> f64 {
         match self {
             Convex::Cuboid(corners, normals) => narrowest(corners, normals),
+            Convex::Coarse(coarse) => coarse.width(),
             Convex::Hull(hull) => hull.width,
         }
     }
@@ -112,7 +161,8 @@ impl<'a> Convex<'a> {
     pub fn corners(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(corners, _) => corners,
-            Convex::Hull(hull) => &hull.points[..hull.topology.corners],
+            Convex::Coarse(coarse) => coarse.corners(),
+            Convex::Hull(hull) => hull.corners(),
         }
     }
 
@@ -121,15 +171,17 @@ impl<'a> Convex<'a> {
     pub fn vertices(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(corners, _) => corners,
+            Convex::Coarse(coarse) => &coarse.whole.points[..coarse.whole.vertices],
             Convex::Hull(hull) => &hull.points[..hull.vertices],
         }
     }
 
     /// Faces, edges and triangles.
     #[inline]
-    pub fn topology(&self) -> &'a Topology {
+    pub fn topology(&self) -> &Topology {
         match self {
             Convex::Cuboid(..) => Topology::cuboid(),
+            Convex::Coarse(coarse) => &coarse.whole.topology,
             Convex::Hull(hull) => &hull.topology,
         }
     }
@@ -139,6 +191,7 @@ impl<'a> Convex<'a> {
     pub fn normals(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(_, normals) => normals,
+            Convex::Coarse(coarse) => &coarse.whole.points[coarse.whole.vertices..],
             Convex::Hull(hull) => &hull.points[hull.vertices..],
         }
     }
@@ -148,8 +201,16 @@ impl<'a> Convex<'a> {
     pub fn edges(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(_, normals) => normals,
+            Convex::Coarse(coarse) => coarse.whole.edges(),
             Convex::Hull(hull) => hull.edges(),
         }
+    }
+
+    /// The convex solids whose union the shape is, where this solid is larger than the shape.
+    pub fn pieces(&self) -> Option<&[Hull]> {
+        let Convex::Coarse(coarse) = self else { return None };
+        let welded = coarse.welded?;
+        Some(coarse.pieces.get_or_init(|| segment::pieces(coarse.corners(), welded)))
     }
 }
 

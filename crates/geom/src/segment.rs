@@ -236,7 +236,7 @@ mod tests {
             let shape = bent(bend);
             let grid = crate::Grid::around(shape.aabb(), 0.1).unwrap();
             let ours = crate::Voxels::of(&shape, &grid).unwrap();
-            let mesh = crate::Voxels::of_mesh(shape.world_mesh(), &grid).unwrap();
+            let mesh = crate::Voxels::of_mesh(&shape.world_mesh(), &grid).unwrap();
             let [nx, ny, nz] = grid.dims();
             let cells = || (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
             assert!(cells().filter(|cell| mesh.contains(*cell)).all(|cell| ours.contains(cell)), "{bend}");

@@ -1,21 +1,22 @@
 //! A shape: a solid, its place and its look. It never changes and is shared by counting references.
 //!
-//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the coarse mesh that is
-//! computed here, once, with the shape: inscribed polygons with few sides, sharp edges. Pictures make a
-//! finer mesh from the same solid.
+//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use a coarse mesh: inscribed polygons with
+//! few sides, sharp edges. Its hull is computed with the shape, but not held by it ([`crate::store`]). Pictures make a finer mesh
+//! from the same solid.
 
 use crate::bounds::Aabb;
 use crate::coarse::{convex, ring};
-use crate::convex::{Convex, Hull, is_aligned};
+use crate::convex::{Convex, is_aligned};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
-use crate::once::Once;
 use crate::plane::flat::{self, Round};
-use crate::segment::{self, Tube};
+use crate::segment::Tube;
+use crate::store::{self, Number, WorldMesh};
 use crate::vector::{Mat3, Vec3, vec3};
 use crate::words::Look;
 use serde::{Deserialize, Serialize};
-use std::sync::{Arc, OnceLock};
+use std::rc::Rc;
+use std::sync::Arc;
 
 /// Default number of sides of a cylinder (dissertation chapter 5's coarse mesh).
 pub const CYLINDER_SIDES: usize = 8;
@@ -145,20 +146,13 @@ struct Inner {
     aabb: Aabb,
     /// A box with its sides along the coordinate directions.
     aligned: bool,
-    /// Of a solid that is neither a box nor a mesh.
-    hull: Option<Box<Coarse>>,
-    world: OnceLock<Box<TriMesh>>,
+    /// Of the hull of a solid that is neither a box nor a mesh; infinite for these.
+    width: f64,
+    /// Of its geometry in a store; none for a box.
+    number: Number,
 }
 
 const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
-
-/// The kept hulls of the coarse mesh.
-#[derive(Debug)]
-struct Coarse {
-    whole: Hull,
-    /// Of a segment, computed when first needed.
-    pieces: OnceLock<Box<[Hull]>>,
-}
 
 /// A placed solid with its look. Cloning shares it.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -245,24 +239,30 @@ impl Shape {
             }
         }
         let flat = || bad(format!("{} has no inside", kind(&solid)));
-        let (hull, aabb) = match &solid {
-            Solid::Mesh(mesh) => (None, Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+        let (mut width, mut number) = (f64::INFINITY, Number::NONE);
+        let aabb = match &solid {
+            Solid::Mesh(mesh) => {
+                number = Number::new();
+                Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))
+            }
             Solid::Box { size } => {
                 let convex = Convex::cuboid(*size, &placement);
                 // A size that is lost in rounding beside the placement leaves the corners equal.
                 if convex.width() <= 0.0 {
                     return flat();
                 }
-                (None, Aabb::around(convex.corners().iter().copied()))
+                Aabb::around(convex.corners().iter().copied())
             }
             solid if solid.is_flat() => {
                 flat::check(solid, &placement)?;
-                (None, flat::aabb(solid, &placement).unwrap_or(Aabb::EMPTY))
+                flat::aabb(solid, &placement).unwrap_or(Aabb::EMPTY)
             }
             solid => {
-                let Some(hull) = convex(solid, &placement) else { return flat() };
-                let aabb = Aabb::around(Convex::Hull(&hull).corners().iter().copied());
-                (Some(Box::new(Coarse { whole: hull, pieces: OnceLock::new() })), aabb)
+                let Some(coarse) = convex(solid, &placement) else { return flat() };
+                (width, number) = (coarse.width(), Number::new());
+                let aabb = Aabb::around(coarse.corners().iter().copied());
+                store::keep_hull(&number, Rc::new(coarse));
+                aabb
             }
         };
         // Beyond this, squares and products of lengths lose all meaning.
@@ -271,10 +271,10 @@ impl Shape {
             return bad("the shape is farther than 1e12 from the origin".to_string());
         }
         let aligned = matches!(solid, Solid::Box { .. }) && is_aligned(&placement);
-        let (bevel, world) = (bevel.unwrap_or(f64::NAN), OnceLock::new());
+        let bevel = bevel.unwrap_or(f64::NAN);
         let color = color.unwrap_or([f32::NAN; 3]);
         let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
-        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, finish, aabb, aligned, hull, world })))
+        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, finish, aabb, aligned, width, number })))
     }
 
     /// The solid, in its own coordinates.
@@ -324,18 +324,14 @@ impl Shape {
         Arc::strong_count(&self.0) > 1
     }
 
-    /// Bytes that it takes, with the hulls and the mesh that it may keep; a mesh that is shared counts once for each shape.
+    /// Bytes that it takes, and of a mesh those of its triangles. Its geometry is in stores of limited size, and does not count.
     pub fn bytes(&self) -> usize {
-        let hull = |sides: usize| size_of::<Coarse>() + 4 * sides * size_of::<Vec3>();
         let beside = match &self.0.solid {
-            Solid::Box { .. } => 0,
-            Solid::TaperedBox { .. } => hull(4),
-            Solid::Cylinder { sides, .. } | Solid::TaperedCylinder { sides, .. } => hull(*sides),
-            Solid::Limb { sides, .. } => size_of::<[Ring; 2]>() + hull(*sides),
-            Solid::Segment(_) => size_of::<Tube>() + hull(8),
-            Solid::Mesh(mesh) => size_of_val(mesh.vertices()) + size_of_val(mesh.triangles()),
+            Solid::Limb { .. } => size_of::<[Ring; 2]>(),
+            Solid::Segment(_) => size_of::<Tube>(),
+            Solid::Mesh(mesh) => mesh.bytes(),
             Solid::Stroke { .. } => size_of::<[Round; 2]>(),
-            Solid::Ellipse { .. } => 0,
+            _ => 0,
         };
         16 + size_of::<Inner>() + beside
     }
@@ -358,48 +354,38 @@ impl Shape {
         !matches!(self.0.solid, Solid::Mesh(_)) && !self.0.solid.is_flat()
     }
 
-    /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Shape::pieces`].
+    /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Convex::pieces`].
     #[inline]
-    pub fn convex(&self) -> Option<Convex<'_>> {
-        match (&self.0.hull, &self.0.solid) {
-            (Some(coarse), _) => Some(Convex::Hull(&coarse.whole)),
-            (None, Solid::Box { size }) => Some(Convex::cuboid(*size, &self.0.placement)),
-            (None, _) => None,
+    pub fn convex(&self) -> Option<Convex<'static>> {
+        let Inner { solid, placement, number, .. } = &*self.0;
+        match solid {
+            Solid::Box { size } => Some(Convex::cuboid(*size, placement)),
+            _ if !self.is_convex() => None,
+            _ => store::hull(number, || convex(solid, placement)).map(Convex::Coarse),
         }
     }
 
-    /// The convex solids whose union it is, where [`Shape::convex`] is larger than the shape.
-    pub fn pieces(&self) -> Option<&[Hull]> {
-        let (Solid::Segment(tube), Some(coarse)) = (&self.0.solid, &self.0.hull) else { return None };
-        let corners = Convex::Hull(&coarse.whole);
-        Some(coarse.pieces.once(|| segment::pieces(corners.corners(), tube.onto.is_some())))
-    }
-
-    /// The coarse mesh as triangles in the world; computed when first needed.
-    pub fn world_mesh(&self) -> &TriMesh {
-        self.0.world.once(|| {
-            let mesh = match (&self.0.solid, self.convex()) {
-                (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| self.0.placement.apply(p))),
-                (solid, _) if solid.is_flat() => {
-                    flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| self.0.placement.apply(p)))
-                }
-                (_, Some(convex)) => {
-                    TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
-                }
-                (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
-            };
-            Box::new(mesh.expect("the same numbers gave a mesh when the shape was made"))
-        })
+    /// The coarse mesh as triangles in the world.
+    pub fn world_mesh(&self) -> WorldMesh {
+        let Inner { solid, placement, number, .. } = &*self.0;
+        let compute = || match (solid, self.convex()) {
+            (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| placement.apply(p))),
+            (solid, _) if solid.is_flat() => {
+                flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
+            }
+            (_, Some(convex)) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
+            (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
+        };
+        store::mesh(number, || compute().expect("the same numbers gave a mesh when the shape was made"))
     }
 
     /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);
-        match (&self.0.hull, &self.0.solid) {
-            (Some(coarse), _) => boxed.min(coarse.whole.width()),
-            (None, Solid::Box { size }) => boxed.min(size.x.min(size.y).min(size.z)),
-            (None, _) => boxed,
+        match &self.0.solid {
+            Solid::Box { size } => boxed.min(size.x.min(size.y).min(size.z)),
+            _ => boxed.min(self.0.width),
         }
     }
 }
