@@ -17,7 +17,7 @@ pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Coarse> {
     match solid {
         Solid::Segment(tube) => {
             let whole = Hull::nearly(segment::corners(tube)?, segment::tube())?;
-            Some(Coarse::of_segment(whole, tube.onto.is_some()))
+            Some(Coarse::of_segment(whole, tube.is_welded()))
         }
         other => hull_of(other, placement).map(Coarse::new),
     }

@@ -3,7 +3,7 @@
 use crate::segment;
 use crate::shape::Placement;
 use crate::topology::Topology;
-use crate::vector::{Vec3, vec3};
+use crate::vector::{Mat3, Vec3, vec3};
 use std::cell::OnceCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -135,7 +135,8 @@ impl Coarse {
         let Hull { points, topology, .. } = &self.whole;
         let whole = (points.len() + topology.edges.len()) * size_of::<Vec3>() + size_of::<Coarse>();
         // The pieces of a segment have more corners than it.
-        whole * if self.welded.is_some() { 3 } else { 1 } + if Arc::strong_count(topology) == 1 { topology.bytes() } else { 0 }
+        whole * if self.welded.is_some() { 3 } else { 1 }
+            + if Arc::strong_count(topology) == 1 { topology.bytes() } else { 0 }
     }
 }
 
@@ -143,7 +144,7 @@ impl Convex<'_> {
     /// A box around the origin with full side lengths `size`, placed.
     #[inline]
     pub(crate) fn cuboid(size: Vec3, placement: &Placement) -> Convex<'static> {
-        let normals = if is_aligned(placement) { Vec3::AXES } else { placement.rotation.columns };
+        let normals = if is_aligned(&placement.rotation) { Vec3::AXES } else { placement.rotation.columns };
         Convex::Cuboid(cuboid(size, 1.0, placement), normals)
     }
 
@@ -219,10 +220,10 @@ fn narrowest(corners: &[Vec3], normals: &[Vec3]) -> f64 {
     normals.iter().map(|n| span(corners, *n)).map(|(low, high)| high - low).fold(f64::INFINITY, f64::min)
 }
 
-/// True when a placement leaves the sides of a box exactly along the coordinate directions.
+/// True when a rotation leaves the sides of a box exactly along the coordinate directions.
 #[inline]
-pub(crate) fn is_aligned(placement: &Placement) -> bool {
-    placement.rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())))
+pub(crate) fn is_aligned(rotation: &Mat3) -> bool {
+    rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())))
 }
 
 /// Corners of a box whose +z face is scaled by `taper`; bits 0, 1 and 2 of the index choose the high x, y and z.

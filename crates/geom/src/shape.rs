@@ -90,7 +90,7 @@ pub enum Solid {
         sides: usize,
     },
     /// A bent, tapered tube over three rings whose base may lie on a parent's bark: see [`crate::segment`].
-    Segment(Box<Tube>),
+    Segment(Tube),
     /// Any closed mesh.
     Mesh(Arc<TriMesh>),
     /// Flat: the convex hull of two circles on one plane parallel to z = 0, a straight stroke with round ends.
@@ -136,23 +136,42 @@ impl Placement {
 #[derive(Debug)]
 struct Inner {
     solid: Solid,
-    placement: Placement,
-    /// NaN for none.
-    bevel: f64,
-    /// NaN for none.
-    color: [f32; 3],
-    /// Metalness and roughness; NaN for none.
-    finish: [f32; 2],
+    translation: Vec3,
+    /// None where it is not turned, to the bit.
+    rotation: Option<Box<Mat3>>,
+    /// None where nothing of it is given.
+    paint: Option<Box<Paint>>,
     aabb: Aabb,
-    /// A box with its sides along the coordinate directions.
-    aligned: bool,
     /// Of the hull of a solid that is neither a box nor a mesh; infinite for these.
     width: f64,
     /// Of its geometry in a store; none for a box.
     number: Number,
 }
 
-const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
+// With the counters in front of it, 160 bytes: a size that allocators have.
+const _: () = assert!(std::mem::size_of::<Inner>() <= 144);
+
+/// What pictures show beside the form.
+#[derive(Clone, Copy, Debug)]
+struct Paint {
+    bevel: Option<f64>,
+    /// NaN for none.
+    color: [f32; 3],
+    /// Metalness and roughness; NaN for none.
+    finish: [f32; 2],
+}
+
+impl Paint {
+    const NONE: Paint = Paint { bevel: None, color: [f32::NAN; 3], finish: [f32::NAN; 2] };
+}
+
+impl PartialEq for Paint {
+    fn eq(&self, other: &Paint) -> bool {
+        let same_color = self.color == other.color || (self.color[0].is_nan() && other.color[0].is_nan());
+        let bits = |p: &Paint| (p.bevel.map(f64::to_bits), p.finish.map(f32::to_bits));
+        same_color && bits(self) == bits(other)
+    }
+}
 
 /// A placed solid with its look. Cloning shares it.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -186,7 +205,7 @@ impl From<Shape> for Plain {
     fn from(shape: Shape) -> Plain {
         Plain {
             solid: shape.solid().clone(),
-            placement: *shape.placement(),
+            placement: shape.placement(),
             bevel: shape.bevel(),
             color: shape.color(),
             metalness: shape.metalness(),
@@ -200,11 +219,25 @@ impl PartialEq for Shape {
         let (a, b) = (&*self.0, &*other.0);
         Arc::ptr_eq(&self.0, &other.0)
             || (a.aabb == b.aabb
-                && a.placement == b.placement
-                && a.bevel.to_bits() == b.bevel.to_bits()
-                && self.color() == other.color()
-                && a.finish.map(f32::to_bits) == b.finish.map(f32::to_bits)
+                && (a.translation, a.rotation()) == (b.translation, b.rotation())
+                && a.paint() == b.paint()
                 && a.solid == b.solid)
+    }
+}
+
+impl Inner {
+    #[inline]
+    fn rotation(&self) -> &Mat3 {
+        self.rotation.as_deref().unwrap_or(&Mat3::IDENTITY)
+    }
+
+    #[inline]
+    fn placement(&self) -> Placement {
+        Placement { rotation: *self.rotation(), translation: self.translation }
+    }
+
+    fn paint(&self) -> &Paint {
+        self.paint.as_deref().unwrap_or(&Paint::NONE)
     }
 }
 
@@ -270,11 +303,15 @@ impl Shape {
         if reach.is_nan() || reach > 1e12 {
             return bad("the shape is farther than 1e12 from the origin".to_string());
         }
-        let aligned = matches!(solid, Solid::Box { .. }) && is_aligned(&placement);
-        let bevel = bevel.unwrap_or(f64::NAN);
-        let color = color.unwrap_or([f32::NAN; 3]);
-        let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
-        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, finish, aabb, aligned, width, number })))
+        let is_painted = bevel.is_some() || color.is_some() || metalness.is_some() || roughness.is_some();
+        let paint = is_painted.then(|| {
+            let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
+            Box::new(Paint { bevel, color: color.unwrap_or([f32::NAN; 3]), finish })
+        });
+        let Placement { rotation, translation } = placement;
+        let bits = |turn: &Mat3| turn.columns.map(|column| column.to_array().map(f64::to_bits));
+        let rotation = (bits(&rotation) != bits(&Mat3::IDENTITY)).then(|| Box::new(rotation));
+        Ok(Shape(Arc::new(Inner { solid, translation, rotation, paint, aabb, width, number })))
     }
 
     /// The solid, in its own coordinates.
@@ -283,28 +320,41 @@ impl Shape {
     }
 
     /// Where it is.
-    pub fn placement(&self) -> &Placement {
-        &self.0.placement
+    #[inline]
+    pub fn placement(&self) -> Placement {
+        self.0.placement()
+    }
+
+    /// How it is turned, before it is moved.
+    #[inline]
+    pub fn rotation(&self) -> &Mat3 {
+        self.0.rotation()
+    }
+
+    /// How far it is moved, scene units.
+    #[inline]
+    pub fn translation(&self) -> Vec3 {
+        self.0.translation
     }
 
     /// Rounding of edges in pictures and exports, as a share of the half lengths.
     pub fn bevel(&self) -> Option<f64> {
-        Some(self.0.bevel).filter(|bevel| !bevel.is_nan())
+        self.0.paint().bevel
     }
 
     /// Linear colour in `[0, 1]`.
     pub fn color(&self) -> Option<[f32; 3]> {
-        Some(self.0.color).filter(|color| !color[0].is_nan())
+        Some(self.0.paint().color).filter(|color| !color[0].is_nan())
     }
 
     /// From 0 (paint, wood, stone) to 1 (metal).
     pub fn metalness(&self) -> Option<f32> {
-        Some(self.0.finish[0]).filter(|share| !share.is_nan())
+        Some(self.0.paint().finish[0]).filter(|share| !share.is_nan())
     }
 
     /// From 0 (a mirror) to 1 (chalk).
     pub fn roughness(&self) -> Option<f32> {
-        Some(self.0.finish[1]).filter(|share| !share.is_nan())
+        Some(self.0.paint().finish[1]).filter(|share| !share.is_nan())
     }
 
     /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment`, `mesh`, `stroke` or `ellipse`.
@@ -328,12 +378,14 @@ impl Shape {
     pub fn bytes(&self) -> usize {
         let beside = match &self.0.solid {
             Solid::Limb { .. } => size_of::<[Ring; 2]>(),
-            Solid::Segment(_) => size_of::<Tube>(),
+            Solid::Segment(tube) => tube.bytes(),
             Solid::Mesh(mesh) => mesh.bytes(),
             Solid::Stroke { .. } => size_of::<[Round; 2]>(),
             _ => 0,
         };
-        16 + size_of::<Inner>() + beside
+        let turned = self.0.rotation.as_ref().map_or(0, |_| size_of::<Mat3>());
+        let painted = self.0.paint.as_ref().map_or(0, |_| size_of::<Paint>());
+        16 + size_of::<Inner>() + turned + painted + beside
     }
 
     /// The smallest box around the coarse mesh, world space; of a flat shape, around the outline.
@@ -345,7 +397,8 @@ impl Shape {
     /// True for a box whose sides are exactly the coordinate directions: it is its [`Shape::aabb`].
     #[inline]
     pub fn is_aligned_box(&self) -> bool {
-        self.0.aligned
+        let turned = || self.0.rotation.as_deref().is_some_and(|rotation| !is_aligned(rotation));
+        matches!(self.0.solid, Solid::Box { .. }) && !turned()
     }
 
     /// True for all but a mesh and flat shapes, which are treated as the meshes of their plates.
@@ -357,23 +410,25 @@ impl Shape {
     /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Convex::pieces`].
     #[inline]
     pub fn convex(&self) -> Option<Convex<'static>> {
-        let Inner { solid, placement, number, .. } = &*self.0;
+        let Inner { solid, number, .. } = &*self.0;
         match solid {
-            Solid::Box { size } => Some(Convex::cuboid(*size, placement)),
+            Solid::Box { size } => Some(Convex::cuboid(*size, &self.placement())),
             _ if !self.is_convex() => None,
-            _ => store::hull(number, || convex(solid, placement)).map(Convex::Coarse),
+            _ => store::hull(number, || convex(solid, &self.placement())).map(Convex::Coarse),
         }
     }
 
     /// The coarse mesh as triangles in the world.
     pub fn world_mesh(&self) -> WorldMesh {
-        let Inner { solid, placement, number, .. } = &*self.0;
+        let (Inner { solid, number, .. }, placement) = (&*self.0, self.placement());
         let compute = || match (solid, self.convex()) {
             (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| placement.apply(p))),
             (solid, _) if solid.is_flat() => {
                 flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
             }
-            (_, Some(convex)) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
+            (_, Some(convex)) => {
+                TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
+            }
             (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
         };
         store::mesh(number, || compute().expect("the same numbers gave a mesh when the shape was made"))
@@ -446,7 +501,7 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
             polygon(*sides)
         }
         Solid::Segment(tube) => {
-            for frame in &tube.frames {
+            for frame in &tube.frames() {
                 positive("radius", frame.radius)?;
                 let square = (frame.forward.norm() - 1.0).abs().max((frame.up.norm() - 1.0).abs())
                     + frame.forward.dot(frame.up).abs();
@@ -456,7 +511,7 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
                     ));
                 }
             }
-            tube.onto.as_ref().map_or(Ok(()), |bark| {
+            tube.onto().map_or(Ok(()), |bark| {
                 positive("parent's radius", bark.low_radius)?;
                 positive("parent's radius", bark.high_radius)
             })

@@ -18,11 +18,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Places of a store, a power of two.
 const PLACES: usize = 1 << 13;
-/// Bytes that the stores of all threads hold together, and the least and most for one thread. They count what would be held if
-/// all that a shape may need were computed.
+/// Bytes that the stores of all threads hold together, where there are not too many threads.
 const ALL: usize = 128 << 20;
+/// Bytes that any thread's store may hold.
 const LEAST: usize = 4 << 20;
-const MOST: usize = 32 << 20;
+/// Bytes that the store of a thread holds at most. What a shape may need counts, computed or not.
+pub const MOST: usize = 32 << 20;
 /// Numbers that a thread takes at once.
 const BLOCK: u64 = 1 << 10;
 
@@ -177,7 +178,12 @@ impl Deref for WorldMesh {
     }
 }
 
-/// Drops all that the store of this thread holds; of use to tests, which compare with what is computed again.
+/// Bytes that the store of this thread holds.
+pub fn held() -> usize {
+    STORE.with_borrow(|store| store.bytes)
+}
+
+/// Drops all that the store of this thread holds.
 pub fn empty() {
     STORE.with_borrow_mut(|store| {
         store.entries.clear();

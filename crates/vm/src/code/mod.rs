@@ -372,6 +372,9 @@ pub struct Site {
     pub to: Operand,
     /// Whether the result is read.
     pub is_read: bool,
+    /// Nothing in the activation is read after it: where activations are dropped, a call that comes last first drops what the
+    /// registers hold, so that a recursion holds the values of its innermost activation alone.
+    pub is_last: bool,
     /// Arguments.
     pub args: Args,
     /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:

@@ -398,9 +398,17 @@ impl<S: Scalar> State<S> {
     #[inline]
     pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
         let node = &mut self.nodes[id.0 as usize];
-        let (function, at) = (node.function, node.registers as usize);
+        let function = node.function;
         node.parent = self.free[function.0 as usize];
         self.free[function.0 as usize] = id;
+        self.drop_values(program, id);
+    }
+
+    /// The registers of a node drop what is shared: nothing reads them any more.
+    #[inline]
+    pub(crate) fn drop_values(&mut self, program: &Program<S>, id: NodeId) {
+        let node = &self.nodes[id.0 as usize];
+        let (function, at) = (node.function, node.registers as usize);
         let count = program.function(function).node_registers as usize;
         let registers = &mut self.registers[at..at + count];
         // Most activations hold numbers only: a first pass detects that without writing.

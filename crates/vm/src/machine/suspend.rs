@@ -262,6 +262,9 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             }
         }
+        if site.is_last {
+            state.drop_values(self.program, node);
+        }
         Ok(created)
     }
 
@@ -287,6 +290,9 @@ impl<S: Scalar> Machine<'_, S> {
         }
         if state.nodes.len() > nodes {
             self.afford(state, &Dropped)?;
+        }
+        if site.is_last && deferred.is_none() {
+            state.drop_values(self.program, node);
         }
         let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
         if state.origins.is_some() {

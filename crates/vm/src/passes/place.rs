@@ -170,6 +170,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             }
             let unread = !after[at].has(s.to);
             f.sites[site.0 as usize].is_read = !unread;
+            f.sites[site.0 as usize].is_last = after[at].is_empty();
             match &mut f.sites[site.0 as usize].kind {
                 SiteKind::Future { detached, .. } | SiteKind::FutureApply { detached } => *detached = unread,
                 _ => {}
