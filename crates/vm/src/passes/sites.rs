@@ -225,7 +225,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             kind,
             to,
             is_read: true,
-            is_last: false,
+            is_tail: false,
             args,
             key,
             label,
