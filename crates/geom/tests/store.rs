@@ -81,9 +81,13 @@ fn a_store_has_a_limit_and_forgets_what_is_dropped() {
     store::empty();
     let mut dice = Dice::new(13);
     // More shapes than a store has places, and more bytes than it may hold.
-    let many: Vec<Shape> = (0..20_000).map(|_| segment(&mut dice, 50.0)).collect();
+    let mut corners = Vec::new();
+    let many = (0..20_000).map(|_| segment(&mut dice, 50.0));
+    let many: Vec<Shape> = many.inspect(|s| corners.push(s.convex().unwrap().corners()[0])).collect();
     let held = store::held();
     assert!(held > 1 << 20 && held <= store::MOST, "{held}");
+    // The oldest ones have left their places to others.
+    assert!(many.iter().zip(&corners).all(|(s, first)| s.convex().unwrap().corners()[0] == *first));
     let ring = Arc::new(torus(1.0, 0.2, 100, 50));
     let rings = (0..200).map(|_| Shape::mesh(&ring, dice.point(9.0), 1.0, &Look::default()).unwrap());
     let rings: Vec<Shape> =
