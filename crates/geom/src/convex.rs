@@ -84,7 +84,7 @@ impl Hull {
         let width = narrowest(&vertices[..topology.corners], &normals);
         let points = [&vertices[..], &normals].concat().into();
         let edges = OnceCell::new();
-        (width > 0.0).then(|| Hull { points, vertices: vertices.len(), topology, edges, width })
+        (width > 0.0).then_some(Hull { points, vertices: vertices.len(), topology, edges, width })
     }
 
     /// Smallest extent along a face normal: how thick the solid is.
