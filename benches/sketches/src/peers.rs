@@ -19,7 +19,7 @@ impl Peer {
         let hull = shape.convex().and_then(|solid| {
             ConvexPolyhedron::from_convex_hull(&solid.corners().iter().map(point).collect::<Vec<_>>())
         });
-        hull.map_or_else(|| Peer::mesh(shape.world_mesh()), |hull| Peer(SharedShape::new(hull)))
+        hull.map_or_else(|| Peer::mesh(&shape.world_mesh()), |hull| Peer(SharedShape::new(hull)))
     }
 
     /// A surface of triangles with a tree of boxes.

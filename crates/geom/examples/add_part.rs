@@ -79,5 +79,5 @@ fn main() {
 }
 
 fn again(shape: &Shape) -> Shape {
-    Shape::new(shape.solid().clone(), *shape.placement(), &Look::default()).expect("it was made before")
+    Shape::new(shape.solid().clone(), shape.placement(), &Look::default()).expect("it was made before")
 }

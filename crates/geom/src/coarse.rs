@@ -3,7 +3,7 @@
 //! Polygons are inscribed and have a vertex on each axis that they can, because parts are attached flush exactly
 //! there. A frustum that ends in a point, and a limb whose rings cut each other's plane, take the general hull.
 
-use crate::convex::{Hull, cuboid};
+use crate::convex::{Coarse, Hull, cuboid};
 use crate::hull::hull;
 use crate::limb::band;
 use crate::segment;
@@ -13,7 +13,17 @@ use crate::vector::{Vec3, vec3};
 use std::sync::Arc;
 
 /// The convex solid in the world; `None` for a box, a mesh, a flat solid, and for a solid without inside.
-pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Hull> {
+pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Coarse> {
+    match solid {
+        Solid::Segment(tube) => {
+            let whole = Hull::nearly(segment::corners(tube)?, segment::tube())?;
+            Some(Coarse::of_segment(whole, tube.is_welded()))
+        }
+        other => hull_of(other, placement).map(Coarse::new),
+    }
+}
+
+fn hull_of(solid: &Solid, placement: &Placement) -> Option<Hull> {
     match solid {
         Solid::TaperedBox { size, taper } => {
             let vertices = cuboid(*size, *taper, placement).to_vec();
@@ -31,8 +41,11 @@ pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Hull> {
                 None => hulled(vertices),
             }
         }
-        Solid::Segment(tube) => Hull::nearly(segment::corners(tube)?, segment::tube()),
-        Solid::Box { .. } | Solid::Mesh(_) | Solid::Stroke { .. } | Solid::Ellipse { .. } => None,
+        Solid::Segment(_)
+        | Solid::Box { .. }
+        | Solid::Mesh(_)
+        | Solid::Stroke { .. }
+        | Solid::Ellipse { .. } => None,
     }
 }
 

@@ -1,10 +1,12 @@
 //! Convex solids as intersection and voxels use them.
 
-use crate::once::Once;
+use crate::segment;
 use crate::shape::Placement;
 use crate::topology::Topology;
-use crate::vector::{Vec3, vec3};
-use std::sync::{Arc, OnceLock};
+use crate::vector::{Mat3, Vec3, vec3};
+use std::cell::OnceCell;
+use std::rc::Rc;
+use std::sync::Arc;
 
 /// A convex solid in the world, as scores use it.
 ///
@@ -15,18 +17,30 @@ use std::sync::{Arc, OnceLock};
 pub enum Convex<'a> {
     /// Corners, and unit normals of the faces, along which the edges run too.
     Cuboid([Vec3; 8], [Vec3; 3]),
-    /// Any other convex solid.
+    /// Another convex solid, and what is known about it.
+    Coarse(Rc<Coarse>),
+    /// A piece of one.
     Hull(&'a Hull),
 }
 
-/// A convex solid that is no box, computed once with the shape.
+/// The hull of a coarse mesh, and its pieces where it is larger than the solid.
+#[derive(Debug)]
+pub struct Coarse {
+    whole: Hull,
+    /// Of a segment, whether its base is on a parent's bark.
+    welded: Option<bool>,
+    /// Of a segment, computed when first needed.
+    pieces: OnceCell<Box<[Hull]>>,
+}
+
+/// A convex solid that is no box.
 #[derive(Debug)]
 pub struct Hull {
     /// Vertices, then face normals: one allocation.
     points: Box<[Vec3]>,
     vertices: usize,
     topology: Arc<Topology>,
-    edges: OnceLock<Box<[Vec3]>>,
+    edges: OnceCell<Box<[Vec3]>>,
     width: f64,
 }
 
@@ -69,8 +83,8 @@ impl Hull {
     fn of_parts(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         let width = narrowest(&vertices[..topology.corners], &normals);
         let points = [&vertices[..], &normals].concat().into();
-        let edges = OnceLock::new();
-        (width > 0.0).then(|| Hull { points, vertices: vertices.len(), topology, edges, width })
+        let edges = OnceCell::new();
+        (width > 0.0).then_some(Hull { points, vertices: vertices.len(), topology, edges, width })
     }
 
     /// Smallest extent along a face normal: how thick the solid is.
@@ -78,8 +92,12 @@ impl Hull {
         self.width
     }
 
+    fn corners(&self) -> &[Vec3] {
+        &self.points[..self.topology.corners]
+    }
+
     fn edges(&self) -> &[Vec3] {
-        self.edges.once(|| {
+        self.edges.get_or_init(|| {
             let mut edges = Vec::new();
             for [a, b] in &self.topology.edges {
                 if let Some(direction) = (self.points[*b as usize] - self.points[*a as usize]).unit() {
@@ -91,11 +109,42 @@ impl Hull {
     }
 }
 
-impl<'a> Convex<'a> {
+impl Coarse {
+    /// Of a convex solid.
+    pub(crate) fn new(whole: Hull) -> Coarse {
+        Coarse { whole, welded: None, pieces: OnceCell::new() }
+    }
+
+    /// Of a segment; `welded` where its base is on a parent's bark.
+    pub(crate) fn of_segment(whole: Hull, welded: bool) -> Coarse {
+        Coarse { welded: Some(welded), ..Coarse::new(whole) }
+    }
+
+    /// Smallest extent along a face normal: how thick the solid is.
+    pub fn width(&self) -> f64 {
+        self.whole.width
+    }
+
+    /// Corners of the hull, world space.
+    pub fn corners(&self) -> &[Vec3] {
+        self.whole.corners()
+    }
+
+    /// Bytes that it takes, or a little more, with all that it may compute.
+    pub(crate) fn bytes(&self) -> usize {
+        let Hull { points, topology, .. } = &self.whole;
+        let whole = (points.len() + topology.edges.len()) * size_of::<Vec3>() + size_of::<Coarse>();
+        // The pieces of a segment have more corners than it.
+        whole * if self.welded.is_some() { 3 } else { 1 }
+            + if Arc::strong_count(topology) == 1 { topology.bytes() } else { 0 }
+    }
+}
+
+impl Convex<'_> {
     /// A box around the origin with full side lengths `size`, placed.
     #[inline]
     pub(crate) fn cuboid(size: Vec3, placement: &Placement) -> Convex<'static> {
-        let normals = if is_aligned(placement) { Vec3::AXES } else { placement.rotation.columns };
+        let normals = if is_aligned(&placement.rotation) { Vec3::AXES } else { placement.rotation.columns };
         Convex::Cuboid(cuboid(size, 1.0, placement), normals)
     }
 
@@ -103,6 +152,7 @@ impl<'a> Convex<'a> {
     pub fn width(&self) -> f64 {
         match self {
             Convex::Cuboid(corners, normals) => narrowest(corners, normals),
+            Convex::Coarse(coarse) => coarse.width(),
             Convex::Hull(hull) => hull.width,
         }
     }
@@ -112,7 +162,8 @@ impl<'a> Convex<'a> {
     pub fn corners(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(corners, _) => corners,
-            Convex::Hull(hull) => &hull.points[..hull.topology.corners],
+            Convex::Coarse(coarse) => coarse.corners(),
+            Convex::Hull(hull) => hull.corners(),
         }
     }
 
@@ -121,15 +172,17 @@ impl<'a> Convex<'a> {
     pub fn vertices(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(corners, _) => corners,
+            Convex::Coarse(coarse) => &coarse.whole.points[..coarse.whole.vertices],
             Convex::Hull(hull) => &hull.points[..hull.vertices],
         }
     }
 
     /// Faces, edges and triangles.
     #[inline]
-    pub fn topology(&self) -> &'a Topology {
+    pub fn topology(&self) -> &Topology {
         match self {
             Convex::Cuboid(..) => Topology::cuboid(),
+            Convex::Coarse(coarse) => &coarse.whole.topology,
             Convex::Hull(hull) => &hull.topology,
         }
     }
@@ -139,6 +192,7 @@ impl<'a> Convex<'a> {
     pub fn normals(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(_, normals) => normals,
+            Convex::Coarse(coarse) => &coarse.whole.points[coarse.whole.vertices..],
             Convex::Hull(hull) => &hull.points[hull.vertices..],
         }
     }
@@ -148,8 +202,16 @@ impl<'a> Convex<'a> {
     pub fn edges(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(_, normals) => normals,
+            Convex::Coarse(coarse) => coarse.whole.edges(),
             Convex::Hull(hull) => hull.edges(),
         }
+    }
+
+    /// The convex solids whose union the shape is, where this solid is larger than the shape.
+    pub fn pieces(&self) -> Option<&[Hull]> {
+        let Convex::Coarse(coarse) = self else { return None };
+        let welded = coarse.welded?;
+        Some(coarse.pieces.get_or_init(|| segment::pieces(coarse.corners(), welded)))
     }
 }
 
@@ -158,10 +220,10 @@ fn narrowest(corners: &[Vec3], normals: &[Vec3]) -> f64 {
     normals.iter().map(|n| span(corners, *n)).map(|(low, high)| high - low).fold(f64::INFINITY, f64::min)
 }
 
-/// True when a placement leaves the sides of a box exactly along the coordinate directions.
+/// True when a rotation leaves the sides of a box exactly along the coordinate directions.
 #[inline]
-pub(crate) fn is_aligned(placement: &Placement) -> bool {
-    placement.rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())))
+pub(crate) fn is_aligned(rotation: &Mat3) -> bool {
+    rotation.columns.iter().all(|c| Vec3::AXES.contains(&vec3(c.x.abs(), c.y.abs(), c.z.abs())))
 }
 
 /// Corners of a box whose +z face is scaled by `taper`; bits 0, 1 and 2 of the index choose the high x, y and z.

@@ -11,6 +11,7 @@
 //! - [`sketch`]: running scores of the emitted shapes
 //! - [`window`]: what a sketch shows around a place
 //! - [`fine`], [`render`]: meshes with many sides, and pictures of them
+//! - [`store`]: geometry that shapes have needed lately
 //! - `once`: values that are computed when they are first needed
 
 pub mod bounds;
@@ -29,6 +30,7 @@ pub mod render;
 pub mod segment;
 pub mod shape;
 pub mod sketch;
+pub mod store;
 pub mod topology;
 pub mod tree;
 pub mod view;
@@ -37,7 +39,7 @@ pub mod window;
 pub mod words;
 
 pub use bounds::Aabb;
-pub use convex::{Convex, Hull};
+pub use convex::{Coarse, Convex, Hull};
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
 pub use mesh::TriMesh;

@@ -64,6 +64,11 @@ impl TriMesh {
         &self.triangles
     }
 
+    /// Bytes of its vertices and triangles.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.vertices()) + size_of_val(self.triangles())
+    }
+
     /// Corners of each triangle.
     pub fn corners(&self) -> impl Iterator<Item = [Vec3; 3]> + '_ {
         self.triangles.iter().map(|t| t.map(|v| self.vertices[v as usize]))

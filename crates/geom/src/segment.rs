@@ -17,7 +17,7 @@
 use crate::convex::Hull;
 use crate::once::Once;
 use crate::topology::Topology;
-use crate::vector::Vec3;
+use crate::vector::{Vec3, vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
@@ -50,13 +50,115 @@ pub struct Bark {
     pub high_radius: f64,
 }
 
-/// The three rings, and the bark under the base.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub struct Tube {
+/// The three rings, and the bark under the base, in few bytes: a population holds millions.
+///
+/// ```text
+/// start             middle, forward, up, radius       10 numbers
+/// split             middle, radius                     4
+///                   forward, up                        6, unless they are those of the end: the piece above is straight
+/// end               middle, forward, up, radius       10
+/// bark              low and its radius, high and its   8, where there is one
+/// ```
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(from = "Parts", into = "Parts")]
+pub struct Tube(Box<[f64]>);
+
+/// A tube, part by part.
+#[derive(Deserialize, PartialEq, Serialize)]
+struct Parts {
+    frames: [Frame; 3],
+    onto: Option<Bark>,
+}
+
+impl From<Parts> for Tube {
+    fn from(Parts { frames, onto }: Parts) -> Tube {
+        Tube::new(frames, onto)
+    }
+}
+
+impl From<Tube> for Parts {
+    fn from(tube: Tube) -> Parts {
+        Parts { frames: tube.frames(), onto: tube.onto() }
+    }
+}
+
+impl PartialEq for Tube {
+    fn eq(&self, other: &Tube) -> bool {
+        (self.frames(), self.onto()) == (other.frames(), other.onto())
+    }
+}
+
+/// Numbers of a frame, of two directions, and of a bark.
+const FRAME: usize = 10;
+const DIRECTIONS: usize = 6;
+const BARK: usize = 8;
+
+fn point(n: &[f64]) -> Vec3 {
+    vec3(n[0], n[1], n[2])
+}
+
+impl Tube {
+    /// Over the frames `[start, split, end]`, its base on `onto` where that is given.
+    pub fn new(frames: [Frame; 3], onto: Option<Bark>) -> Tube {
+        let [start, split, end] = frames;
+        let directions = |f: &Frame| [f.forward.to_array(), f.up.to_array()].concat();
+        let bits = |f: &Frame| directions(f).into_iter().map(f64::to_bits).collect::<Vec<u64>>();
+        let straight = bits(&split) == bits(&end);
+        let mut all = Vec::with_capacity(4 * FRAME);
+        let mut push = |numbers: &[f64]| all.extend_from_slice(numbers);
+        for (frame, whole) in [(&start, true), (&split, !straight), (&end, true)] {
+            push(&frame.center.to_array());
+            if whole {
+                push(&directions(frame));
+            }
+            push(&[frame.radius]);
+        }
+        if let Some(Bark { low, low_radius, high, high_radius }) = onto {
+            push(&low.to_array());
+            push(&[low_radius]);
+            push(&high.to_array());
+            push(&[high_radius]);
+        }
+        Tube(all.into())
+    }
+
     /// Start, split and end.
-    pub frames: [Frame; 3],
+    pub fn frames(&self) -> [Frame; 3] {
+        let whole = |n: &[f64]| Frame {
+            center: point(n),
+            forward: point(&n[3..]),
+            up: point(&n[6..]),
+            radius: n[FRAME - 1],
+        };
+        let (start, rest) = self.0.split_at(FRAME);
+        let straight = [FRAME + 4, FRAME + 4 + BARK].contains(&rest.len());
+        let (split, rest) = rest.split_at(if straight { FRAME - DIRECTIONS } else { FRAME });
+        let end = whole(rest);
+        let split = match straight {
+            true => Frame { center: point(split), radius: split[3], ..end },
+            false => whole(split),
+        };
+        [whole(start), split, end]
+    }
+
     /// The bark under the base.
-    pub onto: Option<Bark>,
+    pub fn onto(&self) -> Option<Bark> {
+        let at = self.0.len() - BARK;
+        let n = &self.0[at..];
+        let bark = || Bark { low: point(n), low_radius: n[3], high: point(&n[4..]), high_radius: n[7] };
+        self.is_welded().then(bark)
+    }
+
+    /// Whether its base is on a parent's bark.
+    pub fn is_welded(&self) -> bool {
+        let bare = 3 * FRAME;
+        ![bare, bare - DIRECTIONS].contains(&self.0.len())
+    }
+
+    /// Bytes that it takes beside itself.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&self.0[..])
+    }
 }
 
 impl Frame {
@@ -93,7 +195,8 @@ impl Bark {
 }
 
 /// Corners of the three rings, start first; the start lies on the bark when there is one.
-pub(crate) fn corners(Tube { frames, onto }: &Tube) -> Option<Vec<Vec3>> {
+pub(crate) fn corners(tube: &Tube) -> Option<Vec<Vec3>> {
+    let (frames, onto) = (tube.frames(), tube.onto());
     let around = || crate::coarse::ring(SEGMENT_SIDES);
     let mut corners: Vec<Vec3> = frames.iter().flat_map(|f| around().map(|turn| f.at(turn))).collect();
     if let Some(bark) = onto {
@@ -163,7 +266,6 @@ mod tests {
     use super::*;
     use crate::intersect::{Rule, intersects};
     use crate::shape::Shape;
-    use crate::vector::vec3;
     use crate::words::Look;
 
     const UP: Vec3 = vec3(0.0, 1.0, 0.0);
@@ -191,6 +293,28 @@ mod tests {
         };
         let trunk = Shape::segment(trunk, None, &look).unwrap();
         (trunk, Shape::segment([start, split, end], Some(onto), &look).unwrap())
+    }
+
+    #[test]
+    fn a_tube_is_what_it_was_made_of_to_the_bit() {
+        let x = vec3(1.0, -0.0, 0.0);
+        let start = frame(vec3(1.0, 2.0, 3.0), UP, x, 0.5);
+        let (straight, turned) = (frame(UP, UP, x, 0.4), frame(UP, UP, vec3(1.0, 0.0, 0.0), 0.4));
+        let end = frame(UP * 2.0, UP, x, 0.3);
+        let bark = Bark { low: x, low_radius: 0.7, high: UP, high_radius: 0.6 };
+        for split in [straight, turned, frame(UP, x, UP, 0.4)] {
+            for onto in [None, Some(bark)] {
+                let tube = Tube::new([start, split, end], onto);
+                let text = |frames: [Frame; 3]| format!("{frames:?}");
+                assert_eq!(text(tube.frames()), text([start, split, end]));
+                assert_eq!((tube.onto(), tube.is_welded()), (onto, onto.is_some()));
+                let bytes = 8
+                    * (24
+                        + 6 * usize::from(split != straight || split.up.y.to_bits() == 0)
+                        + 8 * usize::from(onto.is_some()));
+                assert!(tube.bytes() == bytes && tube == tube.clone());
+            }
+        }
     }
 
     #[test]
@@ -236,7 +360,7 @@ mod tests {
             let shape = bent(bend);
             let grid = crate::Grid::around(shape.aabb(), 0.1).unwrap();
             let ours = crate::Voxels::of(&shape, &grid).unwrap();
-            let mesh = crate::Voxels::of_mesh(shape.world_mesh(), &grid).unwrap();
+            let mesh = crate::Voxels::of_mesh(&shape.world_mesh(), &grid).unwrap();
             let [nx, ny, nz] = grid.dims();
             let cells = || (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
             assert!(cells().filter(|cell| mesh.contains(*cell)).all(|cell| ours.contains(cell)), "{bend}");

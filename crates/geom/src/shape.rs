@@ -1,21 +1,22 @@
 //! A shape: a solid, its place and its look. It never changes and is shared by counting references.
 //!
-//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use the coarse mesh that is
-//! computed here, once, with the shape: inscribed polygons with few sides, sharp edges. Pictures make a
-//! finer mesh from the same solid.
+//! Solids are centred at the origin and *placed*: first turned, then moved. Scores use a coarse mesh: inscribed polygons with
+//! few sides, sharp edges. Its hull is computed with the shape, but not held by it ([`crate::store`]). Pictures make a finer mesh
+//! from the same solid.
 
 use crate::bounds::Aabb;
 use crate::coarse::{convex, ring};
-use crate::convex::{Convex, Hull, is_aligned};
+use crate::convex::{Convex, is_aligned};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
-use crate::once::Once;
 use crate::plane::flat::{self, Round};
-use crate::segment::{self, Tube};
+use crate::segment::Tube;
+use crate::store::{self, Number, WorldMesh};
 use crate::vector::{Mat3, Vec3, vec3};
 use crate::words::Look;
 use serde::{Deserialize, Serialize};
-use std::sync::{Arc, OnceLock};
+use std::rc::Rc;
+use std::sync::Arc;
 
 /// Default number of sides of a cylinder (dissertation chapter 5's coarse mesh).
 pub const CYLINDER_SIDES: usize = 8;
@@ -89,7 +90,7 @@ pub enum Solid {
         sides: usize,
     },
     /// A bent, tapered tube over three rings whose base may lie on a parent's bark: see [`crate::segment`].
-    Segment(Box<Tube>),
+    Segment(Tube),
     /// Any closed mesh.
     Mesh(Arc<TriMesh>),
     /// Flat: the convex hull of two circles on one plane parallel to z = 0, a straight stroke with round ends.
@@ -135,29 +136,41 @@ impl Placement {
 #[derive(Debug)]
 struct Inner {
     solid: Solid,
-    placement: Placement,
-    /// NaN for none.
-    bevel: f64,
+    translation: Vec3,
+    /// None where it is not turned, to the bit.
+    rotation: Option<Box<Mat3>>,
+    /// None where nothing of it is given.
+    paint: Option<Box<Paint>>,
+    aabb: Aabb,
+    /// Of the hull of a solid that is neither a box nor a mesh; infinite for these.
+    width: f64,
+    /// Of its geometry in a store; none for a box.
+    number: Number,
+}
+
+// With the counters in front of it, 160 bytes: a size that allocators have.
+const _: () = assert!(std::mem::size_of::<Inner>() <= 144);
+
+/// What pictures show beside the form.
+#[derive(Clone, Copy, Debug)]
+struct Paint {
+    bevel: Option<f64>,
     /// NaN for none.
     color: [f32; 3],
     /// Metalness and roughness; NaN for none.
     finish: [f32; 2],
-    aabb: Aabb,
-    /// A box with its sides along the coordinate directions.
-    aligned: bool,
-    /// Of a solid that is neither a box nor a mesh.
-    hull: Option<Box<Coarse>>,
-    world: OnceLock<Box<TriMesh>>,
 }
 
-const _: () = assert!(std::mem::size_of::<Inner>() <= 240);
+impl Paint {
+    const NONE: Paint = Paint { bevel: None, color: [f32::NAN; 3], finish: [f32::NAN; 2] };
+}
 
-/// The kept hulls of the coarse mesh.
-#[derive(Debug)]
-struct Coarse {
-    whole: Hull,
-    /// Of a segment, computed when first needed.
-    pieces: OnceLock<Box<[Hull]>>,
+impl PartialEq for Paint {
+    fn eq(&self, other: &Paint) -> bool {
+        let same_color = self.color == other.color || (self.color[0].is_nan() && other.color[0].is_nan());
+        let bits = |p: &Paint| (p.bevel.map(f64::to_bits), p.finish.map(f32::to_bits));
+        same_color && bits(self) == bits(other)
+    }
 }
 
 /// A placed solid with its look. Cloning shares it.
@@ -192,7 +205,7 @@ impl From<Shape> for Plain {
     fn from(shape: Shape) -> Plain {
         Plain {
             solid: shape.solid().clone(),
-            placement: *shape.placement(),
+            placement: shape.placement(),
             bevel: shape.bevel(),
             color: shape.color(),
             metalness: shape.metalness(),
@@ -206,11 +219,25 @@ impl PartialEq for Shape {
         let (a, b) = (&*self.0, &*other.0);
         Arc::ptr_eq(&self.0, &other.0)
             || (a.aabb == b.aabb
-                && a.placement == b.placement
-                && a.bevel.to_bits() == b.bevel.to_bits()
-                && self.color() == other.color()
-                && a.finish.map(f32::to_bits) == b.finish.map(f32::to_bits)
+                && (a.translation, a.rotation()) == (b.translation, b.rotation())
+                && a.paint() == b.paint()
                 && a.solid == b.solid)
+    }
+}
+
+impl Inner {
+    #[inline]
+    fn rotation(&self) -> &Mat3 {
+        self.rotation.as_deref().unwrap_or(&Mat3::IDENTITY)
+    }
+
+    #[inline]
+    fn placement(&self) -> Placement {
+        Placement { rotation: *self.rotation(), translation: self.translation }
+    }
+
+    fn paint(&self) -> &Paint {
+        self.paint.as_deref().unwrap_or(&Paint::NONE)
     }
 }
 
@@ -245,24 +272,30 @@ impl Shape {
             }
         }
         let flat = || bad(format!("{} has no inside", kind(&solid)));
-        let (hull, aabb) = match &solid {
-            Solid::Mesh(mesh) => (None, Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+        let (mut width, mut number) = (f64::INFINITY, Number::NONE);
+        let aabb = match &solid {
+            Solid::Mesh(mesh) => {
+                number = Number::new();
+                Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))
+            }
             Solid::Box { size } => {
                 let convex = Convex::cuboid(*size, &placement);
                 // A size that is lost in rounding beside the placement leaves the corners equal.
                 if convex.width() <= 0.0 {
                     return flat();
                 }
-                (None, Aabb::around(convex.corners().iter().copied()))
+                Aabb::around(convex.corners().iter().copied())
             }
             solid if solid.is_flat() => {
                 flat::check(solid, &placement)?;
-                (None, flat::aabb(solid, &placement).unwrap_or(Aabb::EMPTY))
+                flat::aabb(solid, &placement).unwrap_or(Aabb::EMPTY)
             }
             solid => {
-                let Some(hull) = convex(solid, &placement) else { return flat() };
-                let aabb = Aabb::around(Convex::Hull(&hull).corners().iter().copied());
-                (Some(Box::new(Coarse { whole: hull, pieces: OnceLock::new() })), aabb)
+                let Some(coarse) = convex(solid, &placement) else { return flat() };
+                (width, number) = (coarse.width(), Number::new());
+                let aabb = Aabb::around(coarse.corners().iter().copied());
+                store::keep_hull(&number, Rc::new(coarse));
+                aabb
             }
         };
         // Beyond this, squares and products of lengths lose all meaning.
@@ -270,11 +303,15 @@ impl Shape {
         if reach.is_nan() || reach > 1e12 {
             return bad("the shape is farther than 1e12 from the origin".to_string());
         }
-        let aligned = matches!(solid, Solid::Box { .. }) && is_aligned(&placement);
-        let (bevel, world) = (bevel.unwrap_or(f64::NAN), OnceLock::new());
-        let color = color.unwrap_or([f32::NAN; 3]);
-        let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
-        Ok(Shape(Arc::new(Inner { solid, placement, bevel, color, finish, aabb, aligned, hull, world })))
+        let is_painted = bevel.is_some() || color.is_some() || metalness.is_some() || roughness.is_some();
+        let paint = is_painted.then(|| {
+            let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
+            Box::new(Paint { bevel, color: color.unwrap_or([f32::NAN; 3]), finish })
+        });
+        let Placement { rotation, translation } = placement;
+        let bits = |turn: &Mat3| turn.columns.map(|column| column.to_array().map(f64::to_bits));
+        let rotation = (bits(&rotation) != bits(&Mat3::IDENTITY)).then(|| Box::new(rotation));
+        Ok(Shape(Arc::new(Inner { solid, translation, rotation, paint, aabb, width, number })))
     }
 
     /// The solid, in its own coordinates.
@@ -283,28 +320,41 @@ impl Shape {
     }
 
     /// Where it is.
-    pub fn placement(&self) -> &Placement {
-        &self.0.placement
+    #[inline]
+    pub fn placement(&self) -> Placement {
+        self.0.placement()
+    }
+
+    /// How it is turned, before it is moved.
+    #[inline]
+    pub fn rotation(&self) -> &Mat3 {
+        self.0.rotation()
+    }
+
+    /// How far it is moved, scene units.
+    #[inline]
+    pub fn translation(&self) -> Vec3 {
+        self.0.translation
     }
 
     /// Rounding of edges in pictures and exports, as a share of the half lengths.
     pub fn bevel(&self) -> Option<f64> {
-        Some(self.0.bevel).filter(|bevel| !bevel.is_nan())
+        self.0.paint().bevel
     }
 
     /// Linear colour in `[0, 1]`.
     pub fn color(&self) -> Option<[f32; 3]> {
-        Some(self.0.color).filter(|color| !color[0].is_nan())
+        Some(self.0.paint().color).filter(|color| !color[0].is_nan())
     }
 
     /// From 0 (paint, wood, stone) to 1 (metal).
     pub fn metalness(&self) -> Option<f32> {
-        Some(self.0.finish[0]).filter(|share| !share.is_nan())
+        Some(self.0.paint().finish[0]).filter(|share| !share.is_nan())
     }
 
     /// From 0 (a mirror) to 1 (chalk).
     pub fn roughness(&self) -> Option<f32> {
-        Some(self.0.finish[1]).filter(|share| !share.is_nan())
+        Some(self.0.paint().finish[1]).filter(|share| !share.is_nan())
     }
 
     /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment`, `mesh`, `stroke` or `ellipse`.
@@ -324,20 +374,18 @@ impl Shape {
         Arc::strong_count(&self.0) > 1
     }
 
-    /// Bytes that it takes, with the hulls and the mesh that it may keep; a mesh that is shared counts once for each shape.
+    /// Bytes that it takes, and of a mesh those of its triangles. Its geometry is in stores of limited size, and does not count.
     pub fn bytes(&self) -> usize {
-        let hull = |sides: usize| size_of::<Coarse>() + 4 * sides * size_of::<Vec3>();
         let beside = match &self.0.solid {
-            Solid::Box { .. } => 0,
-            Solid::TaperedBox { .. } => hull(4),
-            Solid::Cylinder { sides, .. } | Solid::TaperedCylinder { sides, .. } => hull(*sides),
-            Solid::Limb { sides, .. } => size_of::<[Ring; 2]>() + hull(*sides),
-            Solid::Segment(_) => size_of::<Tube>() + hull(8),
-            Solid::Mesh(mesh) => size_of_val(mesh.vertices()) + size_of_val(mesh.triangles()),
+            Solid::Limb { .. } => size_of::<[Ring; 2]>(),
+            Solid::Segment(tube) => tube.bytes(),
+            Solid::Mesh(mesh) => mesh.bytes(),
             Solid::Stroke { .. } => size_of::<[Round; 2]>(),
-            Solid::Ellipse { .. } => 0,
+            _ => 0,
         };
-        16 + size_of::<Inner>() + beside
+        let turned = self.0.rotation.as_ref().map_or(0, |_| size_of::<Mat3>());
+        let painted = self.0.paint.as_ref().map_or(0, |_| size_of::<Paint>());
+        16 + size_of::<Inner>() + turned + painted + beside
     }
 
     /// The smallest box around the coarse mesh, world space; of a flat shape, around the outline.
@@ -349,7 +397,8 @@ impl Shape {
     /// True for a box whose sides are exactly the coordinate directions: it is its [`Shape::aabb`].
     #[inline]
     pub fn is_aligned_box(&self) -> bool {
-        self.0.aligned
+        let turned = || self.0.rotation.as_deref().is_some_and(|rotation| !is_aligned(rotation));
+        matches!(self.0.solid, Solid::Box { .. }) && !turned()
     }
 
     /// True for all but a mesh and flat shapes, which are treated as the meshes of their plates.
@@ -358,48 +407,40 @@ impl Shape {
         !matches!(self.0.solid, Solid::Mesh(_)) && !self.0.solid.is_flat()
     }
 
-    /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Shape::pieces`].
+    /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Convex::pieces`].
     #[inline]
-    pub fn convex(&self) -> Option<Convex<'_>> {
-        match (&self.0.hull, &self.0.solid) {
-            (Some(coarse), _) => Some(Convex::Hull(&coarse.whole)),
-            (None, Solid::Box { size }) => Some(Convex::cuboid(*size, &self.0.placement)),
-            (None, _) => None,
+    pub fn convex(&self) -> Option<Convex<'static>> {
+        let Inner { solid, number, .. } = &*self.0;
+        match solid {
+            Solid::Box { size } => Some(Convex::cuboid(*size, &self.placement())),
+            _ if !self.is_convex() => None,
+            _ => store::hull(number, || convex(solid, &self.placement())).map(Convex::Coarse),
         }
     }
 
-    /// The convex solids whose union it is, where [`Shape::convex`] is larger than the shape.
-    pub fn pieces(&self) -> Option<&[Hull]> {
-        let (Solid::Segment(tube), Some(coarse)) = (&self.0.solid, &self.0.hull) else { return None };
-        let corners = Convex::Hull(&coarse.whole);
-        Some(coarse.pieces.once(|| segment::pieces(corners.corners(), tube.onto.is_some())))
-    }
-
-    /// The coarse mesh as triangles in the world; computed when first needed.
-    pub fn world_mesh(&self) -> &TriMesh {
-        self.0.world.once(|| {
-            let mesh = match (&self.0.solid, self.convex()) {
-                (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| self.0.placement.apply(p))),
-                (solid, _) if solid.is_flat() => {
-                    flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| self.0.placement.apply(p)))
-                }
-                (_, Some(convex)) => {
-                    TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
-                }
-                (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
-            };
-            Box::new(mesh.expect("the same numbers gave a mesh when the shape was made"))
-        })
+    /// The coarse mesh as triangles in the world.
+    pub fn world_mesh(&self) -> WorldMesh {
+        let (Inner { solid, number, .. }, placement) = (&*self.0, self.placement());
+        let compute = || match (solid, self.convex()) {
+            (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| placement.apply(p))),
+            (solid, _) if solid.is_flat() => {
+                flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
+            }
+            (_, Some(convex)) => {
+                TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone())
+            }
+            (_, None) => Err(GeomError::new("bad-shape", "a solid without geometry")),
+        };
+        store::mesh(number, || compute().expect("the same numbers gave a mesh when the shape was made"))
     }
 
     /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);
-        match (&self.0.hull, &self.0.solid) {
-            (Some(coarse), _) => boxed.min(coarse.whole.width()),
-            (None, Solid::Box { size }) => boxed.min(size.x.min(size.y).min(size.z)),
-            (None, _) => boxed,
+        match &self.0.solid {
+            Solid::Box { size } => boxed.min(size.x.min(size.y).min(size.z)),
+            _ => boxed.min(self.0.width),
         }
     }
 }
@@ -460,7 +501,7 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
             polygon(*sides)
         }
         Solid::Segment(tube) => {
-            for frame in &tube.frames {
+            for frame in &tube.frames() {
                 positive("radius", frame.radius)?;
                 let square = (frame.forward.norm() - 1.0).abs().max((frame.up.norm() - 1.0).abs())
                     + frame.forward.dot(frame.up).abs();
@@ -470,7 +511,7 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
                     ));
                 }
             }
-            tube.onto.as_ref().map_or(Ok(()), |bark| {
+            tube.onto().map_or(Ok(()), |bark| {
                 positive("parent's radius", bark.low_radius)?;
                 positive("parent's radius", bark.high_radius)
             })

@@ -38,6 +38,12 @@ impl Topology {
         Topology { corners, faces, edges, triangles }
     }
 
+    /// Bytes that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        let faces = self.faces.iter().map(|face| size_of::<Vec<u32>>() + size_of_val(&face[..]));
+        faces.sum::<usize>() + size_of_val(&self.edges[..]) + size_of_val(&self.triangles[..])
+    }
+
     /// A box with eight corners.
     pub fn cuboid() -> &'static Topology {
         Topology::the_cuboid()

@@ -113,7 +113,7 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn segment(frames: [Frame; 3], onto: Option<Bark>, look: &Look) -> Result<Shape, GeomError> {
-        Shape::placed(Solid::Segment(Box::new(Tube { frames, onto })), Vec3::ZERO, Mat3::IDENTITY, look)
+        Shape::placed(Solid::Segment(Tube::new(frames, onto)), Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// Flat: a straight stroke with round ends, from one width to another; both ends have the same z.

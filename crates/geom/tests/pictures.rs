@@ -71,7 +71,7 @@ fn nearest(mesh: &TriMesh, start: Vec3, along: Vec3) -> Option<f64> {
 fn silhouettes(eye: &Eye, size: [usize; 2], shapes: &[Shape]) -> Vec<u32> {
     let met = |pixel| {
         let (start, along) = eye.ray(size, pixel);
-        shapes.iter().filter(|s| nearest(s.world_mesh(), start, along).is_some()).count() as u32
+        shapes.iter().filter(|s| nearest(&s.world_mesh(), start, along).is_some()).count() as u32
     };
     (0..size[0] * size[1]).map(met).collect()
 }
@@ -81,7 +81,7 @@ fn shadows(eye: &Eye, size: [usize; 2], floor: &TriMesh, light: Vec3, shapes: &[
     let met = |pixel| {
         let (start, along) = eye.ray(size, pixel);
         let point = start + along * nearest(floor, start, along)?;
-        Some(shapes.iter().filter(|s| nearest(s.world_mesh(), point, -light).is_some()).count() as u32)
+        Some(shapes.iter().filter(|s| nearest(&s.world_mesh(), point, -light).is_some()).count() as u32)
     };
     (0..size[0] * size[1]).map(met).collect()
 }
@@ -155,7 +155,8 @@ fn silhouettes_are_those_of_every_ray_against_every_triangle() {
         compare(&picture, &target, &shapes, &rendered, &format!("scene {scene}"));
         lit += rendered.iter().filter(|n| **n > 0).count();
         crossing += usize::from(shapes.iter().any(|s| {
-            let depths = s.world_mesh().vertices().iter().map(|p| camera.projection().depth(*p));
+            let mesh = s.world_mesh();
+            let depths = mesh.vertices().iter().map(|p| camera.projection().depth(*p));
             let (low, high) =
                 depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), d| (a.min(d), b.max(d)));
             low < camera.near() && high > camera.near()
@@ -406,7 +407,7 @@ fn a_cylinder_with_very_many_sides_is_covered_whole() {
         translation: vec3(0.01, 0.02, 0.0),
     };
     let shape = Shape::new(solid, turned, &Look::default()).unwrap();
-    let mesh = picture.rays().meeting_mesh(shape.world_mesh());
+    let mesh = picture.rays().meeting_mesh(&shape.world_mesh());
     let whole = picture.rays().meeting(&shape);
     assert_eq!(whole, mesh);
     let area = std::f64::consts::PI * 9.0 * 100.0;

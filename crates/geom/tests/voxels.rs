@@ -91,7 +91,7 @@ fn every_solid_fills_the_cells_that_a_plain_loop_finds() {
     for scene in 0..400 {
         let grid = some_grid(&mut dice);
         let shape = any_shape(&mut dice, 4.0);
-        let (ours, plain) = (ours(&shape, &grid), plainly(shape.world_mesh(), &grid));
+        let (ours, plain) = (ours(&shape, &grid), plainly(&shape.world_mesh(), &grid));
         let differ: Vec<usize> = (0..ours.len()).filter(|i| ours[*i] != plain[*i]).collect();
         *seen.entry(shape.kind()).or_insert(0) += plain.iter().filter(|f| **f).count();
         if !differ.is_empty() {
@@ -123,7 +123,7 @@ fn flush_and_degenerate_placements_touch_both_neighbours() {
     let turned = Mat3::rotation(vec3(0.0, 1.0, 0.0), std::f64::consts::FRAC_PI_2);
     for shape in [cube(None), cube(Some(turned))] {
         assert_eq!(Voxels::of(&shape, &grid).unwrap().count(), 27);
-        assert_eq!(Voxels::of_mesh(shape.world_mesh(), &grid).unwrap().count(), 27);
+        assert_eq!(Voxels::of_mesh(&shape.world_mesh(), &grid).unwrap().count(), 27);
     }
 }
 

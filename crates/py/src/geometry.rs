@@ -192,12 +192,12 @@ impl PyShape {
 
     /// Vertices of the coarse mesh, world space, (n, 3) float64.
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        vertices_of(py, self.0.world_mesh())
+        vertices_of(py, &self.0.world_mesh())
     }
 
     /// Triangles of the coarse mesh, (m, 3) int64, counter-clockwise from outside.
     fn faces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<i64>> {
-        faces_of(py, self.0.world_mesh())
+        faces_of(py, &self.0.world_mesh())
     }
 
     fn __repr__(&self) -> String {

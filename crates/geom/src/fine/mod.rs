@@ -76,7 +76,7 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
             revolve::rounded(*radius, *top_radius, *length, bevel(RIM_BEVEL))
         }
         Solid::Limb { rings, .. } => limb::domed(&rings[0], &rings[1]),
-        Solid::Segment(tube) => segment::grown(&tube.frames, tube.onto.as_ref()),
+        Solid::Segment(tube) => segment::grown(&tube.frames(), tube.onto().as_ref()),
         Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
         flat @ (Solid::Stroke { .. } | Solid::Ellipse { .. }) => flat::plate(flat, flat::FINE)
             .map_or_else(|_| FineMesh::default(), |mesh| crease::creased(&mesh, crease::SHARP)),

@@ -12,14 +12,15 @@
 //! The two may differ where the overlap is the tolerance to within rounding.
 
 use super::axes::PARALLEL;
-use crate::shape::{Placement, Shape, Solid};
-use crate::vector::Vec3;
+use crate::shape::{Shape, Solid};
+use crate::vector::{Mat3, Vec3};
 
 /// A box in any direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Turned<'a> {
     half: Vec3,
-    placement: &'a Placement,
+    middle: Vec3,
+    rotation: &'a Mat3,
 }
 
 /// Half sides as vectors, and their directions.
@@ -31,7 +32,7 @@ struct Sides {
 impl Sides {
     #[inline]
     fn of(one: &Turned<'_>) -> Sides {
-        let directions = one.placement.rotation.columns;
+        let directions = one.rotation.columns;
         Sides { half: [0, 1, 2].map(|i| directions[i] * one.half[i]), directions }
     }
 
@@ -54,7 +55,10 @@ impl<'a> Turned<'a> {
     #[inline]
     pub fn of(shape: &'a Shape) -> Option<Turned<'a>> {
         match shape.solid() {
-            Solid::Box { size } => Some(Turned { half: *size * 0.5, placement: shape.placement() }),
+            Solid::Box { size } => {
+                let (half, middle, rotation) = (*size * 0.5, shape.translation(), shape.rotation());
+                Some(Turned { half, middle, rotation })
+            }
             _ => None,
         }
     }
@@ -62,7 +66,7 @@ impl<'a> Turned<'a> {
     /// True when both boxes overlap by more than `tolerance`, scene units, in every direction. Symmetric in floating point.
     pub fn overlaps(&self, other: &Turned<'_>, tolerance: f64) -> bool {
         let (a, b) = (Sides::of(self), Sides::of(other));
-        let apart = other.placement.translation - self.placement.translation;
+        let apart = other.middle - self.middle;
         let by_face = |n: &Vec3| a.reach(*n) + b.reach(*n) - apart.dot(*n).abs() <= tolerance;
         if a.directions.iter().any(by_face) || b.directions.iter().any(by_face) {
             return false;

@@ -13,7 +13,7 @@ const DEPTH: f64 = 1e-3;
 
 /// True when `point` is inside the closed surface of `shape`.
 pub fn contains(shape: &Shape, point: Vec3) -> bool {
-    inside_mesh(shape.world_mesh(), point)
+    inside_mesh(&shape.world_mesh(), point)
 }
 
 /// True when a closed mesh contains `point`.

@@ -70,14 +70,14 @@ pub fn intersects(a: &Shape, b: &Shape, rule: Rule) -> bool {
     !axes::middles_apart(&p, &q, between, tolerance)
         && !axes::faces_apart(&p, &q, tolerance)
         && match rule {
-            Rule::Solid => any_piece(a, &p, |p| any_piece(b, &q, |q| axes::overlap(p, q, tolerance))),
+            Rule::Solid => any_piece(&p, |p| any_piece(&q, |q| axes::overlap(p, q, tolerance))),
             Rule::Surface => triangles::cross(a, b, Crossing::Original),
         }
 }
 
-/// True when `f` holds for a convex piece of the shape.
-fn any_piece(shape: &Shape, whole: &Convex<'_>, mut f: impl FnMut(&Convex<'_>) -> bool) -> bool {
-    match shape.pieces() {
+/// True when `f` holds for a convex piece of the solid.
+fn any_piece(whole: &Convex<'_>, mut f: impl FnMut(&Convex<'_>) -> bool) -> bool {
+    match whole.pieces() {
         Some(pieces) => pieces.iter().any(|piece| f(&Convex::Hull(piece))),
         None => f(whole),
     }

@@ -152,7 +152,7 @@ mod tests {
             let shape = shape.unwrap();
             let mesh = shape.world_mesh();
             assert_eq!(mesh.open_edges(), 0);
-            let filled = volume(mesh) / (area * width * THICK);
+            let filled = volume(&mesh) / (area * width * THICK);
             assert!((0.9..1.0).contains(&filled), "{} {filled}", shape.kind());
             assert!(shape.aabb().grown(1e-12).contains(&mesh.aabb()));
             assert!((shape.aabb().center().z - 0.5).abs() < 1e-12);

@@ -53,7 +53,7 @@ impl Cover {
 impl Rays {
     /// The rays that meet `shape`.
     pub fn meeting(&self, shape: &Shape) -> Cover {
-        let Some(convex) = shape.convex() else { return self.meeting_mesh(shape.world_mesh()) };
+        let Some(convex) = shape.convex() else { return self.meeting_mesh(&shape.world_mesh()) };
         let mut words = Vec::new();
         let mut pieces = 0;
         self.outliner().of_convex(&convex, |outline| {

@@ -174,7 +174,7 @@ mod tests {
         let grid = Grid::around(cube(1.0, 0.0).aabb(), 0.1).unwrap();
         for (size, angle) in [(9.0, 0.3), (2.0, 0.8), (1.3, 0.5), (0.6, 1.0)] {
             let mesh = cube(size, angle);
-            let [cut, whole] = [0.0, 1e9].map(|most| solid_up_to(most, mesh.world_mesh(), &grid).unwrap());
+            let [cut, whole] = [0.0, 1e9].map(|most| solid_up_to(most, &mesh.world_mesh(), &grid).unwrap());
             let [nx, ny, nz] = grid.dims().map(|n| n as i64);
             let cells = (0..nx * ny * nz).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
             let filled = cells.filter(|[x, y, z]| {

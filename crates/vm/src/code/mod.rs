@@ -372,6 +372,10 @@ pub struct Site {
     pub to: Operand,
     /// Whether the result is read.
     pub is_read: bool,
+    /// Of a call: the activation returns after it, with its result or with a constant. Where activations are dropped, such a call
+    /// drops what its caller's registers hold, and one of the same function takes the registers: a recursion has those of its
+    /// innermost activation alone.
+    pub is_tail: bool,
     /// Arguments.
     pub args: Args,
     /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:

@@ -33,7 +33,7 @@ impl<S: Scalar> Machine<'_, S> {
             None => None,
         };
         let path = join(state.nodes[node.0 as usize].path, site.key);
-        let nodes = state.nodes.len();
+        let places = state.places();
         let header = state.new_node(self.program, l.header, node, u32::from(site_id.0), path);
         let at = state.nodes[header.0 as usize].registers as usize;
         r.gather(state, &self.scratch, l.captures, &mut self.buffer);
@@ -47,7 +47,7 @@ impl<S: Scalar> Machine<'_, S> {
         for (i, value) in first.into_iter().chain(self.buffer.drain(..)).enumerate() {
             state.registers[at + i].store(value);
         }
-        if state.nodes.len() > nodes {
+        if state.places() > places {
             self.afford(state, &Dropped)?;
         }
         Ok(After::Enter(inner, 0))

@@ -55,13 +55,16 @@ pub(crate) struct Node {
     pub iteration: u32,
     /// Of a suspended activation: where it continues. Of a kept iteration: how it ended.
     pub pc: u32,
-    /// Of a kept activation: its first slot; of a kept loop node: its number among the loops.
+    /// Of a kept activation: its first slot; of a kept loop node: its number among the loops. Else see [`Node::LENT`].
     pub slots: u32,
     /// Of a kept activation: the transaction that created it.
     pub created: u32,
 }
 
 impl Node {
+    /// In [`Node::slots`], where activations are dropped: the registers are those of the activation that it called last.
+    const LENT: u32 = u32::MAX - 1;
+
     /// The mark of a memoised call in [`Node::iteration`].
     const MEMO: u32 = 1 << 31;
 
@@ -119,6 +122,8 @@ pub struct State<S: Scalar = f64> {
     pub(crate) registers: Vec<Value<S>>,
     /// First free node of each function; free nodes are linked by `parent`.
     pub(crate) free: Vec<NodeId>,
+    /// First free node without registers, linked likewise: its registers went to the activation that it called last.
+    pub(crate) bare: NodeId,
     pub(crate) futures: Vec<Future<S>>,
     pub(crate) free_futures: Vec<u32>,
     pub(crate) runnable: Runnable,
@@ -157,6 +162,7 @@ impl<S: Scalar> Clone for State<S> {
         copy(&mut self.nodes, &source.nodes);
         copy(&mut self.registers, &source.registers);
         copy(&mut self.free, &source.free);
+        self.bare = source.bare;
         copy(&mut self.futures, &source.futures);
         copy(&mut self.free_futures, &source.free_futures);
         self.runnable.clone_from(&source.runnable);
@@ -212,6 +218,7 @@ impl<S: Scalar> State<S> {
             nodes: Vec::new(),
             registers: Vec::new(),
             free: Vec::new(),
+            bare: NodeId::NONE,
             futures: Vec::new(),
             free_futures: Vec::new(),
             runnable: Runnable::default(),
@@ -328,6 +335,12 @@ impl<S: Scalar> State<S> {
         self.charged + self.logged
     }
 
+    /// How many nodes and registers there are, free ones included: what may have to be afforded has grown where this has.
+    #[inline]
+    pub(crate) fn places(&self) -> usize {
+        self.nodes.len() + self.registers.len()
+    }
+
     /// Bytes of nodes, registers and futures.
     #[inline]
     pub fn own_bytes(&self) -> usize {
@@ -386,11 +399,37 @@ impl<S: Scalar> State<S> {
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
         let (taken, ceiling) = (self.bytes(), self.ceiling);
-        let spare = || ceiling.saturating_sub(taken);
-        make_room(&mut self.registers, count, spare);
-        make_room(&mut self.nodes, 1, spare);
+        make_room(&mut self.registers, count, || ceiling.saturating_sub(taken));
         self.registers.resize(at + count, Value::None);
-        self.nodes.push(Node { registers: at as u32, ..fresh });
+        self.add_node(Node { registers: at as u32, ..fresh })
+    }
+
+    /// A node for an activation that `caller` calls last, of the same function. It takes over the registers of the caller, which
+    /// drop what they hold.
+    pub(crate) fn new_node_in_place(
+        &mut self,
+        program: &Program<S>,
+        caller: NodeId,
+        site: u32,
+        path: u128,
+    ) -> NodeId {
+        self.drop_values(program, caller);
+        let above = &mut self.nodes[caller.0 as usize];
+        let fresh = Node { path, parent: caller, site, iteration: 0, pc: 0, slots: u32::MAX, ..*above };
+        above.slots = Node::LENT;
+        self.add_node(fresh)
+    }
+
+    /// Adds a node, in the place of a free one without registers if there is one.
+    fn add_node(&mut self, fresh: Node) -> NodeId {
+        let id = self.bare;
+        if id != NodeId::NONE {
+            self.bare = std::mem::replace(&mut self.nodes[id.0 as usize], fresh).parent;
+            return id;
+        }
+        let (taken, ceiling) = (self.bytes(), self.ceiling);
+        make_room(&mut self.nodes, 1, || ceiling.saturating_sub(taken));
+        self.nodes.push(fresh);
         NodeId((self.nodes.len() - 1) as u32)
     }
 
@@ -398,9 +437,20 @@ impl<S: Scalar> State<S> {
     #[inline]
     pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
         let node = &mut self.nodes[id.0 as usize];
+        // Of registers that are lent the borrower was released just before: they are free.
+        let free = match node.slots {
+            Node::LENT => &mut self.bare,
+            _ => &mut self.free[node.function.0 as usize],
+        };
+        node.parent = std::mem::replace(free, id);
+        self.drop_values(program, id);
+    }
+
+    /// The registers of a node drop what is shared: nothing reads them any more.
+    #[inline]
+    pub(crate) fn drop_values(&mut self, program: &Program<S>, id: NodeId) {
+        let node = &self.nodes[id.0 as usize];
         let (function, at) = (node.function, node.registers as usize);
-        node.parent = self.free[function.0 as usize];
-        self.free[function.0 as usize] = id;
         let count = program.function(function).node_registers as usize;
         let registers = &mut self.registers[at..at + count];
         // Most activations hold numbers only: a first pass detects that without writing.

@@ -244,10 +244,22 @@ impl<S: Scalar> Machine<'_, S> {
         function: FunctionId,
     ) -> Result<NodeId, Fault> {
         let path = join(state.nodes[node.0 as usize].path, site.key);
-        let nodes = state.nodes.len();
+        let places = state.places();
+        if site.is_tail && state.nodes[node.0 as usize].function == function {
+            r.gather(state, &self.scratch, site.args, &mut self.buffer);
+            let created = state.new_node_in_place(self.program, node, u32::from(number.0), path);
+            let at = state.nodes[created.0 as usize].registers as usize;
+            for (i, value) in self.buffer.drain(..).enumerate() {
+                state.registers[at + i].store(value);
+            }
+            if state.places() > places {
+                self.afford(state, &Dropped)?;
+            }
+            return Ok(created);
+        }
         let created = state.new_node(self.program, function, node, u32::from(number.0), path);
         // A node that was used before takes no further bytes.
-        if state.nodes.len() > nodes {
+        if state.places() > places {
             self.afford(state, &Dropped)?;
         }
         let at = state.nodes[created.0 as usize].registers as usize;
@@ -261,6 +273,9 @@ impl<S: Scalar> Machine<'_, S> {
                     state.registers[at + i].store(value);
                 }
             }
+        }
+        if site.is_tail {
+            state.drop_values(self.program, node);
         }
         Ok(created)
     }
@@ -279,14 +294,17 @@ impl<S: Scalar> Machine<'_, S> {
         let path = join(n.path, site.key);
         let deferred = future.filter(|_| !state.depth_first);
         let parent = if deferred.is_some() { NodeId::NONE } else { node };
-        let nodes = state.nodes.len();
+        let places = state.places();
         let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
         let at = state.nodes[created.0 as usize].registers as usize;
         for (i, value) in self.buffer.drain(..).enumerate() {
             state.registers[at + i].store(value);
         }
-        if state.nodes.len() > nodes {
+        if state.places() > places {
             self.afford(state, &Dropped)?;
+        }
+        if site.is_tail && deferred.is_none() {
+            state.drop_values(self.program, node);
         }
         let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
         if state.origins.is_some() {

@@ -192,10 +192,25 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     f.scratch_registers = scratch as u16;
     for (at, op) in f.code.iter().enumerate() {
         if let Op::Site { site } = *op {
-            f.sites[site.0 as usize].next = at as u32 + 1;
+            let s = &mut f.sites[site.0 as usize];
+            s.next = at as u32 + 1;
+            s.is_tail = f.mode == Mode::Node && returns(&f.code, at + 1, s.to);
         }
     }
     rewrite(f, |o| if o.place() == Place::Node { map[o.index()] } else { o });
+}
+
+/// Whether an activation that continues at an instruction returns at once, with that register or with a constant.
+fn returns(code: &[Op], mut at: usize, result: Operand) -> bool {
+    // Jumps do not go round in circles without a loop's test between them, but that is not known here.
+    for _ in 0..code.len() {
+        match code.get(at) {
+            Some(Op::Jump { target }) => at = *target as usize,
+            Some(Op::Return { a }) => return *a == result || a.place() == Place::Constant,
+            _ => return false,
+        }
+    }
+    false
 }
 
 /// Removes moves into registers that are never read, and clearing of no sites; of a `look` that is never read its faults

@@ -225,6 +225,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
             kind,
             to,
             is_read: true,
+            is_tail: false,
             args,
             key,
             label,
