@@ -75,8 +75,8 @@ pub(super) struct Population<'a> {
     rest: Rest,
 }
 
-/// When particles that went apart try to line up again: after one barrier at first, then after twice as many each time that they
-/// did not stay together for as long as they had waited.
+/// When particles that went apart try to line up again: after one barrier where they stayed together for longer than they had
+/// waited, else after twice as many as before.
 #[derive(Default)]
 struct Rest {
     /// The barrier from which on they may.
@@ -88,13 +88,14 @@ struct Rest {
 }
 
 impl Rest {
-    /// The longest rest, barriers.
+    /// The shortest rest after a failure, and the longest, barriers.
+    const SHORTEST: usize = 4;
     const LONGEST: usize = 256;
 
     /// They went apart at this barrier, or could not line up.
     fn begin(&mut self, barrier: usize) {
         let stayed = barrier - self.since;
-        self.length = if stayed > self.length { 1 } else { (2 * self.length).clamp(1, Rest::LONGEST) };
+        self.length = if stayed > self.length { 1 } else { (2 * self.length).clamp(Rest::SHORTEST, Rest::LONGEST) };
         self.until = barrier + self.length;
     }
 }

@@ -78,14 +78,26 @@ impl Run<'_, '_> {
         inputs: Vec<Side>,
     ) -> Result<NodeId, Apart> {
         let path = join(self.path(self.node), site.key);
-        let nodes = self.lanes.state.nodes.len();
-        let created = self.new_node(function, self.node, u32::from(number.0), path);
-        if self.lanes.state.nodes.len() > nodes {
+        let (places, caller) = (self.lanes.state.places(), self.node);
+        // A known function that calls itself last: the registers are handed on.
+        let is_known = matches!(site.kind, SiteKind::Call { .. });
+        let created = if site.is_tail && is_known && self.id == function {
+            self.forget_values(caller);
+            let state = &mut self.lanes.state;
+            state.new_node_in_place(self.machine.program, caller, u32::from(number.0), path)
+        } else {
+            self.new_node(function, caller, u32::from(number.0), path)
+        };
+        if self.lanes.state.places() > places {
             self.machine.afford(&mut self.lanes.state, &Dropped)?;
         }
         let at = self.first(created);
         for (i, side) in inputs.into_iter().enumerate() {
             self.store(at + i, side);
+        }
+        if site.is_tail && self.first(caller) != at {
+            self.forget_values(caller);
+            self.lanes.state.drop_values(self.machine.program, caller);
         }
         Ok(created)
     }
@@ -132,11 +144,16 @@ impl Run<'_, '_> {
         created
     }
 
-    fn release(&mut self, node: NodeId) {
+    /// The columns of a node's registers mean nothing any more.
+    fn forget_values(&mut self, node: NodeId) {
         let n = self.lanes.state.nodes[node.0 as usize];
         let at = n.registers as usize;
         let count = self.machine.program.function(n.function).node_registers as usize;
         self.lanes.columns[at..at + count].fill(None);
+    }
+
+    fn release(&mut self, node: NodeId) {
+        self.forget_values(node);
         self.lanes.state.release(self.machine.program, node);
     }
 
@@ -159,7 +176,7 @@ impl Run<'_, '_> {
             None => None,
         };
         let path = join(self.path(self.node), site.key);
-        let nodes = self.lanes.state.nodes.len();
+        let places = self.lanes.state.places();
         let header = self.new_node(l.header, self.node, u32::from(number.0), path);
         let captures = self.sides(l.captures);
         let at = self.first(header);
@@ -172,7 +189,7 @@ impl Run<'_, '_> {
         for (i, side) in first.into_iter().chain(carried).enumerate() {
             self.store(at + i, side);
         }
-        if self.lanes.state.nodes.len() > nodes {
+        if self.lanes.state.places() > places {
             self.machine.afford(&mut self.lanes.state, &Dropped)?;
         }
         Ok(After::Enter(inner, 0))
