@@ -7,6 +7,7 @@ use crate::chain::select::{labels, no_choice};
 use crate::chain::user::User;
 use crate::chooser::{Chooser, Chosen, Context};
 use crate::guide::bound::{BoundGuide, Sight};
+use crate::particles::Forecast;
 use crate::record::log_density;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
@@ -127,6 +128,14 @@ impl Proposal {
             }
         }
         Ok(())
+    }
+
+    /// The first of its guides that has learned to look ahead.
+    pub fn forecast(&self) -> Option<Arc<dyn Forecast>> {
+        self.parts.iter().find_map(|(_, drawer)| match drawer {
+            Drawer::Guide(guide) if guide.looks_ahead() => Some(guide.clone() as Arc<dyn Forecast>),
+            _ => None,
+        })
     }
 
     /// Whether it looks at the scene.

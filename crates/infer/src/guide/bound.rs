@@ -8,13 +8,14 @@ use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
-use niwaki_guide::Scratch;
+use niwaki_guide::{Net, Scratch};
 use niwaki_guide::filtered::View;
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::state::State;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -56,6 +57,9 @@ pub struct Sight {
     pub(super) view: View,
     /// The place, in shares of the page from its upper left corner.
     pub(super) at: [f64; 2],
+    /// A copy of a run whose next choices are looked at, and what was seen there.
+    pub(super) copy: Option<State>,
+    pub(super) prospect: Vec<f64>,
 }
 
 impl Sight {
@@ -64,14 +68,15 @@ impl Sight {
         self.seen = None;
     }
 
-    /// Where was looked from last, since what was seen was forgotten.
-    pub fn place(&self) -> Option<Place> {
-        self.seen.map(|(_, here, _)| here)
-    }
-
     /// The window that was seen last, and the inputs beside it.
     pub fn inputs(&self) -> (&[f32], &[(u32, f32)]) {
         (&self.window, &self.features)
+    }
+
+    /// Adds the second hidden layer of a network at its `site`-th choice, which was looked at.
+    pub(super) fn hidden(&mut self, net: &Net, site: usize, to: &mut [f64]) {
+        let hidden = net.hidden(&self.sums, &self.features, site, &mut self.scratch);
+        to.iter_mut().zip(hidden).for_each(|(to, h)| *to += f64::from(*h));
     }
 }
 

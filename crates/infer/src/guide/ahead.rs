@@ -1,0 +1,176 @@
+//! Look-ahead by a guide: what its network sees at the next choices says how much the score will still rise.
+//!
+//! A run that is paused at a barrier has drawn nothing yet of what follows, but where it goes on is known: each future that can
+//! run is run, in a copy, up to its next choice, and the guide looks from there at the scene so far. The rise is a line in
+//!
+//! ```text
+//! n  m  g  g^2  g n  g m  h  g h        h: the second hidden layers, added up over the futures
+//! ```
+//!
+//! where `n` futures come to a choice that the guide draws, `m` to any other stop, and `g` is the root of the present log
+//! score (of its size, with its sign): scores that fall off with the square of a distance rise in proportion to it.
+//!
+//! The copies draw nothing, so the forecast is a function of the run. [`rehearse`](super::rehearse) fits the line.
+
+use super::Network;
+use super::bound::{BoundGuide, Sight};
+use crate::chooser::Context;
+use crate::particles::{Forecast, Paused};
+use crate::task::Hosts;
+use niwaki_geom::Shape;
+use niwaki_guide::Net;
+use niwaki_math::Dist;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::Stop;
+use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::value::Value;
+use serde::{Deserialize, Serialize};
+
+/// Most futures that are looked at; all others count as coming to another stop.
+const MOST: usize = 16;
+/// Whose sight it is: no part of a proposal has this number.
+const OWNER: usize = usize::MAX;
+/// Inputs beside the hidden layer.
+const BESIDE: usize = 6;
+
+/// The line of a guide that looks ahead.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AheadForm {
+    /// The rise where all inputs are zero, nats.
+    pub constant: f64,
+    /// Nats for each input.
+    pub weights: Vec<f64>,
+    /// The lowest and the highest rise that it says, nats: those of its lessons.
+    pub range: (f64, f64),
+}
+
+impl AheadForm {
+    /// Whether it is a line for networks with so many units in the second hidden layer.
+    pub fn fits(&self, hidden: usize) -> bool {
+        let numbers = self.weights.iter().chain([&self.constant, &self.range.0, &self.range.1]);
+        self.weights.len() == inputs(hidden)
+            && numbers.into_iter().all(|x| x.is_finite())
+            && self.range.0 <= self.range.1
+    }
+
+    /// The rise that it says, nats.
+    pub fn rise(&self, inputs: &[f64]) -> f64 {
+        let sum: f64 = self.weights.iter().zip(inputs).map(|(weight, x)| weight * x).sum();
+        (self.constant + sum).clamp(self.range.0, self.range.1)
+    }
+}
+
+/// How many inputs a line has, for networks with so many units in the second hidden layer.
+pub(super) fn inputs(hidden: usize) -> usize {
+    BESIDE + 2 * hidden
+}
+
+impl BoundGuide {
+    /// Whether it has learned to look ahead.
+    pub fn looks_ahead(&self) -> bool {
+        self.guide().form.ahead.is_some()
+    }
+
+    /// The inputs of the line for a paused run, in `sight`.
+    pub(super) fn prospect<'s>(
+        &self,
+        run: Paused<'_>,
+        machine: &mut Machine<'_>,
+        sight: &'s mut Sight,
+    ) -> &'s [f64] {
+        let Network::Shared(net) = &self.guide().net else { return &[] };
+        let units = net.form().hidden[1];
+        let mut state = match sight.copy.take() {
+            Some(mut state) => {
+                state.clone_from(run.state);
+                state
+            }
+            None => run.state.clone(),
+        };
+        let mut sums = std::mem::take(&mut sight.prospect);
+        sums.clear();
+        sums.resize(inputs(units), 0.0);
+        sight.forget();
+        let (mut choices, mut others) = (0.0, 0.0);
+        let mut usable = true;
+        for (number, future) in run.state.runnable().iter().enumerate() {
+            if number >= MOST || !usable {
+                others += 1.0;
+                continue;
+            }
+            let hidden = &mut sums[BESIDE..BESIDE + units];
+            let mut look = Looking { guide: self, net, run, sight, hidden, found: false };
+            match machine.resume(&mut state, future, &mut look) {
+                Ok(Stop::Paused) if look.found => choices += 1.0,
+                // It has nothing more to draw, or what it will draw is behind another one's choice.
+                Ok(Stop::Returned | Stop::Waiting) => {}
+                Ok(_) => others += 1.0,
+                // The run itself will meet the fault, if no other choice avoids it.
+                Err(_) => (others, usable) = (others + 1.0, false),
+            }
+        }
+        let score = run.record.log_score();
+        let g = score.abs().sqrt().copysign(score);
+        sums[..BESIDE].copy_from_slice(&[choices, others, g, g * g, g * choices, g * others]);
+        let (before, after) = sums.split_at_mut(BESIDE + units);
+        for (to, h) in after.iter_mut().zip(&before[BESIDE..]) {
+            *to = g * h;
+        }
+        sight.forget();
+        sight.copy = Some(state);
+        sight.prospect = sums;
+        &sight.prospect
+    }
+}
+
+impl Forecast for BoundGuide {
+    fn rise(&self, run: Paused<'_>, machine: &mut Machine<'_>, sight: &mut Sight) -> f64 {
+        match &self.guide().form.ahead {
+            Some(line) => line.rise(self.prospect(run, machine, sight)),
+            None => 0.0,
+        }
+    }
+}
+
+/// Runs up to the next choice, and looks there.
+struct Looking<'a, 's> {
+    guide: &'a BoundGuide,
+    net: &'a Net,
+    run: Paused<'a>,
+    sight: &'s mut Sight,
+    /// Sums of hidden layers.
+    hidden: &'s mut [f64],
+    /// Whether a choice was met that the guide draws.
+    found: bool,
+}
+
+impl Answers<f64> for Looking<'_, '_> {
+    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
+        let record = self.run.record;
+        let sketches = Some(&record.sketches).filter(|sketches| !sketches.is_empty());
+        let seen = Context { address: at.address(), sketches, primitives: record.primitives, part: None };
+        if let Some(site) = self.guide.look(at, dist, seen, self.sight, OWNER) {
+            self.sight.hidden(self.net, site, self.hidden);
+            self.found = true;
+        }
+        Ok(Answer::Pause)
+    }
+
+    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Pause)
+    }
+
+    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Pause)
+    }
+
+    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        let hosts: &dyn Hosts = &*self.run.task.hosts;
+        hosts.call(constant, args, steps)
+    }
+}
