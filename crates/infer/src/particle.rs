@@ -3,6 +3,7 @@
 use crate::Failure;
 use crate::chooser::Chooser;
 use crate::forward::Forward;
+use crate::guide::bound::Glance;
 use crate::order::Past;
 use crate::record::Record;
 use crate::task::Task;
@@ -34,6 +35,8 @@ pub(crate) struct Particle {
     pub log_weight: f64,
     /// Log of prior over proposal of the choices since the last barrier: not yet in its weight.
     pub pending: f64,
+    /// What its guide saw when it paused.
+    pub glance: Glance,
     /// Log of its twist at this barrier, at power 1, nats ([`LookAhead`](crate::particles::LookAhead)).
     pub ahead: f64,
     /// The log twist that is in its weight.
@@ -58,6 +61,7 @@ impl Particle {
             was_ended: false,
             log_weight: 0.0,
             pending: 0.0,
+            glance: Glance::default(),
             ahead: 0.0,
             foreseen: 0.0,
             home: 0,
@@ -146,6 +150,7 @@ impl Particle {
             weighed: self.weighed.clone(),
             log_weight: self.log_weight,
             pending: self.pending,
+            glance: self.glance.clone(),
             ahead: self.ahead,
             foreseen: self.foreseen,
             home: self.home,
@@ -165,6 +170,7 @@ impl Particle {
         self.weighed.clone_from(&parent.weighed);
         self.log_weight = parent.log_weight;
         self.pending = parent.pending;
+        self.glance.become_copy(&parent.glance);
         self.ahead = parent.ahead;
         self.foreseen = parent.foreseen;
         self.home = parent.home;

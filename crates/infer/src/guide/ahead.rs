@@ -21,16 +21,14 @@ use niwaki_geom::Shape;
 use niwaki_guide::Net;
 use niwaki_math::Dist;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::Machine;
-use niwaki_vm::machine::Stop;
+use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Most futures that are looked at; all others count as coming to another stop.
 const MOST: usize = 16;
-/// Whose sight it is: no part of a proposal has this number.
-const OWNER: usize = usize::MAX;
 /// Inputs beside the hidden layer.
 const BESIDE: usize = 6;
 
@@ -72,12 +70,13 @@ impl BoundGuide {
         self.guide().form.ahead.is_some()
     }
 
-    /// The inputs of the line for a paused run, in `sight`.
+    /// The inputs of the line for a paused run, in `sight`, as the drawer of that number.
     pub(super) fn prospect<'s>(
         &self,
         run: Paused<'_>,
         machine: &mut Machine<'_>,
         sight: &'s mut Sight,
+        owner: usize,
     ) -> &'s [f64] {
         let Network::Shared(net) = &self.guide().net else { return &[] };
         let units = net.form().hidden[1];
@@ -100,7 +99,7 @@ impl BoundGuide {
                 continue;
             }
             let hidden = &mut sums[BESIDE..BESIDE + units];
-            let mut look = Looking { guide: self, net, run, sight, hidden, found: false };
+            let mut look = Looking { guide: self, net, run, sight, owner, hidden, found: false };
             match machine.resume(&mut state, future, &mut look) {
                 Ok(Stop::Paused) if look.found => choices += 1.0,
                 // It has nothing more to draw, or what it will draw is behind another one's choice.
@@ -117,17 +116,25 @@ impl BoundGuide {
         for (to, h) in after.iter_mut().zip(&before[BESIDE..]) {
             *to = g * h;
         }
-        sight.forget();
         sight.copy = Some(state);
         sight.prospect = sums;
         &sight.prospect
     }
 }
 
-impl Forecast for BoundGuide {
+/// A guide that looks ahead, as a forecast.
+#[derive(Clone, Debug)]
+pub struct Foresight {
+    /// The guide.
+    pub guide: Arc<BoundGuide>,
+    /// Its number among the drawers of its proposal, which share one sight.
+    pub owner: usize,
+}
+
+impl Forecast for Foresight {
     fn rise(&self, run: Paused<'_>, machine: &mut Machine<'_>, sight: &mut Sight) -> f64 {
-        match &self.guide().form.ahead {
-            Some(line) => line.rise(self.prospect(run, machine, sight)),
+        match &self.guide.guide().form.ahead {
+            Some(line) => line.rise(self.guide.prospect(run, machine, sight, self.owner)),
             None => 0.0,
         }
     }
@@ -139,6 +146,7 @@ struct Looking<'a, 's> {
     net: &'a Net,
     run: Paused<'a>,
     sight: &'s mut Sight,
+    owner: usize,
     /// Sums of hidden layers.
     hidden: &'s mut [f64],
     /// Whether a choice was met that the guide draws.
@@ -150,7 +158,7 @@ impl Answers<f64> for Looking<'_, '_> {
         let record = self.run.record;
         let sketches = Some(&record.sketches).filter(|sketches| !sketches.is_empty());
         let seen = Context { address: at.address(), sketches, primitives: record.primitives, part: None };
-        if let Some(site) = self.guide.look(at, dist, seen, self.sight, OWNER) {
+        if let Some(site) = self.guide.look(at, dist, seen, self.sight, self.owner) {
             self.sight.hidden(self.net, site, self.hidden);
             self.found = true;
         }

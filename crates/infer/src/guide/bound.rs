@@ -62,10 +62,44 @@ pub struct Sight {
     pub(super) prospect: Vec<f64>,
 }
 
+/// What a guide saw last of a run that is paused, for when it goes on: its next choice is often at the same place.
+#[derive(Clone, Debug, Default)]
+pub struct Glance {
+    seen: Option<(usize, Place, usize)>,
+    sums: Vec<f32>,
+}
+
+impl Glance {
+    /// Becomes a copy of another one.
+    #[inline]
+    pub fn become_copy(&mut self, other: &Glance) {
+        self.seen = other.seen;
+        if other.seen.is_some() {
+            self.sums.clone_from(&other.sums);
+        }
+    }
+}
+
 impl Sight {
     /// Forgets what was seen: another run follows.
     pub fn forget(&mut self) {
         self.seen = None;
+    }
+
+    /// Leaves what was seen to the run that pauses.
+    pub fn leave(&mut self, to: &mut Glance) {
+        to.seen = self.seen.take();
+        if to.seen.is_some() {
+            to.sums.clone_from(&self.sums);
+        }
+    }
+
+    /// Goes on with what a run was left, or forgets what was seen.
+    pub fn recall(&mut self, from: &Glance) {
+        self.seen = from.seen;
+        if from.seen.is_some() {
+            self.sums.clone_from(&from.sums);
+        }
     }
 
     /// The window that was seen last, and the inputs beside it.

@@ -111,6 +111,15 @@ pub fn rehearse(
             own.labels.push(rise.max(low));
         }
     }
+    if let Ok(path) = std::env::var("LK_DUMP") {
+        let mut text = String::new();
+        for (number, rises) in met.iter().enumerate() {
+            for (inputs, rise) in rises {
+                text += &format!("{} {} {} {}\n", number % cases.len(), u8::from(cases[number % cases.len()].held_out), rise, inputs.iter().map(|x| x.to_string()).collect::<Vec<_>>().join(" "));
+            }
+        }
+        std::fs::write(path, text).unwrap();
+    }
     let few = |fault: Option<Failure>, found: usize| {
         let message = format!("{found} paused particles are too few to learn what a run will still gain");
         let few = Fault::new("guide-ahead", message).with_help("give more targets, or more searches");
@@ -143,11 +152,13 @@ fn search(case: &Case, guide: &Arc<BoundGuide>, plan: &Rehearsal, seed: u64) -> 
     let proposal = Some(Arc::new(Proposal::of(&Kernel::guided(guide.clone()))?));
     let [particles, few] = plan.particles;
     let own = Settings { particles, seed, proposal, ..plainly(&plan.settings) };
+    let ahead = std::env::var("LK_ON").ok().and_then(|s| s.parse().ok()).and_then(|strength: f64| own.proposal.as_ref().unwrap().forecast().map(|forecast| crate::particles::LookAhead { strength, forecast }));
+    let on = Settings { look_ahead: ahead, ..own.clone() };
     let (mut machine, mut sight) = (task.machine(), Sight::default());
     let mut rises = vec![];
-    for (number, one) in paused(task, &own, plan.states)?.iter_mut().enumerate() {
+    for (number, one) in paused(task, &on, plan.states)?.iter_mut().enumerate() {
         let run = Paused { task, record: &one.record, state: &one.state };
-        let inputs = guide.prospect(run, &mut machine, &mut sight).to_vec();
+        let inputs = guide.prospect(run, &mut machine, &mut sight, 0).to_vec();
         rises.push((inputs, rise(task, &own, few, one, number)?));
     }
     Ok(rises)

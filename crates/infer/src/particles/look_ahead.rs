@@ -52,7 +52,7 @@ pub struct LookAhead {
 }
 
 impl Particle {
-    /// Notes its twist at this barrier.
+    /// Notes its twist at this barrier, and what was seen for it.
     pub(super) fn foresee(
         &mut self,
         with: Option<&LookAhead>,
@@ -62,6 +62,7 @@ impl Particle {
     ) {
         let Some(with) = with else { return };
         self.ahead = with.log_twist(self, task, machine, sight);
+        sight.leave(&mut self.glance);
     }
 }
 

@@ -387,7 +387,7 @@ fn advance(
     match settings.proposal.as_deref() {
         None => particle.advance(machine, task, settings.seed, otherwise)?,
         Some(proposal) => {
-            sight.forget();
+            sight.recall(&particle.glance);
             particle.advance(
                 machine,
                 task,
