@@ -15,8 +15,8 @@ use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
 use crate::losses::Lost;
 use crate::particles::{
-    self, Ancestors, FinalChains, LookAhead, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
-    populations, within,
+    self, Ancestors, FinalChains, LookAhead, Moment, Progress, Rejuvenation, Resampling, Settings,
+    particle_gibbs, pimh, populations, within,
 };
 use crate::proposal::Proposal;
 use crate::rejection::rejection;
@@ -513,7 +513,14 @@ impl Smc {
         let particles = self.plan().first().copied().unwrap_or(0);
         let proposal = proposed(self.proposal.as_ref(), given)?;
         let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
-        Ok(Settings { particles, seed: given.seed, rejuvenate, proposal, look_ahead, ..self.settings.clone() })
+        Ok(Settings {
+            particles,
+            seed: given.seed,
+            rejuvenate,
+            proposal,
+            look_ahead,
+            ..self.settings.clone()
+        })
     }
 
     /// Sizes of its populations without a time limit. Different results need one population each, unless chains give them.

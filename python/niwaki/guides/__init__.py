@@ -16,4 +16,13 @@ from niwaki.guides.settings import Training
 from niwaki.guides.shipped import shipped
 from niwaki.guides.training import EVERY, train_guide
 
-__all__ = ["EVERY", "OrderTraining", "Round", "Training", "shipped", "train_guide", "train_look_ahead", "train_order"]
+__all__ = [
+    "EVERY",
+    "OrderTraining",
+    "Round",
+    "Training",
+    "shipped",
+    "train_guide",
+    "train_look_ahead",
+    "train_order",
+]

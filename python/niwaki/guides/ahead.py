@@ -92,6 +92,8 @@ def train_look_ahead(
     check_seed(seed)
     if not isinstance(guide, Guide):
         raise bad("guide", guide, "a guide", '`niwaki.train_guide(...)` or `Guide.load("vines.guide")`')
+    if guide.form.get("image") is not None:
+        raise bad("guide", guide, "a guide with the shared network", "one that was trained with `Training()`")
     for name, value in (("searches", searches), ("states", states), ("particles", particles)):
         at_least_one(name, value)
     if not isinstance(method, Smc) or method.weights != "ratio" or method.proposal is not None:

@@ -69,9 +69,10 @@ class Smc(Method):
     proposal, guide
         What draws choices in place of the prior, as for `importance`. Not with absolute weights.
     look_ahead
-        Let weights count, while particles run, so much of the rise that a guide expects of their scores until they end, such
-        as 0.2; a guide learns this by `niwaki.guides.train_look_ahead`. In the end it counts nothing, so evidence and final
-        law are the same for every value. Not with absolute weights, and with `rejuvenate` only at the end.
+        Let weights count this share of what a guide expects the log scores of running particles to gain until they end;
+        0.2 is a good one. A guide learns it by `niwaki.guides.train_look_ahead`. In the end it counts nothing, so
+        evidence and final law are the same for every value. Not with absolute weights, and with `rejuvenate` only at
+        the end.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,

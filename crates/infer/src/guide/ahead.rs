@@ -1,14 +1,23 @@
 //! Look-ahead by a guide: what its network sees at the next choices says how much the score will still rise.
 //!
 //! A run that is paused at a barrier has drawn nothing yet of what follows, but where it goes on is known: each future that can
-//! run is run, in a copy, up to its next choice, and the guide looks from there at the scene so far. The rise is a line in
+//! run is run, in a copy, up to its next choice, and the guide looks from there at the scene so far. With
 //!
 //! ```text
-//! n  m  g  g^2  g n  g m  h  g h        h: the second hidden layers, added up over the futures
+//! g = root(log score now)      root(x) = sign(x) sqrt|x|,    square(x) = x |x|
+//! h = the second hidden layers at these choices, added up
+//! n = how many they are,       m = how many futures come to any other stop
 //! ```
 //!
-//! where `n` futures come to a choice that the guide draws, `m` to any other stop, and `g` is the root of the present log
-//! score (of its size, with its sign): scores that fall off with the square of a distance rise in proportion to it.
+//! what a guide has learned is a line for the root of the log score in the end, and the rise that it says follows:
+//!
+//! ```text
+//! root(log score in the end) = a + line in (n  m  g  g^2  g n  g m  h  g h)
+//! rise = square(a + line) - log score now
+//! ```
+//!
+//! A root, because log scores fall off with the square of a distance (of similarities from 1, say): a line in distances
+//! is fitted as well to runs that match nearly as to those that miss by far. The line is held within what its lessons had.
 //!
 //! The copies draw nothing, so the forecast is a function of the run. [`rehearse`](super::rehearse) fits the line.
 
@@ -21,8 +30,8 @@ use niwaki_geom::Shape;
 use niwaki_guide::Net;
 use niwaki_math::Dist;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Value;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -35,11 +44,11 @@ const BESIDE: usize = 6;
 /// The line of a guide that looks ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AheadForm {
-    /// The rise where all inputs are zero, nats.
+    /// The root of the log score in the end where all inputs are zero.
     pub constant: f64,
-    /// Nats for each input.
+    /// What each input adds to it.
     pub weights: Vec<f64>,
-    /// The lowest and the highest rise that it says, nats: those of its lessons.
+    /// The lowest and the highest root that it says: those of its lessons.
     pub range: (f64, f64),
 }
 
@@ -52,11 +61,17 @@ impl AheadForm {
             && self.range.0 <= self.range.1
     }
 
-    /// The rise that it says, nats.
-    pub fn rise(&self, inputs: &[f64]) -> f64 {
+    /// The rise that it says of a run with these inputs and this log score, nats.
+    pub fn rise(&self, inputs: &[f64], log_score: f64) -> f64 {
         let sum: f64 = self.weights.iter().zip(inputs).map(|(weight, x)| weight * x).sum();
-        (self.constant + sum).clamp(self.range.0, self.range.1)
+        let end = (self.constant + sum).clamp(self.range.0, self.range.1);
+        end * end.abs() - log_score
     }
+}
+
+/// The root of a log score, with its sign.
+pub(super) fn root(log_score: f64) -> f64 {
+    log_score.abs().sqrt().copysign(log_score)
 }
 
 /// How many inputs a line has, for networks with so many units in the second hidden layer.
@@ -71,7 +86,7 @@ impl BoundGuide {
     }
 
     /// The inputs of the line for a paused run, in `sight`, as the drawer of that number.
-    pub(super) fn prospect<'s>(
+    pub(crate) fn prospect<'s>(
         &self,
         run: Paused<'_>,
         machine: &mut Machine<'_>,
@@ -109,8 +124,7 @@ impl BoundGuide {
                 Err(_) => (others, usable) = (others + 1.0, false),
             }
         }
-        let score = run.record.log_score();
-        let g = score.abs().sqrt().copysign(score);
+        let g = root(run.record.log_score());
         sums[..BESIDE].copy_from_slice(&[choices, others, g, g * g, g * choices, g * others]);
         let (before, after) = sums.split_at_mut(BESIDE + units);
         for (to, h) in after.iter_mut().zip(&before[BESIDE..]) {
@@ -134,7 +148,9 @@ pub struct Foresight {
 impl Forecast for Foresight {
     fn rise(&self, run: Paused<'_>, machine: &mut Machine<'_>, sight: &mut Sight) -> f64 {
         match &self.guide.guide().form.ahead {
-            Some(line) => line.rise(self.guide.prospect(run, machine, sight, self.owner)),
+            Some(line) => {
+                line.rise(self.guide.prospect(run, machine, sight, self.owner), run.record.log_score())
+            }
             None => 0.0,
         }
     }

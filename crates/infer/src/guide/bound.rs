@@ -8,8 +8,8 @@ use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
-use niwaki_guide::{Net, Scratch};
 use niwaki_guide::filtered::View;
+use niwaki_guide::{Net, Scratch};
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
@@ -108,7 +108,7 @@ impl Sight {
     }
 
     /// Adds the second hidden layer of a network at its `site`-th choice, which was looked at.
-    pub(super) fn hidden(&mut self, net: &Net, site: usize, to: &mut [f64]) {
+    pub(crate) fn hidden(&mut self, net: &Net, site: usize, to: &mut [f64]) {
         let hidden = net.hidden(&self.sums, &self.features, site, &mut self.scratch);
         to.iter_mut().zip(hidden).for_each(|(to, h)| *to += f64::from(*h));
     }

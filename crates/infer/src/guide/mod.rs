@@ -29,7 +29,7 @@ pub mod rehearse;
 mod ridge;
 pub mod survey;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use form::{FORMAT, GuideForm};
 use niwaki_guide::{Filtered, Net};

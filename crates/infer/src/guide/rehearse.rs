@@ -5,17 +5,17 @@
 //! rise. Ridge regression finds the line; rises of the targets that judge decide its strength. A rise of minus infinity
 //! counts as the least of the others.
 
-use super::ahead::{AheadForm, inputs};
+use super::ahead::{AheadForm, inputs, root};
 use super::bound::{BoundGuide, Sight};
 use super::climb::Case;
 use super::ridge::{Examples, ridge};
 use super::{Guide, Network};
+use crate::Failure;
 use crate::chain::kernel::Kernel;
 use crate::particles::rises::{paused, plainly, rise};
 use crate::particles::{Paused, Settings};
 use crate::proposal::Proposal;
 use crate::streams::Reserved;
-use crate::Failure;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
@@ -60,8 +60,19 @@ const AT_ONCE: usize = 32;
 /// Fewest rises to learn from.
 const LEAST: usize = 20;
 
-/// What one search gave: inputs and rise of each of its paused particles.
-type Rises = Vec<(Vec<f64>, f64)>;
+/// A paused particle: the inputs of the line, its log score, and its rise, nats.
+struct Lesson {
+    inputs: Vec<f64>,
+    log_score: f64,
+    rise: f64,
+}
+
+impl Lesson {
+    /// The root of the log score that the searches from it reached.
+    fn root(&self) -> f64 {
+        root(self.log_score + self.rise)
+    }
+}
 
 /// Teaches a guide to look ahead. `watch` gets searches done and wanted, and returns false to learn from those so far.
 ///
@@ -80,9 +91,14 @@ pub fn rehearse(
     let width = inputs(net.form().hidden[1]);
     let bound = cases.iter().map(|case| BoundGuide::new(guide.clone(), &case.task).map(Arc::new));
     let bound = bound.collect::<Result<Vec<_>, Fault>>()?;
-    let one = |number: usize| -> Result<Rises, Failure> {
+    let one = |number: usize| -> Result<Vec<Lesson>, Failure> {
         let case = number % cases.len();
-        search(&cases[case], &bound[case], plan, Reserved::Paused.stream(plan.seed, number as u128, 2).next_u64())
+        search(
+            &cases[case],
+            &bound[case],
+            plan,
+            Reserved::Paused.stream(plan.seed, number as u128, 2).next_u64(),
+        )
     };
     let mut met = vec![];
     let (mut failed, mut fault) = (0, None);
@@ -99,26 +115,17 @@ pub fn rehearse(
             }
         }
     }
-    let rises = || met.iter().flatten().map(|(_, rise)| *rise);
-    let (low, high) = rises().filter(|x| x.is_finite()).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let all = || met.iter().flatten();
+    let roots = all().map(Lesson::root).filter(|x| x.is_finite());
+    let (low, high) =
+        roots.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     let (mut learned, mut judging) = (Examples::default(), Examples::default());
-    for (number, rises) in met.iter().enumerate() {
+    for (number, lessons) in met.iter().enumerate() {
         let own = if cases[number % cases.len()].held_out { &mut judging } else { &mut learned };
-        for (inputs, rise) in rises {
-            own.inputs.extend(inputs);
-            own.labels.push(rise.max(low));
+        for lesson in lessons {
+            own.inputs.extend(&lesson.inputs);
+            own.labels.push(lesson.root().max(low));
         }
-    }
-    if let Ok(path) = std::env::var("LK_DUMP") {
-        let mut text = String::new();
-        for (number, rises) in met.iter().enumerate() {
-            for (inputs, rise) in rises {
-                text += &format!("{} {} {} {}\n", number % cases.len(), u8::from(cases[number % cases.len()].held_out), rise, inputs.iter().map(|x| x.to_string()).collect::<Vec<_>>().join(" "));
-            }
-        }
-        std::fs::write(path, text).unwrap();
     }
     let few = |fault: Option<Failure>, found: usize| {
         let message = format!("{found} paused particles are too few to learn what a run will still gain");
@@ -138,7 +145,7 @@ pub fn rehearse(
     Ok(Rehearsed {
         guide: Guide { form, net: guide.net.clone() },
         rises: [learned.labels.len(), judging.labels.len()],
-        died: rises().filter(|x| !x.is_finite()).count(),
+        died: all().filter(|own| !own.rise.is_finite()).count(),
         failed,
         error,
         deviation: around.sqrt(),
@@ -147,19 +154,18 @@ pub fn rehearse(
 }
 
 /// Inputs and rises of some paused particles of a search.
-fn search(case: &Case, guide: &Arc<BoundGuide>, plan: &Rehearsal, seed: u64) -> Result<Rises, Failure> {
+fn search(case: &Case, guide: &Arc<BoundGuide>, plan: &Rehearsal, seed: u64) -> Result<Vec<Lesson>, Failure> {
     let task = &case.task;
     let proposal = Some(Arc::new(Proposal::of(&Kernel::guided(guide.clone()))?));
     let [particles, few] = plan.particles;
     let own = Settings { particles, seed, proposal, ..plainly(&plan.settings) };
-    let ahead = std::env::var("LK_ON").ok().and_then(|s| s.parse().ok()).and_then(|strength: f64| own.proposal.as_ref().unwrap().forecast().map(|forecast| crate::particles::LookAhead { strength, forecast }));
-    let on = Settings { look_ahead: ahead, ..own.clone() };
     let (mut machine, mut sight) = (task.machine(), Sight::default());
-    let mut rises = vec![];
-    for (number, one) in paused(task, &on, plan.states)?.iter_mut().enumerate() {
+    let mut lessons = vec![];
+    for (number, one) in paused(task, &own, plan.states)?.iter_mut().enumerate() {
         let run = Paused { task, record: &one.record, state: &one.state };
         let inputs = guide.prospect(run, &mut machine, &mut sight, 0).to_vec();
-        rises.push((inputs, rise(task, &own, few, one, number)?));
+        let rise = rise(task, &own, few, one, number)?;
+        lessons.push(Lesson { inputs, log_score: one.record.log_score(), rise });
     }
-    Ok(rises)
+    Ok(lessons)
 }

@@ -42,7 +42,7 @@ const LIMBS: &str = r#"(module
       (if (gt $k 0.8) (then (do (future "limb" $x $y (add $d 1))))))))
   (fn "m" (params) (do (future "limb" 0.0 -2.0 0)) (return 0)) (entry "m"))"#;
 
-fn limbs() -> Task {
+pub(crate) fn limbs() -> Task {
     let program = compile_keeping(&parse(LIMBS).unwrap(), vec![], Kept::All).unwrap();
     let page = Page::new([-3.0, -3.0], [3.0, 3.0], [12, 12]).unwrap();
     let greys: Vec<u8> = (0..144).map(|pixel| if pixel / 3 % 2 == 0 { 0 } else { 255 }).collect();
@@ -51,10 +51,10 @@ fn limbs() -> Task {
 }
 
 /// A guide before training.
-fn blank(task: &Task) -> Arc<BoundGuide> {
-    let run = |stream| forward(task, 3, stream, true).unwrap().log.entries();
-    let example = |stream| Example { task: task.clone(), entries: run(stream), held_out: false };
-    let examples: Vec<Example> = (0..20).map(example).collect();
+pub(crate) fn blank(task: &Task) -> Arc<BoundGuide> {
+    let run = |stream| Some(forward(task, 3, stream, true).ok()?.log.entries());
+    let example = |stream| Some(Example { task: task.clone(), entries: run(stream)?, held_out: false });
+    let examples: Vec<Example> = (0..20).filter_map(example).collect();
     let making: Making = serde_json::from_value(json!({
         "model": "m", "hidden": [8, 8], "components": 2, "share": 0.02, "looks": true, "reads": true, "steps": 1,
         "passes": 1.0, "rate": 1e-3, "batch": 16, "averaging": 0.9, "seed": 0,

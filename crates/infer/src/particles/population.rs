@@ -93,7 +93,12 @@ impl<'a> Population<'a> {
             first.note_parts();
         }
         let past = Past::start(&settings.order);
-        Population::of(task, settings, serial, Particle { past, ..Particle::start(first, empty, 0, settings.seed) })
+        Population::of(
+            task,
+            settings,
+            serial,
+            Particle { past, ..Particle::start(first, empty, 0, settings.seed) },
+        )
     }
 
     /// A population whose particles go on from a paused one.

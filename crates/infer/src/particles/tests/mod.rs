@@ -28,6 +28,7 @@ mod proposed;
 mod rejuvenated;
 mod seeing;
 mod several;
+mod taught;
 mod tempered;
 
 fn task(text: &str) -> Task {
