@@ -4,10 +4,11 @@
 
 For each model a guide is taught on the training scribbles and their mirror images (each eighth scribble judges the
 line), by seed 1. Then held-out drawings are searched, which no training saw: by N particles, by N with a look-ahead of
-0.2, and by 1.5 N without; tempered resampling and one thread. Methods take turns, drawing by drawing, so that a busy
-machine is busy for all of them. A row has mean, median and worst tenth of the similarities of the best run, the share
-of stumps (below 0.1), the mean of the estimates of the log evidence, particle-steps and CPU milliseconds of a search;
-the differences to 1.5 N have standard errors, search by search.
+0.2, by N with the same of a line in the score so far alone, and by 1.5 N without; tempered resampling and one thread.
+Methods take turns, drawing by drawing, so that a busy machine is busy for all of them. A row has mean, median and worst
+tenth of the similarities of the best run, the share of stumps (below 0.1), the mean of the estimates of the log
+evidence, particle-steps and CPU milliseconds of a search; the differences to 1.5 N have standard errors, search by
+search.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ SIZES = (10, 20, 50)
 COLLECTIONS = ("glyphs", "scribbles", "silhouettes")
 
 
-def taught(name: str) -> nw.Guide:
-    """The guide that ships with a model of the gallery, taught to look ahead."""
+def taught(name: str, looks: bool) -> nw.Guide:
+    """The guide that ships with a model of the gallery, taught to look ahead, or to judge by the score so far alone."""
     entry = gallery.entry(name)
     assert entry is not None and entry.window is not None
     page, own = entry.window, guides.shipped(entry.model)
@@ -49,6 +50,7 @@ def taught(name: str) -> nw.Guide:
         lambda one: one.place(page),
         held_out=training[:: guides.EVERY],
         searches=3000,
+        looks=looks,
         seed=1,
     )
 
@@ -62,21 +64,24 @@ def searched(search: nw.Search) -> tuple[float, float, float, float]:
     return best.similarity, found.log_evidence, found.info.steps, cost
 
 
-def ways(particles: int, guide: nw.Guide) -> dict[str, nw.Smc]:
+def ways(particles: int, guide: nw.Guide, blind: nw.Guide) -> dict[str, nw.Smc]:
     """The methods that are compared."""
 
-    def own(n: int, **more: Any) -> nw.Smc:
-        return nw.smc(n, resampling="tempered", guide=guide, **more)
+    def own(n: int, drawing: nw.Guide = guide, **more: Any) -> nw.Smc:
+        return nw.smc(n, resampling="tempered", guide=drawing, **more)
 
     more = particles * 3 // 2
     return {
         f"{particles}": own(particles),
         f"{particles}, looking ahead": own(particles, look_ahead=STRENGTH),
+        f"{particles}, by the score alone": own(particles, blind, look_ahead=STRENGTH),
         f"{more}": own(more),
     }
 
 
-def compare(name: str, guide: nw.Guide, seeds: int, limit: int | None) -> list[dict[str, Any]]:
+def compare(
+    name: str, guide: nw.Guide, blind: nw.Guide, seeds: int, limit: int | None
+) -> list[dict[str, Any]]:
     """Print and return a row for each collection, number of particles and method."""
     entry = gallery.entry(name)
     assert entry is not None and entry.window is not None
@@ -88,7 +93,7 @@ def compare(name: str, guide: nw.Guide, seeds: int, limit: int | None) -> list[d
             ends: dict[str, list[tuple[float, float, float, float]]] = {}
             for seed in range(seeds):
                 for args, score in cases:
-                    for way, method in ways(particles, guide).items():
+                    for way, method in ways(particles, guide, blind).items():
                         search = nw.Search(entry.model, args, score=score, method=method, seed=seed)
                         ends.setdefault(way, []).append(searched(search))
             most = np.array(list(ends.values())[-1])
@@ -150,12 +155,13 @@ def main() -> int:
     rows = []
     for name in given.model or ("vines", "lightning"):
         start, cpu = time.perf_counter(), time.process_time()
-        guide = taught(name)
+        guide = taught(name, looks=True)
         took = time.perf_counter() - start, time.process_time() - cpu
+        blind = taught(name, looks=False)
         print(
             f"{name}: {guide.report['look_ahead']}, {took[0]:.0f} s ({took[1]:.0f} s of CPU)", file=sys.stderr
         )
-        rows += compare(name, guide, given.seeds, given.limit)
+        rows += compare(name, guide, blind, given.seeds, given.limit)
     if given.json is not None:
         given.json.write_text(json.dumps(rows, indent=1) + "\n")
     return 0

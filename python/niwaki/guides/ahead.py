@@ -30,6 +30,7 @@ def train_look_ahead(
     searches: int = 2000,
     states: int = 4,
     particles: int = 10,
+    looks: bool = True,
     seed: int | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -56,6 +57,9 @@ def train_look_ahead(
         How many paused particles of each are kept.
     particles
         How many particles go on from each of them.
+    looks
+        Whether the line sees what the network sees; False for one in the score so far alone, which costs nothing in a
+        search.
     seed
         Decides everything; fresh when left out.
     threads
@@ -119,6 +123,7 @@ def train_look_ahead(
         "states": states,
         "particles": [max(method.sizes), particles],
         "settings": method.data(str),
+        "looks": bool(looks),
         "seed": seed,
     }
     with translated(model.name, f"seed={seed}"):

@@ -143,6 +143,13 @@ def test_the_evidence_is_that_of_enumeration(guide: nw.Guide, strength: float, s
     assert abs(ratios.mean() - 1.0) < 5 * ratios.std() / np.sqrt(600)
 
 
+def test_a_line_in_the_score_alone_is_another_one(plain: nw.Guide, guide: nw.Guide) -> None:
+    blind = taught(plain, looks=False)
+    weights = blind.form["ahead"]["weights"]
+    assert [k for k, one in enumerate(weights) if one] == [2, 3]
+    assert blind.report["look_ahead"]["rises"] == guide.report["look_ahead"]["rises"]
+
+
 def test_it_weighs_particles_on_their_way(guide: nw.Guide) -> None:
     near, far = (
         nw.run(path, method=smc(40, guide=guide, look_ahead=strength), score=score(PAGES[0]), seed=4)

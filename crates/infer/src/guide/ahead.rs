@@ -40,6 +40,8 @@ use std::sync::Arc;
 const MOST: usize = 16;
 /// Inputs beside the hidden layer.
 const BESIDE: usize = 6;
+/// Those that the score alone decides.
+pub(super) const OF_SCORE: std::ops::Range<usize> = 2..4;
 
 /// The line of a guide that looks ahead.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,6 +61,12 @@ impl AheadForm {
         self.weights.len() == inputs(hidden)
             && numbers.into_iter().all(|x| x.is_finite())
             && self.range.0 <= self.range.1
+    }
+
+    /// Whether it sees more than the score.
+    fn looks(&self) -> bool {
+        let mut weights = self.weights.iter().enumerate();
+        weights.any(|(k, weight)| *weight != 0.0 && !OF_SCORE.contains(&k))
     }
 
     /// The rise that it says of a run with these inputs and this log score, nats.
@@ -147,9 +155,14 @@ pub struct Foresight {
 
 impl Forecast for Foresight {
     fn rise(&self, run: Paused<'_>, machine: &mut Machine<'_>, sight: &mut Sight) -> f64 {
+        let log_score = run.record.log_score();
         match &self.guide.guide().form.ahead {
+            Some(line) if line.looks() => {
+                line.rise(self.guide.prospect(run, machine, sight, self.owner), log_score)
+            }
             Some(line) => {
-                line.rise(self.guide.prospect(run, machine, sight, self.owner), run.record.log_score())
+                let g = root(log_score);
+                line.rise(&[0.0, 0.0, g, g * g], log_score)
             }
             None => 0.0,
         }

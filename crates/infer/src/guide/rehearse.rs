@@ -5,7 +5,7 @@
 //! rise. Ridge regression finds the line; rises of the targets that judge decide its strength. A rise of minus infinity
 //! counts as the least of the others.
 
-use super::ahead::{AheadForm, inputs, root};
+use super::ahead::{AheadForm, OF_SCORE, inputs, root};
 use super::bound::{BoundGuide, Sight};
 use super::climb::Case;
 use super::ridge::{Examples, ridge};
@@ -33,6 +33,8 @@ pub struct Rehearsal {
     pub particles: [usize; 2],
     /// The settings of both.
     pub settings: Settings,
+    /// Whether the line sees the network, or the score alone.
+    pub looks: bool,
     /// Decides every random number.
     pub seed: u64,
 }
@@ -123,7 +125,9 @@ pub fn rehearse(
     for (number, lessons) in met.iter().enumerate() {
         let own = if cases[number % cases.len()].held_out { &mut judging } else { &mut learned };
         for lesson in lessons {
-            own.inputs.extend(&lesson.inputs);
+            let inputs = lesson.inputs.iter().enumerate();
+            own.inputs
+                .extend(inputs.map(|(k, x)| if plan.looks || OF_SCORE.contains(&k) { *x } else { 0.0 }));
             own.labels.push(lesson.root().max(low));
         }
     }

@@ -53,7 +53,7 @@ fn tasks() -> impl Iterator<Item = (&'static str, Task)> {
 
 fn plan(searches: usize, seed: u64) -> Rehearsal {
     let settings = settings(Order::Stochastic, Resampling::Tempered);
-    Rehearsal { searches, states: 3, particles: [6, 5], settings, seed }
+    Rehearsal { searches, states: 3, particles: [6, 5], settings, looks: true, seed }
 }
 
 fn learned(task: &Task, guide: &Arc<BoundGuide>, plan: &Rehearsal) -> Rehearsed {
@@ -304,6 +304,26 @@ fn it_learns_what_is_still_to_come() {
     assert!(found.rises.iter().sum::<usize>() > 600 && found.rises[1] > 200, "{:?}", found.rises);
     assert_eq!((found.failed, found.died), (0, 0));
     assert!(found.error[1] < 0.8 * found.deviation, "{:?} {}", found.error, found.deviation);
+}
+
+/// A line in the score alone says the same whether it looks or not.
+#[test]
+fn the_score_alone_is_enough_for_a_line() {
+    let task = strokes();
+    let guide = blank(&task);
+    let blind = learned(&task, &guide, &Rehearsal { looks: false, ..plan(60, 2) }).guide.form.ahead.unwrap();
+    assert!(blind.weights.iter().enumerate().all(|(k, weight)| (2..4).contains(&k) || *weight == 0.0));
+    let foresight = Foresight { guide: with_line(&guide, &task, blind.clone()), owner: 0 };
+    let own = settings(Order::Stochastic, Resampling::Systematic);
+    let mut population = Population::start(&task, &own, true).unwrap();
+    population.advance(None).unwrap();
+    let (mut machine, mut sight) = (task.machine(), Sight::default());
+    for p in &population.particles {
+        let run = Paused { task: &task, record: &p.record, state: &p.state };
+        let inputs = guide.prospect(run, &mut machine, &mut sight, 0).to_vec();
+        let expected = blind.rise(&inputs, p.record.log_score());
+        assert_eq!(foresight.rise(run, &mut machine, &mut sight), expected);
+    }
 }
 
 #[test]
