@@ -1,6 +1,7 @@
 """Look-ahead beside half as many particles more: guides that ship, taught by `niwaki.guides.train_look_ahead`.
 
     python benches/look_ahead.py [--model vines] [--seeds 2] [--limit 100] [--json out/look-ahead.json]
+    python benches/look_ahead.py --picture docs/pictures/guides/look-ahead.png     # vines in ten glyphs, no table
 
 For each model a guide is taught on the training scribbles and their mirror images (each eighth scribble judges the
 line), by seed 1. Then held-out drawings are searched, which no training saw: by N particles, by N with a look-ahead of
@@ -25,12 +26,17 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 from niwaki import gallery, guides
+from niwaki.draw.flat.drawing import drawing
+from niwaki.gallery import vines
 from niwaki.guides.report import STUMP
 from niwaki.search import SearchWarning
 from niwaki.targets import drawings
+from pages import beside, stacked
 
 STRENGTH = 0.2
 SIZES = (10, 20, 50)
+#: Pixels along a side of a picture.
+SIDE = 110
 COLLECTIONS = ("glyphs", "scribbles", "silhouettes")
 
 
@@ -137,6 +143,27 @@ def line(row: dict[str, Any]) -> str:
     )
 
 
+def drawn(path: Path) -> None:
+    """Vines in each twentieth held-out glyph by ten particles, by ten that look ahead, and by fifteen; one seed."""
+    guide = taught("vines", looks=True)
+    chosen = [drawings.drawing(one) for one in drawings.names("glyphs", "held-out")[::20]]
+    rows = []
+    for way, method in ways(10, guide, guide).items():
+        if way.endswith("alone"):
+            continue
+        cells = []
+        for one in chosen:
+            args, score = one.place(vines.WINDOW), one.score(vines.WINDOW)
+            found = nw.run(vines.vines, *args, method=method, score=score, seed=0, threads=1)
+            best = max(found, key=lambda sample: sample.log_joint)
+            page = {"style": vines.DRAWS, "window": one.window(vines.WINDOW), "under": one.greys < 255}
+            cells.append(drawing(best.scene, size=(SIDE, SIDE), **page).convert("RGB"))
+        rows.append(
+            (f"{way} particles" if way.isdecimal() else way.replace(",", " particles,"), beside(cells))
+        )
+    stacked(rows).quantize(128).save(path, optimize=True)
+
+
 def main() -> int:
     """Teach, compare, print."""
     parser = argparse.ArgumentParser(
@@ -146,8 +173,12 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--limit", type=int, help="so many drawings of each collection; all when left out")
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--picture", type=Path)
     given = parser.parse_args()
     warnings.simplefilter("ignore", SearchWarning)
+    if given.picture is not None:
+        drawn(given.picture)
+        return 0
     print(
         "| drawings | particles | mean | median | p10 | stumps | log evidence | steps | CPU, ms | less 1.5 N |"
     )
