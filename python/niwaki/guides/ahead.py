@@ -89,7 +89,7 @@ def train_look_ahead(
     >>> score, place = lambda one: one.score(WINDOW), lambda one: one.place(WINDOW)
     >>> guide = train_look_ahead(shipped(vines), vines, pictures[:9], score, place, searches=18, seed=1)
     >>> guide.report["look_ahead"]["rises"]
-    [64, 8]
+    [56, 16]
     >>> method = nw.smc(10, resampling="tempered", guide=guide, look_ahead=0.2)
     """
     model, seed = as_model(model), fresh(seed)

@@ -194,7 +194,7 @@ def test_what_makes_no_sense_is_refused(guide: nw.Guide, plain: nw.Guide) -> Non
         assert refused(lambda strength=strength: smc(10, guide=guide, look_ahead=strength)) == "bad-setting"  # type: ignore[misc]
     assert refused(lambda: smc(10, look_ahead=0.2)) == "guide-ahead"
     assert refused(lambda: pimh(10, guide=plain, look_ahead=0.2)) == "guide-ahead"
-    moved = {"guide": guide, "look_ahead": 0.2, "rejuvenate": nw.kernels.prior()}
+    moved: dict[str, Any] = {"guide": guide, "look_ahead": 0.2, "rejuvenate": nw.kernels.prior()}
     assert refused(lambda: smc(10, **moved)) == "bad-setting"
     assert smc(10, **moved, at="end").look_ahead == 0.2
     assert refused(lambda: taught(plain, method=smc(10, weights="absolute"))) == "bad-setting"

@@ -11,7 +11,7 @@ use crate::guide::ahead::{AheadForm, Foresight};
 use crate::guide::bound::{BoundGuide, Sight};
 use crate::guide::climb::Case;
 use crate::guide::rehearse::{Rehearsal, Rehearsed, rehearse};
-use crate::guide::tests::{blank, limbs};
+use crate::guide::tests::{blank, limbs, trained};
 use crate::guide::{Guide, Network};
 use crate::particles::rises::{paused, rise};
 use crate::proposal::{ByProposal, Proposal};
@@ -70,7 +70,7 @@ fn with_line(guide: &Arc<BoundGuide>, task: &Task, ahead: AheadForm) -> Arc<Boun
 
 /// A guide with a line that has been learned, and one with a line that makes no sense.
 fn guides(task: &Task) -> [Arc<BoundGuide>; 2] {
-    let guide = blank(task);
+    let guide = trained(task);
     let line = learned(task, &guide, &plan(60, 1)).guide.form.ahead.unwrap();
     let absurd = (0..line.weights.len()).map(|k| 40.0 * (7.0 * k as f64).sin()).collect();
     let absurd = AheadForm { constant: 0.3, weights: absurd, range: (-1.5, 1.5) };
@@ -207,8 +207,9 @@ fn the_rise_is_from_the_score_now_to_the_foreseen_one() {
 #[test]
 fn a_glance_changes_no_draw() {
     for task in [strokes(), limbs()] {
-        let line = AheadForm { constant: 1.0, weights: vec![0.1; blank_inputs(&task)], range: (-2.0, 2.0) };
-        let guide = with_line(&blank(&task), &task, line);
+        let guide = trained(&task);
+        let line = AheadForm { constant: 1.0, weights: vec![0.1; inputs(&guide)], range: (-2.0, 2.0) };
+        let guide = with_line(&guide, &task, line);
         let own = Settings { particles: 40, seed: 9, ..settings(Order::Stochastic, Resampling::Tempered) };
         let own = looking(&guide, own);
         let weak = own.look_ahead.clone().map(|ahead| LookAhead { strength: 1e-300, ..ahead });
@@ -222,8 +223,7 @@ fn a_glance_changes_no_draw() {
     }
 }
 
-fn blank_inputs(task: &Task) -> usize {
-    let guide = blank(task);
+fn inputs(guide: &BoundGuide) -> usize {
     let Network::Shared(net) = &guide.guide().net else { return 0 };
     6 + 2 * net.form().hidden[1]
 }
