@@ -36,7 +36,7 @@ from pages import beside, stacked
 STRENGTH = 0.2
 SIZES = (10, 20, 50)
 #: Pixels along a side of a picture.
-SIDE = 110
+SIDE = 84
 COLLECTIONS = ("glyphs", "scribbles", "silhouettes")
 
 
@@ -161,7 +161,7 @@ def drawn(path: Path) -> None:
         rows.append(
             (f"{way} particles" if way.isdecimal() else way.replace(",", " particles,"), beside(cells))
         )
-    stacked(rows).quantize(128).save(path, optimize=True)
+    stacked(rows).quantize(32).save(path, optimize=True)
 
 
 def main() -> int:
