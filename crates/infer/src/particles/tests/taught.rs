@@ -70,7 +70,7 @@ fn with_line(guide: &Arc<BoundGuide>, task: &Task, ahead: AheadForm) -> Arc<Boun
 
 /// A guide with a line that has been learned, and one with a line that makes no sense.
 fn guides(task: &Task) -> [Arc<BoundGuide>; 2] {
-    let guide = trained(task);
+    let guide = blank(task);
     let line = learned(task, &guide, &plan(60, 1)).guide.form.ahead.unwrap();
     let absurd = (0..line.weights.len()).map(|k| 40.0 * (7.0 * k as f64).sin()).collect();
     let absurd = AheadForm { constant: 0.3, weights: absurd, range: (-1.5, 1.5) };
