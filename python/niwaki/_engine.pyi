@@ -55,6 +55,7 @@ __all__ = [
     "parameter_names",
     "population",
     "raise_bound",
+    "rehearse",
     "render",
     "support",
     "unique_models",
@@ -615,6 +616,14 @@ class Lessons:
         checkpoint: Checkpoint | None = None,
     ) -> tuple[Guide, dict[str, Any]]: ...
 
+def rehearse(
+    tasks: Sequence[Task],
+    held_out: Sequence[Task],
+    guide: Guide,
+    settings: str,
+    threads: int | None = None,
+    watch: Callable[[int, int, float, Run | None], None] | None = None,
+) -> tuple[Guide, dict[str, Any]]: ...
 def raise_bound(
     tasks: Sequence[Task],
     held_out: Sequence[Task],

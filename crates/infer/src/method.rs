@@ -15,8 +15,8 @@ use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
 use crate::losses::Lost;
 use crate::particles::{
-    self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
-    populations, within,
+    self, Ancestors, FinalChains, LookAhead, Moment, Progress, Rejuvenation, Resampling, Settings,
+    particle_gibbs, pimh, populations, within,
 };
 use crate::proposal::Proposal;
 use crate::rejection::rejection;
@@ -81,6 +81,8 @@ pub struct Smc {
     at: Moment,
     draws: Option<usize>,
     chains: usize,
+    #[serde(default)]
+    look_ahead: Option<f64>,
     #[serde(flatten)]
     settings: Settings,
     #[serde(flatten)]
@@ -102,6 +104,8 @@ pub struct ParticleGibbs {
     sweeps: usize,
     ancestors: bool,
     proposal: Option<Form>,
+    #[serde(default)]
+    look_ahead: Option<f64>,
     #[serde(flatten)]
     settings: Settings,
     #[serde(flatten)]
@@ -114,6 +118,8 @@ pub struct Pimh {
     particles: usize,
     sweeps: usize,
     proposal: Option<Form>,
+    #[serde(default)]
+    look_ahead: Option<f64>,
     #[serde(flatten)]
     settings: Settings,
     #[serde(flatten)]
@@ -506,7 +512,15 @@ impl Smc {
         };
         let particles = self.plan().first().copied().unwrap_or(0);
         let proposal = proposed(self.proposal.as_ref(), given)?;
-        Ok(Settings { particles, seed: given.seed, rejuvenate, proposal, ..self.settings.clone() })
+        let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
+        Ok(Settings {
+            particles,
+            seed: given.seed,
+            rejuvenate,
+            proposal,
+            look_ahead,
+            ..self.settings.clone()
+        })
     }
 
     /// Sizes of its populations without a time limit. Different results need one population each, unless chains give them.
@@ -523,6 +537,7 @@ impl Smc {
 
 impl ParticleGibbs {
     fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        let proposal = proposed(self.proposal.as_ref(), given)?;
         Ok(Settings {
             particles: self.particles,
             seed: given.seed,
@@ -531,7 +546,8 @@ impl ParticleGibbs {
                 Resampling::Tempered => Resampling::Tempered,
                 _ => Resampling::Multinomial,
             },
-            proposal: proposed(self.proposal.as_ref(), given)?,
+            look_ahead: ahead(self.look_ahead, proposal.as_deref())?,
+            proposal,
             ..self.settings.clone()
         })
     }
@@ -540,7 +556,14 @@ impl ParticleGibbs {
 impl Pimh {
     fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
         let proposal = proposed(self.proposal.as_ref(), given)?;
-        Ok(Settings { particles: self.particles, seed: given.seed, proposal, ..self.settings.clone() })
+        let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
+        Ok(Settings {
+            particles: self.particles,
+            seed: given.seed,
+            proposal,
+            look_ahead,
+            ..self.settings.clone()
+        })
     }
 }
 
@@ -582,6 +605,16 @@ impl Mh {
 fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
     let Some(form) = form else { return Ok(None) };
     Ok(Some(Arc::new(Proposal::of(&form.kernel(given.attached)?)?)))
+}
+
+/// What weights count of the rest of a run: so much of what a guide of the proposal says.
+fn ahead(strength: Option<f64>, proposal: Option<&Proposal>) -> Result<Option<LookAhead>, Fault> {
+    let Some(strength) = strength else { return Ok(None) };
+    match proposal.and_then(Proposal::forecast) {
+        Some(forecast) => Ok(Some(LookAhead { strength, forecast })),
+        None => Err(Fault::new("guide-ahead", "no guide of this search has learned to look ahead")
+            .with_help("teach its guide by `niwaki.guides.train_look_ahead`, or give no `look_ahead`")),
+    }
 }
 
 fn of_chain(mut chain: particles::Chain) -> Results {

@@ -3,10 +3,10 @@
 use crate::Failure;
 use crate::chooser::Chooser;
 use crate::forward::Forward;
+use crate::guide::bound::Glance;
 use crate::order::Past;
 use crate::record::Record;
 use crate::task::Task;
-use niwaki_geom::Place;
 use niwaki_math::{Stream, StreamKey, Total};
 use niwaki_vm::machine::state::{FutureId, State};
 use niwaki_vm::machine::{Machine, Stop};
@@ -35,8 +35,8 @@ pub(crate) struct Particle {
     pub log_weight: f64,
     /// Log of prior over proposal of the choices since the last barrier: not yet in its weight.
     pub pending: f64,
-    /// The place of the last choice that a guide looked at.
-    pub place: Option<Place>,
+    /// What its guide saw when it paused.
+    pub glance: Glance,
     /// Log of its twist at this barrier, at power 1, nats ([`LookAhead`](crate::particles::LookAhead)).
     pub ahead: f64,
     /// The log twist that is in its weight.
@@ -61,7 +61,7 @@ impl Particle {
             was_ended: false,
             log_weight: 0.0,
             pending: 0.0,
-            place: None,
+            glance: Glance::default(),
             ahead: 0.0,
             foreseen: 0.0,
             home: 0,
@@ -150,7 +150,7 @@ impl Particle {
             weighed: self.weighed.clone(),
             log_weight: self.log_weight,
             pending: self.pending,
-            place: self.place,
+            glance: self.glance.clone(),
             ahead: self.ahead,
             foreseen: self.foreseen,
             home: self.home,
@@ -170,7 +170,7 @@ impl Particle {
         self.weighed.clone_from(&parent.weighed);
         self.log_weight = parent.log_weight;
         self.pending = parent.pending;
-        self.place = parent.place;
+        self.glance.become_copy(&parent.glance);
         self.ahead = parent.ahead;
         self.foreseen = parent.foreseen;
         self.home = parent.home;

@@ -37,6 +37,9 @@ pub(crate) enum Reserved {
     Pick = u64::MAX - 12,
     /// A search for the best: which kind of step is next (the address is the round), and the seed of a further population.
     Improve = u64::MAX - 13,
+    /// Particles that are looked at while they are paused: which (the address is the barrier), and the seed of the search that
+    /// goes on from one (the address is its number).
+    Paused = u64::MAX - 14,
 }
 
 impl Reserved {

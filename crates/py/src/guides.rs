@@ -10,11 +10,13 @@ use niwaki_infer::guide::Guide;
 use niwaki_infer::guide::bound::BoundGuide;
 use niwaki_infer::guide::climb::{Case, climb};
 use niwaki_infer::guide::lessons::{Example, Making, losses, train};
+use niwaki_infer::guide::rehearse::{Rehearsal, rehearse as rehearsed};
 use niwaki_infer::log::Entry;
 use niwaki_vm::fault::Fault;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
+use serde::de::DeserializeOwned;
 use std::sync::Arc;
 
 /// A trained guide.
@@ -114,8 +116,7 @@ impl PyLessons {
         watch: Option<Py<PyAny>>,
         checkpoint: Option<&PyCheckpoint>,
     ) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
-        let making: Making = serde_json::from_str(settings)
-            .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
+        let making: Making = read(py, settings)?;
         let classes = &task.model.get().classes;
         let caller = watch.as_ref().map(|call| (call, classes));
         let start = start.map(|own| own.guide.clone());
@@ -154,13 +155,9 @@ fn raise_bound<'py>(
     watch: Option<Py<PyAny>>,
     checkpoint: Option<&PyCheckpoint>,
 ) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
-    let making: Making = serde_json::from_str(settings)
-        .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))?;
+    let making: Making = read(py, settings)?;
     let Some(first) = tasks.first() else { return Err(PyValueError::new_err("there are no tasks")) };
-    let case = |task: &Py<PyTask>, held_out| Ok(Case { task: task.get().keeping_all(py)?, held_out });
-    let learned = tasks.iter().map(|task| case(task, false));
-    let judged = held_out.iter().map(|task| case(task, true));
-    let cases = learned.chain(judged).collect::<PyResult<Vec<Case>>>()?;
+    let cases = cases(py, &tasks, &held_out)?;
     let (start, checkpoint) = (start.map(|own| own.guide.clone()), checkpoint.map(|own| &own.checkpoint));
     let task = first.get();
     let classes = &task.model.get().classes;
@@ -180,9 +177,57 @@ fn raise_bound<'py>(
     Ok((PyGuide { guide: Arc::new(result.guide) }, told))
 }
 
+/// Teaches a guide to look ahead: the guide, and a dict of what happened. Tasks of `held_out` judge. ``settings`` is JSON.
+#[pyfunction]
+#[pyo3(signature = (tasks, held_out, guide, settings, threads=None, watch=None))]
+fn rehearse<'py>(
+    py: Python<'py>,
+    tasks: Vec<Py<PyTask>>,
+    held_out: Vec<Py<PyTask>>,
+    guide: &PyGuide,
+    settings: &str,
+    threads: Option<usize>,
+    watch: Option<Py<PyAny>>,
+) -> PyResult<(PyGuide, Bound<'py, PyDict>)> {
+    let plan: Rehearsal = read(py, settings)?;
+    let cases = cases(py, &tasks, &held_out)?;
+    let Some(first) = tasks.first() else { return Err(PyValueError::new_err("there are no tasks")) };
+    let task = first.get();
+    let classes = &task.model.get().classes;
+    let caller = watch.as_ref().map(|call| (call, classes));
+    let own = guide.guide.clone();
+    let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+        rehearsed(&cases, &own, &plan, &mut |done, wanted| watch.look(done as u64, wanted, 0.0))
+    })?;
+    let told = PyDict::new(py);
+    told.set_item("rises", result.rises)?;
+    told.set_item("died", result.died)?;
+    told.set_item("failed", result.failed)?;
+    told.set_item("error", result.error)?;
+    told.set_item("deviation", result.deviation)?;
+    told.set_item("strength", result.strength)?;
+    told.set_item("interrupted", pressed)?;
+    Ok((PyGuide { guide: Arc::new(result.guide) }, told))
+}
+
+/// The settings of a training, from JSON.
+fn read<T: DeserializeOwned>(py: Python<'_>, settings: &str) -> PyResult<T> {
+    serde_json::from_str(settings)
+        .map_err(|error| faults::setting(py, &Fault::new("bad-setting", error.to_string())))
+}
+
+/// Targets to learn from, and targets that judge.
+fn cases(py: Python<'_>, tasks: &[Py<PyTask>], held_out: &[Py<PyTask>]) -> PyResult<Vec<Case>> {
+    let case = |task: &Py<PyTask>, held_out| Ok(Case { task: task.get().keeping_all(py)?, held_out });
+    let learned = tasks.iter().map(|task| case(task, false));
+    let judged = held_out.iter().map(|task| case(task, true));
+    learned.chain(judged).collect()
+}
+
 /// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyGuide>()?;
     module.add_class::<PyLessons>()?;
+    module.add_function(wrap_pyfunction!(rehearse, module)?)?;
     module.add_function(wrap_pyfunction!(raise_bound, module)?)
 }

@@ -89,6 +89,11 @@ class Guide:
         name: str = self.form["model"]
         return name
 
+    @property
+    def looks_ahead(self) -> bool:
+        """Whether it has learned to look ahead (`niwaki.guides.train_look_ahead`)."""
+        return self.form.get("ahead") is not None
+
     def reported(self, report: Mapping[str, Any]) -> Guide:
         """The same guide with another report."""
         return Guide(self._engine.with_report(json.dumps(report)).data())
@@ -131,6 +136,9 @@ class Guide:
             variables = [form["variables"][number] for number in site["variables"]]
             seen = [name for one in variables for name in _names(inputs, one["first"], one["kind"])]
             lines.append(f"    sees {', '.join(seen) or 'no variable'}")
+        if self.looks_ahead:
+            low, high = form["ahead"]["range"]
+            lines.append(f"looks ahead: what a paused run will still gain, {low:.3g} to {high:.3g} nats")
         lines.extend(f"{name}: drawn from its prior, because {reason}" for name, reason in form["left"])
         return "\n".join(lines)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from niwaki.errors import InputError
 from niwaki.errors.settings import MOST, bad, is_number, is_whole, shown
-from niwaki.methods.checks import at_least_one, one_of
+from niwaki.methods.checks import at_least_one, look_ahead, one_of
 from niwaki.methods.checks import guided as with_guide
 from niwaki.methods.checks import particles as check_particles
 from niwaki.methods.guide import Guide
@@ -68,6 +68,11 @@ class Smc(Method):
         unbiased though costly populations are often the good ones. `Result.info.plan` lists their sizes.
     proposal, guide
         What draws choices in place of the prior, as for `importance`. Not with absolute weights.
+    look_ahead
+        Let weights count this share of what a guide expects the log scores of running particles to gain until they end;
+        0.2 is a good one. A guide learns it by `niwaki.guides.train_look_ahead`. In the end it counts nothing, so
+        evidence and final law are the same for every value. Not with absolute weights, and with `rejuvenate` only at
+        the end.
     rejuvenate
         A kernel of `niwaki.kernels` that moves each particle without changing the law that all follow, so that copies
         become different again (Gilks & Berzuini 2001). A particle that still runs keeps its skeleton: which parts,
@@ -96,6 +101,7 @@ class Smc(Method):
     diverse: int | None = None
     seconds: float | None = None
     proposal: Kernel | None = None
+    look_ahead: float | None = None
     rejuvenate: Kernel | None = None
     moves: int = 1
     at: int | str = 1
@@ -136,6 +142,8 @@ class Smc(Method):
             expected = "None together with absolute weights, which ignore the density of a proposal"
             raise bad("proposal", self.proposal, expected, 'None, or `weights` to "ratio"')
         self._check_moves()
+        moves = self.rejuvenate is not None and self.at != "end"
+        self._set("look_ahead", look_ahead(self.look_ahead, self.proposal, moves))
         self._set("anneal", _powers(self.anneal, self.weights))
 
     def _check_moves(self) -> None:
@@ -202,6 +210,8 @@ class ParticleGibbs(Method):
         Whether the past of the held run is drawn again at each resampling.
     proposal, guide
         What draws choices in place of the prior, as for `importance`.
+    look_ahead
+        As for `smc`.
     """
 
     NAME = "particle_gibbs"
@@ -214,6 +224,7 @@ class ParticleGibbs(Method):
     anneal: Sequence[float] | None = None
     ancestors: bool = True
     proposal: Kernel | None = None
+    look_ahead: float | None = None
     guide: InitVar[Guide | None] = None
 
     def __post_init__(self, guide: Guide | None) -> None:
@@ -226,6 +237,7 @@ class ParticleGibbs(Method):
         self._set("anneal", _fixed(self.anneal))
         self._set("ancestors", bool(self.ancestors))
         self._set("proposal", with_guide(self.proposal, guide))
+        self._set("look_ahead", look_ahead(self.look_ahead, self.proposal))
 
 
 @dataclass(frozen=True)
@@ -246,6 +258,8 @@ class Pimh(Method):
         The power at each barrier, as for `smc`.
     proposal, guide
         What draws choices in place of the prior, as for `importance`.
+    look_ahead
+        As for `smc`.
     """
 
     NAME = "pimh"
@@ -257,6 +271,7 @@ class Pimh(Method):
     ess: float | None = None
     anneal: Sequence[float] | None = None
     proposal: Kernel | None = None
+    look_ahead: float | None = None
     guide: InitVar[Guide | None] = None
 
     def __post_init__(self, guide: Guide | None) -> None:
@@ -268,6 +283,7 @@ class Pimh(Method):
         _check_power(self)
         self._set("anneal", _fixed(self.anneal))
         self._set("proposal", with_guide(self.proposal, guide))
+        self._set("look_ahead", look_ahead(self.look_ahead, self.proposal))
 
 
 smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh

@@ -69,7 +69,7 @@ class Asked:
             aim,
             **{**start, **arguments},
             score=score,
-            method=settings.guided(settings.method(method, given, suits), own),
+            method=settings.guided(settings.method(method, given, suits), own, given),
             polish=onward,
             seed=self.seed,
             lock=lock,

@@ -69,6 +69,14 @@ def train(
     mirror: Annotated[
         bool, typer.Option("--mirror/--no-mirror", help="Learn from mirrored drawings, too.")
     ] = True,
+    look_ahead: Annotated[
+        int | None,
+        typer.Option(
+            "--look-ahead",
+            metavar="SEARCHES",
+            help="Then teach it to look ahead, by so many searches, such as 2000.",
+        ),
+    ] = None,
     window: controls.Window = None,
     pixels: controls.Pixels = None,
     voxel: controls.Voxel = None,
@@ -107,6 +115,18 @@ def train(
             threads=threads,
             progress=progress,
             checkpoint=place,
+        )
+    if look_ahead is not None and not guide.report.get("interrupted"):
+        guide = guides.train_look_ahead(
+            guide,
+            found.model,
+            goals.learned,
+            goals.score,
+            goals.args,
+            held_out=goals.held_out,
+            searches=look_ahead,
+            seed=seed,
+            threads=threads,
         )
     guide.save(output)
     seconds = time.perf_counter() - began

@@ -157,7 +157,7 @@ def described(method: type[Method]) -> dict[str, str]:
 
 
 def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) -> Method:
-    """The method with the given settings.
+    """The method with the given settings, but without its guide and what that needs (`guided`).
 
     Parameters
     ----------
@@ -187,7 +187,8 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
             owners = [own for own, kind in METHODS.items() if key in {field.name for field in fields(kind)}]
             other = " or ".join(f"`--method {own}`" for own in owners)
             reason = f"`--method {name}` has no such setting"
-            raise InputError("flag-alone", flag=f"--{key}", other=other, reason=reason)
+            flag = f"--{key.replace('_', '-')}"
+            raise InputError("flag-alone", flag=flag, other=other, reason=reason)
     if "seconds" in options and chosen is Smc:
         for key, flag in (("particles", "-n"), ("populations", "--populations")):
             if key in options:
@@ -198,6 +199,7 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
                     reason="the given time decides the numbers of particles and populations",
                     cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
+    options.pop("look_ahead", None)
     known = {field.name for field in fields(chosen)}
     own = {key: value for key, value in suits.items() if key in known}
     if chosen is Improve:
@@ -249,14 +251,15 @@ def guide(
     return own
 
 
-def guided(method: Method, guide: Guide | None) -> Method:
-    """The method, its choices drawn by a guide."""
-    if guide is None:
+def guided(method: Method, guide: Guide | None, given: Mapping[str, Any]) -> Method:
+    """The method, its choices drawn by a guide, which looks ahead where the given settings say so."""
+    ahead = given.get("look_ahead")
+    if guide is None and ahead is None:
         return method
     if not isinstance(method, Smc | ParticleGibbs | Pimh):
         reason = f"`--method {method.NAME}` draws no choices by a guide"
         raise InputError("flag-alone", flag="--guide", other="`--method smc`", reason=reason)
-    return replace(method, guide=guide)
+    return replace(method, guide=guide, look_ahead=ahead)
 
 
 def typed(given: dict[str, Any]) -> dict[str, Any]:

@@ -87,6 +87,20 @@ def test_a_guide_is_shown_and_gone_on_with(trained: tuple[Path, Any], pictures: 
     assert "the guide that was given; held out" in run("guide", "show", tmp_path / "more.guide").stdout
 
 
+def test_a_guide_is_taught_to_look_ahead(pictures: Path, tmp_path: Path) -> None:
+    out = tmp_path / "far.guide"
+    train = ("guide", "train", "lightning", "--targets", pictures, "--out", out, "--rounds", "6")
+    made = run(*train, "--seed", "1", "--look-ahead", "24")
+    assert made.exit_code == 0, made.output
+    assert Guide.load(out).report["look_ahead"]["rises"][0] > 20
+    assert "looks ahead: " in run("guide", "show", out).stdout
+    grow = ("grow", "lightning", "--match-image", pictures / "0.png", "--seed", "1", "--no-picture")
+    grown = run(*grow, "--guide", out, "--look-ahead", "0.2", "-n", "5", "-o", tmp_path)
+    assert grown.exit_code == 0, grown.output
+    method = searched(tmp_path)
+    assert (method["look_ahead"], method["particles"]) == (0.2, 5)
+
+
 def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
     grown = run(*GROW, "-o", tmp_path)
     assert grown.exit_code == 0 and grown.stderr == TOLD
@@ -165,6 +179,11 @@ def test_what_is_refused(
             "a search that draws no choices by a guide": refused(
                 *GROW, "--method", "improve", "--guide", vines
             ),
+            "a guide that has not learned to look ahead": refused(
+                *GROW, "--guide", vines, "--look-ahead", "0.2"
+            ),
+            "look-ahead without a guide": refused(*GROW, "--guide", "none", "--look-ahead", "0.2"),
+            "look-ahead of another method": refused(*GROW, "--method", "improve", "--look-ahead", "0.2"),
             "a score that the guide does not see": refused("grow", "circuit", "--guide", vines),
             "a character that the font lacks": refused("letters", "木"),
             "nothing to write": refused("letters", " "),

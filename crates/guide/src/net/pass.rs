@@ -166,9 +166,31 @@ impl<T: Real> Net<T> {
         site: usize,
         scratch: &'s mut Scratch<T>,
     ) -> &'s [T] {
+        let second = self.hidden(sums, features, site, scratch).len();
+        let Scratch { second: hidden, outputs, .. } = scratch;
+        let (rows, constants, width) = self.layout.heads[site];
+        outputs.clear();
+        outputs.extend_from_slice(&self.weights[constants..constants + width]);
+        add_rows(outputs, &self.weights[rows..constants], &hidden[..second]);
+        &outputs[..self.form.heads[site].outputs()]
+    }
+
+    /// The second hidden layer at a site, each number between -1 and 1; all as for [`Net::answer`].
+    ///
+    /// # Panics
+    ///
+    /// As [`Net::answer`].
+    #[inline]
+    pub fn hidden<'s>(
+        &self,
+        sums: &[T],
+        features: &[(u32, T)],
+        site: usize,
+        scratch: &'s mut Scratch<T>,
+    ) -> &'s [T] {
         let (layout, weights) = (&self.layout, &self.weights);
         let [width, second_width] = layout.width;
-        let Scratch { first, second, outputs } = scratch;
+        let Scratch { first, second, .. } = scratch;
         first.clear();
         first.extend_from_slice(sums);
         let first = &mut first[..width];
@@ -183,10 +205,6 @@ impl<T: Real> Net<T> {
         let rows = &weights[layout.second..layout.second_constants];
         add_rows(second, rows, &first[..self.form.hidden[0]]);
         squash(second);
-        let (rows, constants, width) = layout.heads[site];
-        outputs.clear();
-        outputs.extend_from_slice(&weights[constants..constants + width]);
-        add_rows(outputs, &weights[rows..constants], &second[..self.form.hidden[1]]);
-        &outputs[..self.form.heads[site].outputs()]
+        &second[..self.form.hidden[1]]
     }
 }

@@ -8,13 +8,14 @@ use crate::Task;
 use crate::chooser::{Chosen, Context};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
-use niwaki_guide::Scratch;
 use niwaki_guide::filtered::View;
+use niwaki_guide::{Net, Scratch};
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::state::State;
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -56,6 +57,27 @@ pub struct Sight {
     pub(super) view: View,
     /// The place, in shares of the page from its upper left corner.
     pub(super) at: [f64; 2],
+    /// A copy of a run whose next choices are looked at, and what was seen there.
+    pub(super) copy: Option<State>,
+    pub(super) prospect: Vec<f64>,
+}
+
+/// What a guide saw last of a run that is paused, for when it goes on: its next choice is often at the same place.
+#[derive(Clone, Debug, Default)]
+pub struct Glance {
+    seen: Option<(usize, Place, usize)>,
+    sums: Vec<f32>,
+}
+
+impl Glance {
+    /// Becomes a copy of another one.
+    #[inline]
+    pub fn become_copy(&mut self, other: &Glance) {
+        self.seen = other.seen;
+        if other.seen.is_some() {
+            self.sums.clone_from(&other.sums);
+        }
+    }
 }
 
 impl Sight {
@@ -64,14 +86,31 @@ impl Sight {
         self.seen = None;
     }
 
-    /// Where was looked from last, since what was seen was forgotten.
-    pub fn place(&self) -> Option<Place> {
-        self.seen.map(|(_, here, _)| here)
+    /// Leaves what was seen to the run that pauses.
+    pub fn leave(&mut self, to: &mut Glance) {
+        to.seen = self.seen.take();
+        if to.seen.is_some() {
+            to.sums.clone_from(&self.sums);
+        }
+    }
+
+    /// Goes on with what a run was left, or forgets what was seen.
+    pub fn recall(&mut self, from: &Glance) {
+        self.seen = from.seen;
+        if from.seen.is_some() {
+            self.sums.clone_from(&from.sums);
+        }
     }
 
     /// The window that was seen last, and the inputs beside it.
     pub fn inputs(&self) -> (&[f32], &[(u32, f32)]) {
         (&self.window, &self.features)
+    }
+
+    /// Adds the second hidden layer of a network at its `site`-th choice, which was looked at.
+    pub(crate) fn hidden(&mut self, net: &Net, site: usize, to: &mut [f64]) {
+        let hidden = net.hidden(&self.sums, &self.features, site, &mut self.scratch);
+        to.iter_mut().zip(hidden).for_each(|(to, h)| *to += f64::from(*h));
     }
 }
 

@@ -207,7 +207,7 @@ impl Tally {
 /// The network to begin with, and the form of its guide: those given, or new ones from runs of the prior.
 fn begin(learned: &[&Task], making: &Making, start: Option<&Guide>) -> Result<(GuideForm, Net), Failure> {
     let (form, net) = match start.map(|start| (&start.form, &start.net)) {
-        Some((form, Network::Shared(net))) => (form.clone(), net.clone()),
+        Some((form, Network::Shared(net))) => (form.to_train(), net.clone()),
         None if making.architecture == Architecture::Shared => {
             let run = |k: usize| {
                 let task = learned[k % learned.len()];

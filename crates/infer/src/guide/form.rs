@@ -1,5 +1,6 @@
 //! A guide as plain data: what its file says beside the weights of the network.
 
+use super::ahead::AheadForm;
 use super::bound::OF_PART;
 use super::inputs::Kind;
 use niwaki_geom::WindowForm;
@@ -34,6 +35,9 @@ pub struct GuideForm {
     pub sites: Vec<SiteForm>,
     /// Choices that were met and are left to their priors, with the reason.
     pub left: Vec<(String, String)>,
+    /// How it looks ahead; `None` where it has not learned to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ahead: Option<AheadForm>,
     /// What it was made from and how well it did, for people.
     pub report: serde_json::Map<String, serde_json::Value>,
 }
@@ -80,6 +84,11 @@ pub struct SiteForm {
 }
 
 impl GuideForm {
+    /// The form of a guide whose network will change: it has to learn to look ahead again.
+    pub fn to_train(&self) -> GuideForm {
+        GuideForm { ahead: None, ..self.clone() }
+    }
+
     /// How many inputs there are beside the windows.
     pub fn features(&self) -> usize {
         let of_variables = self.variables.iter().map(|own| own.first as usize + own.kind.len());

@@ -314,7 +314,7 @@ pub fn train(
     };
     let way = Way { left: checkpoint.map_or(Ok(None), |own| own.left(0))?, border: &mut border };
     let mut form = match start {
-        Some(start) => start.form.clone(),
+        Some(start) => start.form.to_train(),
         None => survey(examples, making)?,
     };
     let net = match (start.map(|start| &start.net), examples) {

@@ -10,10 +10,12 @@
 //! - [`survey`]: what the traces of a model show, from which the form of its guide follows;
 //! - [`lessons`]: traces as rows, by the code that draws; training;
 //! - [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: how much each run counts;
+//! - [`ahead`]: a guide as a forecast of what a paused run will still gain; [`rehearse`]: how it learns that; `ridge`: its line;
 //! - `images`: the same for the dissertation's architecture, which looks at whole images.
 //!
 //! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
 
+pub mod ahead;
 pub mod bound;
 pub mod climb;
 #[cfg(test)]
@@ -23,9 +25,11 @@ pub mod form;
 mod images;
 pub mod inputs;
 pub mod lessons;
+pub mod rehearse;
+mod ridge;
 pub mod survey;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use form::{FORMAT, GuideForm};
 use niwaki_guide::{Filtered, Net};
@@ -97,7 +101,8 @@ impl Guide {
         let heads = form.sites.iter().map(|own| &own.head);
         let fits = match &net {
             Network::Shared(net) => {
-                form.features() == net.form().features
+                form.ahead.as_ref().is_none_or(|own| own.fits(net.form().hidden[1]))
+                    && form.features() == net.form().features
                     && form.window_values() == net.form().windows
                     && form.image.is_none()
                     && heads.eq(&net.form().heads)
@@ -105,6 +110,7 @@ impl Guide {
             Network::Filtered(net) => {
                 (form.features()..=form.features() + images::OF_PLACE as usize).contains(&net.form().features)
                     && form.image.is_some()
+                    && form.ahead.is_none()
                     && heads.eq(&net.form().heads)
             }
         };

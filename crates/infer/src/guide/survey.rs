@@ -179,6 +179,7 @@ impl Survey {
             part,
             sites,
             left,
+            ahead: None,
             report: serde_json::Map::new(),
         })
     }

@@ -3,7 +3,7 @@
 //! reads the same variables, lists of cells included.
 
 use super::bound::{BoundGuide, Sight};
-use super::lessons::{Example, Making, follow, survey};
+use super::lessons::{Example, Making, follow, survey, train};
 use super::{Guide, Network};
 use crate::Task;
 use crate::chain::kernel::Kernel;
@@ -42,7 +42,7 @@ const LIMBS: &str = r#"(module
       (if (gt $k 0.8) (then (do (future "limb" $x $y (add $d 1))))))))
   (fn "m" (params) (do (future "limb" 0.0 -2.0 0)) (return 0)) (entry "m"))"#;
 
-fn limbs() -> Task {
+pub(crate) fn limbs() -> Task {
     let program = compile_keeping(&parse(LIMBS).unwrap(), vec![], Kept::All).unwrap();
     let page = Page::new([-3.0, -3.0], [3.0, 3.0], [12, 12]).unwrap();
     let greys: Vec<u8> = (0..144).map(|pixel| if pixel / 3 % 2 == 0 { 0 } else { 255 }).collect();
@@ -50,20 +50,33 @@ fn limbs() -> Task {
     Task { sketches: vec![sketch], ..Task::new(Arc::new(program)) }
 }
 
-/// A guide before training.
-fn blank(task: &Task) -> Arc<BoundGuide> {
-    let run = |stream| forward(task, 3, stream, true).unwrap().log.entries();
-    let example = |stream| Example { task: task.clone(), entries: run(stream), held_out: false };
-    let examples: Vec<Example> = (0..20).map(example).collect();
-    let making: Making = serde_json::from_value(json!({
-        "model": "m", "hidden": [8, 8], "components": 2, "share": 0.02, "looks": true, "reads": true, "steps": 1,
-        "passes": 1.0, "rate": 1e-3, "batch": 16, "averaging": 0.9, "seed": 0,
+/// Runs of the prior, to learn from.
+fn examples(task: &Task) -> Vec<Example> {
+    let run = |stream| Some(forward(task, 3, stream, true).ok()?.log.entries());
+    let example = |stream| Some(Example { task: task.clone(), entries: run(stream)?, held_out: false });
+    (0..20).filter_map(example).collect()
+}
+
+fn making() -> Making {
+    serde_json::from_value(json!({
+        "model": "m", "hidden": [8, 8], "components": 2, "share": 0.02, "looks": true, "reads": true, "steps": 30,
+        "passes": 1.0, "rate": 0.03, "batch": 16, "averaging": 0.5, "seed": 0,
     }))
-    .unwrap();
-    let form = survey(&examples, &making).unwrap();
+    .unwrap()
+}
+
+/// A guide before training: it draws as the prior does, whatever it sees.
+pub(crate) fn blank(task: &Task) -> Arc<BoundGuide> {
+    let form = survey(&examples(task), &making()).unwrap();
     let heads = form.sites.iter().map(|site| site.head).collect();
     let net = Net::start(NetForm::new(form.window_values(), form.features(), heads), 1);
     Arc::new(BoundGuide::new(Arc::new(Guide { form, net: Network::Shared(net) }), task).unwrap())
+}
+
+/// A guide whose draws depend on what it sees, after a few steps of training.
+pub(crate) fn trained(task: &Task) -> Arc<BoundGuide> {
+    let taught = train(&examples(task), &making(), None, &mut |_| true, None).unwrap();
+    Arc::new(BoundGuide::new(Arc::new(taught.guide), task).unwrap())
 }
 
 /// Window and features, as bits.

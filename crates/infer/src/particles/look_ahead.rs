@@ -15,29 +15,31 @@
 //! Particle Gibbs weighs the held run like any other, and draws its ancestor without the `psi` of the prefix, as the law
 //! of the whole run has none. Moves of particles that still run would need the forecast of each run that is proposed, and are refused.
 
+use crate::Task;
 use crate::guide::bound::Sight;
 use crate::particle::Particle;
 use crate::record::Record;
-use niwaki_geom::Place;
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::state::State;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// A run that is paused at a barrier, as far as a forecast may depend on it.
+/// A run that is paused at a barrier.
 #[derive(Clone, Copy)]
 pub struct Paused<'a> {
-    /// Its choices and scores so far.
+    /// What it is a run of.
+    pub task: &'a Task,
+    /// Its choices, its scene and scores so far.
     pub record: &'a Record,
-    /// How many futures can run.
-    pub runnable: usize,
-    /// The place of the last choice that a guide looked at; `None` where there was none.
-    pub place: Option<Place>,
+    /// Its futures, and where each is.
+    pub state: &'a State,
 }
 
 /// Says how much the log score of a paused run will still change.
 pub trait Forecast: Debug + Send + Sync {
-    /// The log of what the score is expected to be multiplied by until the run ends, nats. It depends on the run alone. What is
-    /// not a finite number counts as 0.
-    fn rise(&self, run: Paused<'_>, sight: &mut Sight) -> f64;
+    /// The log of what the score is expected to be multiplied by until the run ends, nats. It depends on the run alone: machine
+    /// and sight are room to compute in. What is not a finite number counts as 0.
+    fn rise(&self, run: Paused<'_>, machine: &mut Machine<'_>, sight: &mut Sight) -> f64;
 }
 
 /// A forecast, and how much of it counts.
@@ -50,23 +52,34 @@ pub struct LookAhead {
 }
 
 impl Particle {
-    /// Notes where it looked from last, and its twist at this barrier.
-    pub(super) fn foresee(&mut self, with: Option<&LookAhead>, sight: &mut Sight) {
+    /// Notes its twist at this barrier, and what was seen for it.
+    pub(super) fn foresee(
+        &mut self,
+        with: Option<&LookAhead>,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        sight: &mut Sight,
+    ) {
         let Some(with) = with else { return };
-        self.place = sight.place().or(self.place);
-        self.ahead = with.log_twist(self, sight);
+        self.ahead = with.log_twist(self, task, machine, sight);
+        sight.leave(&mut self.glance);
     }
 }
 
 impl LookAhead {
     /// The log of a particle's twist at power 1, nats.
-    fn log_twist(&self, particle: &Particle, sight: &mut Sight) -> f64 {
+    fn log_twist(
+        &self,
+        particle: &Particle,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        sight: &mut Sight,
+    ) -> f64 {
         if !particle.is_running() {
             return 0.0;
         }
-        let runnable = particle.state.runnable().len();
-        let run = Paused { record: &particle.record, runnable, place: particle.place };
-        let log = self.strength * self.forecast.rise(run, sight);
+        let run = Paused { task, record: &particle.record, state: &particle.state };
+        let log = self.strength * self.forecast.rise(run, machine, sight);
         if log.is_finite() { log } else { 0.0 }
     }
 }

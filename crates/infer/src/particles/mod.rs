@@ -43,6 +43,7 @@ mod pimh;
 mod population;
 pub mod rejuvenation;
 mod resident;
+pub(crate) mod rises;
 mod settings;
 mod shared;
 mod smc;

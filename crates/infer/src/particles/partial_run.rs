@@ -411,7 +411,7 @@ impl Particle {
             }
             paused = self.run(machine, task, which, &mut follow)?;
         }
-        self.foresee(look_ahead, &mut follow.sight);
+        self.foresee(look_ahead, task, machine, &mut follow.sight);
         let arrived = if last { self.state.has_ended() } else { paused && self.record.cause.is_none() };
         Ok((arrived && !follow.lost && follow.steps.len() == 0).then_some(log_order))
     }

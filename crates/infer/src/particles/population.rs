@@ -110,10 +110,7 @@ impl<'a> Population<'a> {
     /// A population that has not begun. `serial` keeps it on one thread, because other populations use the others.
     pub fn start(task: &Task, settings: &'a Settings, serial: bool) -> Result<Self, Failure> {
         settings.check()?;
-        let n = settings.particles;
-        let task = task.clone();
-        let machine = task.machine();
-        let mut first = task.start(&machine, settings.order == Order::DepthFirst)?;
+        let mut first = task.start(&task.machine(), settings.order == Order::DepthFirst)?;
         if let Some(proposal) = &settings.proposal {
             proposal.check(&task.program)?;
             if proposal.needs_origins() {
@@ -125,12 +122,33 @@ impl<'a> Population<'a> {
             empty.sketches.expect_windows();
             first.note_parts();
         }
-        let empty_score = empty.score();
+        let past = Past::start(&settings.order);
+        Population::of(
+            task,
+            settings,
+            serial,
+            Particle { past, ..Particle::start(first, empty, 0, settings.seed) },
+        )
+    }
+
+    /// A population whose particles go on from a paused one.
+    pub fn go_on(task: &Task, settings: &'a Settings, from: &mut Particle) -> Result<Self, Failure> {
+        settings.check()?;
+        let (state, past) = (from.state.clone(), from.past.clone());
+        let first = Particle::start(state, from.record.fork(), 0, settings.seed);
+        Population::of(task, settings, true, Particle { past, ..first })
+    }
+
+    /// A population of copies of a particle, of weight one.
+    fn of(task: &Task, settings: &'a Settings, serial: bool, mut first: Particle) -> Result<Self, Failure> {
+        let n = settings.particles;
+        let task = task.clone();
+        let score = first.record.score();
         let particles: Vec<Particle> = (0..n as u64)
             .map(|lineage| Particle {
                 home: lineage as usize % rayon::current_num_threads(),
-                past: Past::start(&settings.order),
-                ..Particle::start(first.clone(), empty.fork(), lineage, settings.seed)
+                past: first.past.clone(),
+                ..Particle::start(first.state.clone(), first.record.fork(), lineage, settings.seed)
             })
             .collect();
         let power = match &settings.anneal {
@@ -148,7 +166,7 @@ impl<'a> Population<'a> {
             barriers: 0,
             steps: 0,
             resampled: 0,
-            log_normaliser: power * empty_score.value(),
+            log_normaliser: power * score.value(),
             power,
             powers: Vec::new(),
             weights: Normalised::default(),
@@ -481,7 +499,7 @@ fn advance(
     match settings.proposal.as_deref() {
         None => particle.advance(machine, task, settings.seed, otherwise)?,
         Some(proposal) => {
-            sight.forget();
+            sight.recall(&particle.glance);
             particle.advance(
                 machine,
                 task,
@@ -490,7 +508,7 @@ fn advance(
             )?
         }
     };
-    particle.foresee(settings.look_ahead.as_ref(), sight);
+    particle.foresee(settings.look_ahead.as_ref(), task, machine, sight);
     Ok(())
 }
 

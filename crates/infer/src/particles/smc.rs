@@ -109,27 +109,7 @@ pub(super) fn run(
     watch: &mut dyn FnMut(Progress) -> bool,
 ) -> std::result::Result<Result, Failure> {
     let mut population = Population::start(task, settings, serial)?;
-    let mut interrupted = false;
-    loop {
-        let (running, had_ended) = population.count();
-        if running == 0 {
-            break;
-        }
-        population.advance(None)?;
-        let seen = population.weigh()?;
-        // Particles that ended now reached no barrier.
-        population.steps += (running + had_ended - seen.ended) as u64;
-        if !watch(Progress { barriers: population.barriers, ended: seen.ended, best: seen.best }) {
-            interrupted = true;
-            break;
-        }
-        let resampled = population.is_low();
-        if resampled {
-            population.resample();
-        }
-        population.rejuvenate(Some(resampled))?;
-    }
-    population.finish();
+    let interrupted = !grow(&mut population, &mut |_, now| watch(now))?;
     let chains = if interrupted { None } else { population.final_chains(watch)? };
     let stopped = chains.as_ref().is_some_and(|(_, stopped)| *stopped);
     if chains.is_none() {
@@ -158,6 +138,37 @@ pub(super) fn run(
             None => population.particles.into_iter().map(outcome).collect(),
         },
     })
+}
+
+/// Grows the particles of a population until all have ended, and weighs them. `watch` sees it at each barrier before it is
+/// resampled; when it returns false, the population is left as it is, and so is the return value.
+pub(super) fn grow(
+    population: &mut Population<'_>,
+    watch: &mut dyn FnMut(&mut Population<'_>, Progress) -> bool,
+) -> std::result::Result<bool, Failure> {
+    let mut whole = true;
+    loop {
+        let (running, had_ended) = population.count();
+        if running == 0 {
+            break;
+        }
+        population.advance(None)?;
+        let seen = population.weigh()?;
+        // Particles that ended now reached no barrier.
+        population.steps += (running + had_ended - seen.ended) as u64;
+        let now = Progress { barriers: population.barriers, ended: seen.ended, best: seen.best };
+        if !watch(population, now) {
+            whole = false;
+            break;
+        }
+        let resampled = population.is_low();
+        if resampled {
+            population.resample();
+        }
+        population.rejuvenate(Some(resampled))?;
+    }
+    population.finish();
+    Ok(whole)
 }
 
 pub(super) fn outcome(p: Particle) -> Outcome {

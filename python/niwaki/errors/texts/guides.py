@@ -39,6 +39,15 @@ GUIDES = (
         cure="train_guide(vines, [a_letter, another], score)",
     ),
     Message(
+        "guide-ahead",
+        "there is no look-ahead for this search",
+        why="look-ahead weighs a paused particle by what its guide expects it to gain still, which a guide learns from short "
+        "searches that go on from paused particles",
+        help="teach the guide by `niwaki.guides.train_look_ahead`, with targets enough, or give no `look_ahead`",
+        example='smc(20, guide=Guide.load("vines.guide"), look_ahead=0.2)',
+        cure="smc(20, guide=train_look_ahead(guide, vines, drawings, score), look_ahead=0.2)",
+    ),
+    Message(
         "guide-targets",
         "`{name}` has no targets to train a guide on",
         why="{reason}",

@@ -8,6 +8,7 @@
 use super::chains::{counted, exact_draws, values_after};
 use super::*;
 use crate::guide::bound::Sight;
+use niwaki_vm::machine::Machine;
 
 /// Up to this many nats.
 const HEIGHT: f64 = 2.0;
@@ -17,9 +18,10 @@ const HEIGHT: f64 = 2.0;
 struct Wave;
 
 impl Forecast for Wave {
-    fn rise(&self, run: Paused<'_>, _: &mut Sight) -> f64 {
+    fn rise(&self, run: Paused<'_>, _: &mut Machine<'_>, _: &mut Sight) -> f64 {
         let record = run.record;
-        let so_far = 5.0 * record.log_prior.value() + 3.0 * record.score().value() + run.runnable as f64;
+        let runnable = run.state.runnable().len() as f64;
+        let so_far = 5.0 * record.log_prior.value() + 3.0 * record.score().value() + runnable;
         HEIGHT * so_far.sin()
     }
 }
@@ -111,8 +113,9 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
         population.advance(None).unwrap();
         population.weigh().unwrap();
         let p = &population.particles[0];
-        let run = Paused { record: &p.record, runnable: p.state.runnable().len(), place: None };
-        let expected = if p.is_running() { 0.8 * Wave.rise(run, &mut Sight::default()) } else { 0.0 };
+        let run = Paused { task: &task, record: &p.record, state: &p.state };
+        let rise = Wave.rise(run, &mut task.machine(), &mut Sight::default());
+        let expected = if p.is_running() { 0.8 * rise } else { 0.0 };
         assert!((p.log_weight - p.record.log_score() - expected).abs() < 1e-12);
         seen += usize::from(expected.abs() > 1e-3);
     }

@@ -29,6 +29,7 @@ mod proposed;
 mod rejuvenated;
 mod seeing;
 mod several;
+mod taught;
 mod tempered;
 
 fn task(text: &str) -> Task {
