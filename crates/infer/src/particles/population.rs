@@ -95,7 +95,8 @@ impl Rest {
     /// They went apart at this barrier, or could not line up.
     fn begin(&mut self, barrier: usize) {
         let stayed = barrier - self.since;
-        self.length = if stayed > self.length { 1 } else { (2 * self.length).clamp(Rest::SHORTEST, Rest::LONGEST) };
+        self.length =
+            if stayed > self.length { 1 } else { (2 * self.length).clamp(Rest::SHORTEST, Rest::LONGEST) };
         self.until = barrier + self.length;
     }
 }
