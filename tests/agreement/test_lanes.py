@@ -20,7 +20,8 @@ SEARCHES = Path(__file__).with_name("searches_in_lanes.py")
 
 def said(lanes: bool, first: int, count: int) -> dict[str, str]:
     """What each search prints, by the seed of its program."""
-    settings = dict(os.environ, NIWAKI_LANES="1" if lanes else "0")
+    # Names of files are hashes of texts, which messages repeat.
+    settings = dict(os.environ, NIWAKI_LANES="1" if lanes else "0", PYTHONHASHSEED="0")
     command = [sys.executable, str(SEARCHES), str(first), str(count)]
     done = subprocess.run(command, env=settings, capture_output=True, text=True, check=True)
     answers: dict[str, str] = json.loads(done.stdout)
