@@ -117,7 +117,12 @@ def _chosen(value: Any) -> Any:
         return tuple(_chosen(part) for part in value)
     if isinstance(value, dict):
         raise Unfit("$", "the value of a choice", shown(value))
-    return float(value) if isinstance(value, str) else value
+    if not isinstance(value, str):
+        return value
+    try:
+        return float(value)
+    except ValueError:
+        raise Unfit("$", "the value of a choice", shown(value)) from None
 
 
 def load(path: str | PathLike[str]) -> dict[str, Any]:
