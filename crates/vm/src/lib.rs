@@ -5,6 +5,7 @@
 //! * [`passes`]: core form to bytecode;
 //! * [`code`]: bytecode, its verifier and disassembler;
 //! * [`value`]: the contents of registers; [`builtins`]: the functions on values; [`fault`]: faults of a run;
+//! * `native`: bytecode as machine code;
 //! * [`machine`]: runs a program up to its next question.
 //!
 //! Not here: random numbers, algorithms, Python.
@@ -14,5 +15,6 @@ pub mod code;
 pub mod core;
 pub mod fault;
 pub mod machine;
+mod native;
 pub mod passes;
 pub mod value;

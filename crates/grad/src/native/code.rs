@@ -4,10 +4,10 @@ use super::layout::{Layout, test_of};
 use crate::density::Density;
 use crate::graph::{Id, small};
 use crate::operation::Op;
-use cranelift_codegen::ir::condcodes::FloatCC;
-use cranelift_codegen::ir::types::{F64, F64X2};
-use cranelift_codegen::ir::{Endianness, InstBuilder, MemFlagsData, Value};
-use cranelift_frontend::FunctionBuilder;
+use niwaki_native::codegen::ir::condcodes::FloatCC;
+use niwaki_native::codegen::ir::types::{F64, F64X2};
+use niwaki_native::codegen::ir::{Endianness, InstBuilder, MemFlagsData, Value};
+use niwaki_native::frontend::FunctionBuilder;
 
 /// One function while it is written.
 pub(super) struct Code<'a, 'b> {

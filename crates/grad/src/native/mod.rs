@@ -24,40 +24,16 @@ mod write;
 use crate::density::Density;
 use crate::kernels;
 use crate::operation::Op;
-use cranelift_jit::JITModule;
 use layout::Layout;
+use niwaki_native::{Memory, Written};
 use std::sync::Arc;
-use write::{Writer, Written};
+use write::Writer;
 
 /// An instruction reaches numbers within 2 GiB.
 const LARGEST: usize = 1 << 28;
 
 /// `(x, g, scratch)`.
 type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64);
-
-/// Machine code in memory, freed with its last owner.
-struct Memory(Option<JITModule>);
-
-// SAFETY: the module is never touched again after compilation, except to be freed by its last owner; the code is only
-// read.
-unsafe impl Send for Memory {}
-// SAFETY: as above.
-unsafe impl Sync for Memory {}
-
-impl Memory {
-    fn of(module: JITModule) -> Memory {
-        Memory(Some(module))
-    }
-}
-
-impl Drop for Memory {
-    fn drop(&mut self) {
-        if let Some(module) = self.0.take() {
-            // SAFETY: functions are called only by `Routine`, which keeps this alive.
-            unsafe { module.free_memory() };
-        }
-    }
-}
 
 #[derive(Clone, Copy)]
 enum Step {

@@ -6,12 +6,13 @@
 
 use super::code::Code;
 use super::layout::Layout;
-use super::write::{Writer, Written, guards_hold};
+use super::write::{Writer, guards_hold};
 use crate::graph::small;
-use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
-use cranelift_codegen::ir::types::{F64, I64};
-use cranelift_codegen::ir::{BlockArg, InstBuilder, Value};
-use cranelift_module::{FuncId, Module};
+use niwaki_native::Written;
+use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
+use niwaki_native::codegen::ir::types::{F64, I64};
+use niwaki_native::codegen::ir::{BlockArg, InstBuilder, Value};
+use niwaki_native::module::{FuncId, Module};
 
 /// Coordinates whose position, momentum and slope fit into registers.
 const COORDINATES: usize = 4;
@@ -114,6 +115,6 @@ fn arguments(values: &[Value]) -> Vec<BlockArg> {
     values.iter().map(|value| BlockArg::Value(*value)).collect()
 }
 
-fn jump_with(code: &mut Code<'_, '_>, to: cranelift_codegen::ir::Block, values: &[Value]) {
+fn jump_with(code: &mut Code<'_, '_>, to: niwaki_native::codegen::ir::Block, values: &[Value]) {
     code.b.ins().jump(to, &arguments(values));
 }

@@ -1,21 +1,18 @@
 //! Functions of machine code: one for each segment of a program, and copies between them.
 
+use super::Step;
 use super::code::Code;
 use super::layout::{Batch, FUNCTION, Layout, Program};
-use super::{Memory, Step};
 use crate::density::{Comparison, Density};
 use crate::graph::small;
 use crate::operation::Op;
-use cranelift_codegen::ir::condcodes::FloatCC;
-use cranelift_codegen::ir::types::I64;
-use cranelift_codegen::ir::{AbiParam, InstBuilder, Signature, Type, UserFuncName, Value};
-use cranelift_codegen::settings::{self, Configurable};
-use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
-use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-
-/// Errors of compilation: a processor that Cranelift does not know, memory that may not be executed.
-pub(super) type Written<T> = Result<T, Box<dyn std::error::Error>>;
+use niwaki_native::codegen::ir::condcodes::FloatCC;
+use niwaki_native::codegen::ir::types::I64;
+use niwaki_native::codegen::ir::{AbiParam, InstBuilder, Signature, Type, UserFuncName, Value};
+use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext};
+use niwaki_native::jit::JITModule;
+use niwaki_native::module::{FuncId, Linkage, Module};
+use niwaki_native::{Effort, Memory, Written, module};
 
 /// A step whose function has no address yet.
 enum Planned {
@@ -37,18 +34,8 @@ pub(super) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     pub(super) fn new(density: &'a Density, layout: &'a Layout) -> Written<Writer<'a>> {
-        let mut flags = settings::builder();
-        for (name, value) in [
-            ("opt_level", "none"),
-            ("enable_verifier", "false"),
-            ("is_pic", "false"),
-            ("use_colocated_libcalls", "false"),
-        ] {
-            flags.set(name, value)?;
-        }
-        let isa = cranelift_native::builder()?.finish(settings::Flags::new(flags))?;
         Ok(Writer {
-            module: JITModule::new(JITBuilder::with_isa(isa, default_libcall_names())),
+            module: module(Effort::Plain)?,
             density,
             layout,
             functions: 0,
@@ -203,16 +190,16 @@ impl<'a> Writer<'a> {
     }
 
     /// The steps, and the memory that they run in, with the address of one more function.
-    pub(super) fn finish(mut self, other: Option<FuncId>) -> Written<(Vec<Step>, Memory, Option<*const u8>)> {
-        self.module.finalize_definitions()?;
+    pub(super) fn finish(self, other: Option<FuncId>) -> Written<(Vec<Step>, Memory, Option<*const u8>)> {
         let Writer { module, plan, .. } = self;
+        let code = Memory::finish(module)?;
         let steps = plan.into_iter().map(|step| match step {
             Planned::Calls(step) => step,
-            Planned::Code(id) => Step::code(module.get_finalized_function(id)),
+            Planned::Code(id) => Step::code(code.address(id)),
         });
         let steps = steps.collect();
-        let other = other.map(|id| module.get_finalized_function(id));
-        Ok((steps, Memory::of(module), other))
+        let other = other.map(|id| code.address(id));
+        Ok((steps, code, other))
     }
 }
 

@@ -1,6 +1,7 @@
 //! A program for another scalar: the same instructions, its constants as constants of that scalar.
 
 use super::{Function, Program};
+use crate::native::Entries;
 use crate::value::{Closure, Dict, Record, Text, Value, Vector};
 use niwaki_math::Scalar;
 use std::sync::Arc;
@@ -29,6 +30,7 @@ impl Program<f64> {
             sites: f.sites.clone(),
             parameters: f.parameters.clone(),
             scope: f.scope.clone(),
+            native: Entries::default(),
         };
         Program {
             files: self.files.clone(),

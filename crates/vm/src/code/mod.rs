@@ -17,6 +17,7 @@ pub use disassemble::disassemble;
 pub use verify::{VerifyError, verify};
 
 use crate::core::{Name, Span};
+use crate::native::Entries;
 use crate::value::{Census, Class, Value};
 use niwaki_math::{Family, Scalar};
 
@@ -459,6 +460,8 @@ pub struct Function<S: Scalar = f64> {
     pub sites: Vec<Site>,
     /// Readable names of the parameters.
     pub parameters: Vec<Name>,
+    /// Where machine code may begin.
+    pub(crate) native: Entries,
     /// Variables that can be read at choices, where the program was compiled to keep some: site by site, each site's
     /// in the order in which they were last assigned.
     pub scope: Vec<Visible>,
@@ -511,6 +514,14 @@ impl<S: Scalar> Program<S> {
     pub fn memoises(&self) -> bool {
         let mut sites = self.functions.iter().flat_map(|f| &f.sites);
         sites.any(|site| matches!(site.kind, SiteKind::Memoise { .. }))
+    }
+
+    /// The program with machine code after so many visits of a place, and none for zero: for tests and measurements, which
+    /// want it at once or not at all.
+    #[must_use]
+    pub fn with_machine_code_after(mut self, visits: u32) -> Self {
+        self.functions.iter_mut().for_each(|f| f.native = Entries::after(f, visits));
+        self
     }
 
     /// A function by its number.

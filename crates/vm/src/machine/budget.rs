@@ -33,6 +33,10 @@ const SHORT: usize = 64;
 /// Most bytes that are charged for one element of a value that a function made: a larger one was there before.
 const ELEMENT_BYTES: usize = 128;
 
+/// Scratch registers that each run has, whether it uses them or not. A machine keeps as many from one run to the next: if
+/// they were charged as they are used, what a run may afford would depend on the runs before.
+pub(super) const SCRATCH: usize = 256;
+
 /// The price of an operation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Price {
@@ -192,7 +196,7 @@ impl<S: Scalar> Machine<'_, S> {
     /// Bytes that the machine itself holds for the run: scratch registers and calls of pure functions.
     #[inline]
     pub(super) fn own_bytes(&self) -> usize {
-        self.high * size_of::<Value<S>>() + self.pure.len() * size_of::<super::PureCall>()
+        self.high.max(SCRATCH) * size_of::<Value<S>>() + self.pure.len() * size_of::<super::PureCall>()
     }
 
     /// A run that has not begun is audited when it may have used up its memory, not before.
@@ -234,7 +238,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
         }
         // After a deep recursion, most of them are not needed again.
-        self.high = self.high.min(256);
+        self.high = self.high.min(SCRATCH);
     }
 
     /// Charges what an operation is about to make.

@@ -120,11 +120,30 @@ impl<S: Scalar> Machine<'_, S> {
                 }
             }};
         }
+        // Machine code that begins there, if there is some, and on from where it leaves.
+        macro_rules! native {
+            ($pc:expr) => {
+                if let Some(entry) = f.native.at($pc)
+                    && entry.is_open()
+                    && let Some(on) = self.enter(state, r!(), id, entry, K::KEEPS)
+                {
+                    if K::KEEPS {
+                        executed += on.done;
+                    }
+                    id = on.function;
+                    f = program.function(id);
+                    code = &f.code;
+                    (scratch, pc) = (on.scratch, on.pc);
+                    continue;
+                }
+            };
+        }
         macro_rules! goto {
             ($target:expr) => {{
                 let target = $target as usize;
                 if target <= pc {
                     step!();
+                    native!(target);
                 }
                 pc = target;
                 continue;
@@ -194,6 +213,7 @@ impl<S: Scalar> Machine<'_, S> {
                 if deeper {
                     check!(self.afford(state, keep));
                 }
+                native!(0);
                 pc = 0;
                 continue;
             }};
@@ -475,18 +495,14 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Reserves that many scratch registers; whether they are more than the run has used before.
+    /// Reserves that many scratch registers; whether the run is to be charged for more than before.
     #[inline]
     pub(super) fn reserve(&mut self, registers: usize) -> bool {
-        let deeper = self.high < registers;
-        if deeper {
-            self.grow_scratch(registers);
-        }
-        deeper
+        self.high < registers && self.grow_scratch(registers)
     }
 
     #[inline(never)]
-    fn grow_scratch(&mut self, registers: usize) {
+    fn grow_scratch(&mut self, registers: usize) -> bool {
         self.high = registers;
         let len = self.scratch.len();
         if len < registers {
@@ -494,5 +510,6 @@ impl<S: Scalar> Machine<'_, S> {
             make_room(&mut self.pure, 1, || self.limits.bytes);
             self.scratch.resize(registers.max(64), Value::None);
         }
+        registers > budget::SCRATCH
     }
 }

@@ -12,6 +12,7 @@
 //! * [`lanes`]: many runs at the same place, an instruction at a time for all of them;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
+//! * `enter`: machine code, where there is some;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
 //! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops; `memo`:
 //!   memoised functions;
@@ -24,6 +25,7 @@ mod begin;
 mod budget;
 mod cache;
 mod construct;
+mod enter;
 pub mod held;
 mod interpret;
 pub mod invalid;
@@ -142,6 +144,8 @@ pub struct Machine<'p, S: Scalar = f64> {
     high: usize,
     pure: Vec<PureCall>,
     buffer: Vec<Value<S>>,
+    /// What machine code and the machine exchange.
+    words: Vec<u64>,
     shapes: Vec<Shape>,
     cache: DistCache<S>,
     logs: LastLog<S>,
@@ -162,6 +166,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
             high: 0,
             pure: Vec::new(),
             buffer: Vec::new(),
+            words: Vec::new(),
             shapes: Vec::new(),
             cache: DistCache::holding(limits.bytes / 16),
             logs: LastLog::default(),

@@ -6,6 +6,7 @@ use super::{CompileError, Unit, literal, place};
 use crate::builtins::make_dist;
 use crate::code::{Args, Function, FunctionId, Mode, Op, Operand, Place, Site, Visible};
 use crate::core::{self, ExprKind, Literal, Name, Span};
+use crate::native::Entries;
 use crate::value::{self, Value};
 use niwaki_math::Scalar;
 use std::collections::HashMap;
@@ -235,6 +236,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             names: self.names,
             sites: self.sites,
             parameters: vec![],
+            native: Entries::default(),
             scope: self.scope,
         };
         place::place(&mut f, self.registers);

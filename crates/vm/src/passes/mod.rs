@@ -26,11 +26,13 @@ use crate::core::deep::with_stack;
 use crate::core::visit::each_stmt;
 use crate::core::{Expr, ExprKind, Literal, Module, Name};
 use crate::fault::Fault;
+use crate::native::Entries;
 use crate::value::Value;
 use collections::Collections;
 use effects::Effects;
 use emit::Builder;
 use niwaki_math::Scalar;
+use std::any::TypeId;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -151,6 +153,9 @@ fn compile_here<S: Scalar>(
     };
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
+    if TypeId::of::<S>() == TypeId::of::<f64>() {
+        program.functions.iter_mut().for_each(|f| f.native = Entries::of(f));
+    }
     Ok(program)
 }
 

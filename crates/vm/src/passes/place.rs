@@ -29,7 +29,7 @@ impl Bits {
             self.words[o.index() / 64] &= !(1 << (o.index() % 64));
         }
     }
-    fn has(&self, o: Operand) -> bool {
+    pub(crate) fn has(&self, o: Operand) -> bool {
         o.place() == self.of && self.words[o.index() / 64] >> (o.index() % 64) & 1 == 1
     }
     fn join(&mut self, other: &Bits) {

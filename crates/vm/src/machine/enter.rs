@@ -1,0 +1,162 @@
+//! Machine code as the interpreter runs it: registers go in, and what has changed comes back.
+
+use super::registers::Registers;
+use super::state::State;
+use super::{Machine, PureCall};
+use crate::code::{FunctionId, Program};
+use crate::native::{Entry, Exit, Kind, Reg, Routine, words};
+use crate::value::Value;
+use niwaki_math::Scalar;
+use std::any::Any;
+
+/// Where the interpreter continues after machine code.
+pub(super) struct Onwards {
+    pub function: FunctionId,
+    pub scratch: usize,
+    pub pc: usize,
+    /// How many instructions were carried out.
+    pub done: u64,
+}
+
+impl<S: Scalar> Machine<'_, S> {
+    /// Runs the machine code that begins here, if there is some for these registers. Where activations are kept, their
+    /// registers are written one by one for the journal: then only code that leaves them alone runs.
+    #[inline(never)]
+    pub(super) fn enter(
+        &mut self,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        function: FunctionId,
+        entry: &Entry,
+        keeps: bool,
+    ) -> Option<Onwards> {
+        for routine in entry.routines() {
+            if !(keeps && routine.writes_node) && self.give(state, r, routine) {
+                let given = self.words[words::STEPS];
+                let exit = routine.run(&mut self.words);
+                state.steps += given - self.words[words::STEPS];
+                let done = self.words[words::DONE];
+                entry.note(done);
+                self.take_back(state, r, exit);
+                return Some(Onwards {
+                    function: exit.function,
+                    scratch: r.scratch + exit.base as usize,
+                    pc: exit.pc as usize,
+                    done,
+                });
+            }
+        }
+        if entry.is_due() {
+            let program: &dyn Any = self.program;
+            if let Some(program) = program.downcast_ref::<Program>() {
+                entry.write(program, function, &|reg| {
+                    let value: &dyn Any = self.held_by(state, r, reg)?;
+                    value.downcast_ref::<Value>()
+                });
+            }
+        }
+        None
+    }
+
+    /// What a register holds; nothing for one that the machine has not reserved yet.
+    #[inline]
+    fn held_by<'a>(&'a self, state: &'a State<S>, r: Registers<'_, S>, reg: Reg) -> Option<&'a Value<S>> {
+        match reg {
+            Reg::Node(i) => state.registers.get(r.own + usize::from(i)),
+            Reg::Outer(i) => state.registers.get(r.outer + usize::from(i)),
+            Reg::Scratch(i) => self.scratch.get(r.scratch + i as usize),
+        }
+    }
+
+    /// Gives the code what it reads; false when a register is not of the kind that it was written for.
+    fn give(&mut self, state: &State<S>, r: Registers<'_, S>, routine: &Routine) -> bool {
+        if self.words.len() < routine.words {
+            self.words.resize(routine.words, 0);
+        }
+        let mut words = std::mem::take(&mut self.words);
+        let fits = self.fill(state, r, routine, &mut words);
+        self.words = words;
+        fits
+    }
+
+    fn fill(&self, state: &State<S>, r: Registers<'_, S>, routine: &Routine, words: &mut [u64]) -> bool {
+        let address = |value: &Value<S>| std::ptr::from_ref(value) as u64;
+        let mut at = words::REGISTERS;
+        for (reg, kind) in &routine.inputs {
+            let Some(value) = self.held_by(state, r, *reg) else { return false };
+            match (value, *kind) {
+                (Value::Real(x), Kind::Real) => words[at] = x.value().to_bits(),
+                (Value::Int(n), Kind::Int) => words[at] = n.cast_unsigned(),
+                (Value::Bool(b), Kind::Bool) => words[at] = u64::from(*b),
+                (Value::Range(range), Kind::Range) => {
+                    let [first, step] = [range.start, range.step].map(i64::cast_unsigned);
+                    words[at..at + 3].copy_from_slice(&[address(value), first, step]);
+                }
+                (value, Kind::Object(_)) if Kind::of(value) == *kind => words[at] = address(value),
+                (value, kind) if kind.words() == 0 && Kind::of(value) == kind => {}
+                _ => return false,
+            }
+            at += kind.words();
+        }
+        let is_free = |reg: &Reg| self.held_by(state, r, *reg).is_none_or(Value::is_plain);
+        if !routine.overwritten.iter().all(is_free) {
+            return false;
+        }
+        for (k, (id, i)) in routine.constants.iter().enumerate() {
+            words[words::CONSTANTS + k] = address(&self.program.function(*id).constants[usize::from(*i)]);
+        }
+        words[words::STEPS] = state.alarm.saturating_sub(state.steps).min(i64::MAX.cast_unsigned());
+        words[words::ROOM] = self.high.saturating_sub(r.scratch) as u64;
+        true
+    }
+
+    /// Writes the registers that the code has changed, and makes its calls of pure functions the machine's.
+    fn take_back(&mut self, state: &mut State<S>, r: Registers<'_, S>, exit: &Exit) {
+        if exit.has_objects {
+            // All are copied before any register is written: that may be where one is.
+            self.buffer.clear();
+            let mut at = words::REGISTERS;
+            for (_, kind) in &exit.registers {
+                if !kind.is_plain() {
+                    self.buffer.push(shared(self.words[at]));
+                }
+                at += usize::from(kind.words() > 0);
+            }
+        }
+        let mut objects = self.buffer.drain(..);
+        let mut at = words::REGISTERS;
+        for (reg, kind) in &exit.registers {
+            let register = match *reg {
+                Reg::Node(i) | Reg::Outer(i) => &mut state.registers[r.own + usize::from(i)],
+                Reg::Scratch(i) => &mut self.scratch[r.scratch + i as usize],
+            };
+            let word = self.words[at];
+            match kind {
+                Kind::Real => register.store_real(S::from_f64(f64::from_bits(word))),
+                Kind::Int => register.store_int(word.cast_signed()),
+                Kind::Bool => register.store(Value::Bool(word != 0)),
+                Kind::None | Kind::Opaque => register.store(Value::None),
+                Kind::Unset => register.store(Value::Unset),
+                Kind::Range | Kind::Object(_) => register.store(objects.next().unwrap_or_default()),
+            }
+            at += usize::from(kind.words() > 0);
+        }
+        for call in &exit.calls {
+            self.pure.push(PureCall {
+                caller: call.caller,
+                pc: call.back as usize,
+                scratch: r.scratch + call.base as usize,
+                to: call.to,
+                as_future: false,
+            });
+        }
+    }
+}
+
+/// A copy of the value at an address that the code gave back.
+#[allow(unsafe_code)]
+fn shared<S: Scalar>(address: u64) -> Value<S> {
+    // SAFETY: the code gives back only addresses that it was given, or those of parts of what is there; nothing has
+    // been written since.
+    unsafe { (*(address as *const Value<S>)).clone() }
+}

@@ -1,0 +1,141 @@
+//! Functions that machine code calls: what it does not do itself.
+//!
+//! Each gives the kind of its answer as [`Kind::mark`]; the answer itself goes to `out`. Where the interpreter would
+//! fault, or the answer is of a kind that has no word, they give [`NOT`]: the code then leaves, and the interpreter carries
+//! out the instruction.
+
+#![allow(unsafe_code)] // They are given addresses by the code that `write` makes.
+
+use super::kinds::Kind;
+use crate::builtins::builtin;
+use crate::value::{Value, index, iter_len};
+use niwaki_math::Scalar;
+
+/// No answer.
+pub(super) const NOT: u64 = 255;
+
+/// The word of a value, and its mark.
+fn give(value: &Value, out: &mut u64) -> u64 {
+    let kind = Kind::of(value);
+    *out = match value {
+        Value::Real(x) => x.to_bits(),
+        Value::Int(n) => n.cast_unsigned(),
+        Value::Bool(b) => u64::from(*b),
+        other if !kind.is_plain() => std::ptr::from_ref(other) as u64,
+        _ => 0,
+    };
+    kind.mark()
+}
+
+/// An element of a list, tuple or vector, counted from the front.
+///
+/// # Safety
+/// `value` is a value that nobody changes meanwhile, `out` a word.
+pub(super) unsafe extern "C" fn element(value: *const Value, at: i64, out: *mut u64) -> u64 {
+    // SAFETY: as above.
+    let (value, out) = unsafe { (&*value, &mut *out) };
+    if let Some(item) = index::index_ref(value, &Value::Int(at)) {
+        return give(item, out);
+    }
+    if let (Value::Vector(v), Ok(at)) = (value, usize::try_from(at))
+        && let Some(x) = v.components().get(at)
+    {
+        *out = x.to_bits();
+        return Kind::Real.mark();
+    }
+    NOT
+}
+
+/// A field of a record or of a vector.
+///
+/// # Safety
+/// As for [`element`]; `name` is a name that the code keeps.
+pub(super) unsafe extern "C" fn field(value: *const Value, name: *const Box<str>, out: *mut u64) -> u64 {
+    // SAFETY: as above.
+    let (value, name, out) = unsafe { (&*value, &*name, &mut *out) };
+    match value {
+        Value::Record(record) => record.field(name).map_or(NOT, |value| give(value, out)),
+        Value::Vector(v) => v.field(name).map_or(NOT, |x| give(&Value::Real(x), out)),
+        _ => NOT,
+    }
+}
+
+/// How many elements a loop visits; below zero where it cannot be looped over.
+///
+/// # Safety
+/// As for [`element`].
+pub(super) unsafe extern "C" fn length(value: *const Value) -> i64 {
+    // SAFETY: as above.
+    let value = unsafe { &*value };
+    iter_len(value).ok().and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)
+}
+
+/// A built-in function of plain values.
+///
+/// # Safety
+/// `args` are `n` values, `out` a word.
+pub(super) unsafe extern "C" fn call(id: u64, args: *const Value, n: u64, out: *mut u64) -> u64 {
+    // SAFETY: as above.
+    let (args, out) = unsafe { (std::slice::from_raw_parts(args, n as usize), &mut *out) };
+    match builtin::<f64>(id as u16).call(args) {
+        Ok(value) if value.is_plain() => give(&value, out),
+        _ => NOT,
+    }
+}
+
+macro_rules! functions {
+    ($($name:ident $method:ident;)*) => {
+        $(extern "C" fn $name(x: f64) -> f64 {
+            Scalar::$method(x)
+        })*
+
+        /// The function of one real number with that name: its answer is right where it is finite.
+        pub(super) fn real_function(name: &str) -> Option<*const u8> {
+            match name {
+                $(stringify!($name) => Some($name as *const u8),)*
+                _ => None,
+            }
+        }
+    };
+}
+
+functions! {
+    exp exp;
+    log ln;
+    log1p ln_1p;
+    expm1 exp_m1;
+    sin sin;
+    cos cos;
+    tan tan;
+    asin asin;
+    acos acos;
+    atan atan;
+    sinh sinh;
+    cosh cosh;
+    tanh tanh;
+    erf erf;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The code builds values itself: a word for the kind, a word for the number.
+    #[test]
+    fn plain_values_are_two_words() {
+        let words = |value: &Value| {
+            // SAFETY: a value is sixteen bytes; those of a number are all written.
+            unsafe { *std::ptr::from_ref(value).cast::<[u64; 2]>() }
+        };
+        assert_eq!(words(&Value::Real(0.5)), [Kind::Real.mark(), 0.5_f64.to_bits()]);
+        assert_eq!(words(&Value::Int(-3)), [Kind::Int.mark(), (-3_i64).cast_unsigned()]);
+        // SAFETY: as above, the kind alone.
+        let first = |value: &Value| unsafe { *std::ptr::from_ref(value).cast::<u64>() };
+        assert_eq!(first(&Value::Bool(true)), Kind::Bool.mark());
+        assert_eq!(first(&Value::None), Kind::None.mark());
+        let truth = [Kind::Bool.mark(), 1];
+        // SAFETY: the layout of a truth value, as the code writes it.
+        let read = unsafe { std::ptr::from_ref(&truth).cast::<Value>().as_ref() };
+        assert!(matches!(read, Some(Value::Bool(true))));
+    }
+}

@@ -1,0 +1,157 @@
+//! Where machine code may begin, and the code that was made for it.
+
+use super::flow::entries;
+use super::kinds::{Kind, Reg};
+use super::write::Routine;
+use crate::code::{Function, FunctionId, Program};
+use crate::value::Value;
+use niwaki_math::Scalar;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock};
+
+/// Visits before code is made: to make it takes as long as the interpreter takes for some thousand short rounds.
+const VISITS: u32 = 2000;
+
+/// Most combinations of kinds that have code of their own.
+const ROUTINES: usize = 3;
+
+/// Uses after which it is known whether the code is worth its calls, and the fewest instructions that a use must carry
+/// out on average: a call costs about as much as these.
+const TRIAL: u32 = 256;
+const WORTH: u64 = 12;
+
+/// Most bytes of machine code that all programs of a process have at a time.
+const MOST_BYTES: usize = 64 << 20;
+
+/// Bytes of machine code at present.
+static BYTES: AtomicUsize = AtomicUsize::new(0);
+
+/// After how many visits code is made, where the environment says it: `NIWAKI_JIT=1` for at once, 0 for never.
+static SAID: LazyLock<Option<u32>> =
+    LazyLock::new(|| std::env::var("NIWAKI_JIT").ok().and_then(|word| word.parse().ok()));
+
+/// The places of one function where machine code may begin. Copies of a program share them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Entries(Vec<Arc<Entry>>);
+
+impl Entries {
+    /// Those of a function, whose code is made after the usual number of visits.
+    pub fn of<S: Scalar>(f: &Function<S>) -> Entries {
+        Entries::after(f, SAID.unwrap_or(VISITS))
+    }
+
+    /// Those of a function, whose code is made after so many visits; none for zero.
+    pub fn after<S: Scalar>(f: &Function<S>, visits: u32) -> Entries {
+        let places = if visits == 0 { vec![] } else { entries(f) };
+        Entries(places.into_iter().map(|pc| Arc::new(Entry::new(pc, visits))).collect())
+    }
+
+    /// The one at an instruction.
+    #[inline]
+    pub fn at(&self, pc: usize) -> Option<&Entry> {
+        self.0.iter().find(|entry| entry.pc as usize == pc).map(|entry| &**entry)
+    }
+}
+
+/// One such place.
+#[derive(Debug)]
+pub(crate) struct Entry {
+    pc: u32,
+    /// How many visits there are before code is made.
+    after: u32,
+    /// Whether it is not worth while to look here.
+    is_closed: AtomicBool,
+    visits: AtomicU32,
+    uses: AtomicU32,
+    done: AtomicU64,
+    routines: [OnceLock<Routine>; ROUTINES],
+    writing: Mutex<()>,
+}
+
+impl Entry {
+    fn new(pc: u32, after: u32) -> Entry {
+        Entry {
+            pc,
+            after,
+            is_closed: AtomicBool::new(false),
+            visits: AtomicU32::new(0),
+            uses: AtomicU32::new(0),
+            done: AtomicU64::new(0),
+            routines: Default::default(),
+            writing: Mutex::new(()),
+        }
+    }
+
+    /// Whether there is code here, or may be some day.
+    #[inline]
+    pub fn is_open(&self) -> bool {
+        !self.is_closed.load(Ordering::Relaxed)
+    }
+
+    fn close(&self) {
+        self.is_closed.store(true, Ordering::Relaxed);
+    }
+
+    /// The code that there is, one piece for each combination of kinds.
+    #[inline]
+    pub fn routines(&self) -> impl Iterator<Item = &Routine> {
+        self.routines.iter().map_while(OnceLock::get)
+    }
+
+    /// Counts a visit that found no code for its kinds; whether to write it now.
+    #[inline]
+    pub fn is_due(&self) -> bool {
+        let visits = self.visits.fetch_add(1, Ordering::Relaxed) + 1;
+        visits.is_multiple_of(self.after)
+    }
+
+    /// Writes code for the kinds that registers hold now. Where there is none to be had, nobody looks here again.
+    pub fn write<'v>(&self, program: &'v Program, function: FunctionId, found: Found<'_, 'v>) {
+        // Another thread that writes here writes the same.
+        let Ok(_one) = self.writing.try_lock() else { return };
+        let Some(free) = self.routines.iter().find(|routine| routine.get().is_none()) else {
+            // As many kinds come here as nobody expects of a loop.
+            if self.uses.load(Ordering::Relaxed) < TRIAL {
+                self.close();
+            }
+            return;
+        };
+        if BYTES.load(Ordering::Relaxed) > MOST_BYTES {
+            return self.close();
+        }
+        match Routine::write(program, function, self.pc as usize, found) {
+            Ok(routine) => {
+                BYTES.fetch_add(routine.bytes(), Ordering::Relaxed);
+                let _ = free.set(routine);
+            }
+            Err(_) => self.close(),
+        }
+    }
+
+    /// Notes how many instructions a use carried out, while that is of interest.
+    #[inline]
+    pub fn note(&self, done: u64) {
+        if self.uses.load(Ordering::Relaxed) >= TRIAL {
+            return;
+        }
+        let all = self.done.fetch_add(done, Ordering::Relaxed) + done;
+        if self.uses.fetch_add(1, Ordering::Relaxed) + 1 == TRIAL && all < WORTH * u64::from(TRIAL) {
+            self.close();
+        }
+    }
+}
+
+impl Drop for Entry {
+    fn drop(&mut self) {
+        let bytes = self.routines().map(Routine::bytes).sum();
+        BYTES.fetch_sub(bytes, Ordering::Relaxed);
+    }
+}
+
+/// What the registers of a function hold where code begins.
+pub(super) type Found<'a, 'v> = &'a dyn Fn(Reg) -> Option<&'v Value>;
+
+/// The kind of a register there.
+pub(super) fn kind_of(found: Found<'_, '_>, reg: Reg) -> Option<Kind> {
+    found(reg).map(Kind::of)
+}

@@ -1,0 +1,51 @@
+//! Models as machine code.
+//!
+//! The interpreter is right and starts at once. Where it goes through the same instructions thousands of times, they
+//! are compiled: for the kinds of values that the registers hold there, real and whole numbers in registers of the
+//! processor. The code begins where a loop goes back to or where a pure function begins, and it goes as far as it can:
+//!
+//! ```text
+//! interpreter --- a loop goes back, for the 2000th time ---> compile for the kinds found
+//!     ^                                                            |
+//!     |            registers, steps, place                         v
+//!     +------------------------------------------------------ machine code
+//!        an instruction that it has no code for, a fault, a number that does not fit, the limits
+//! ```
+//!
+//! It does nothing that the interpreter would not do, and it leaves *before* an instruction that it cannot carry out,
+//! with every register as the interpreter would have it there. So values are the same to the last bit, a fault is raised by
+//! the interpreter at its place, and limits of steps and memory are met at the same instruction.
+//!
+//! * [`kinds`]: what is known of a register; `flow`: which registers are live;
+//! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `operate`: the
+//!   instructions; `calls`: functions that the code calls;
+//! * `entries`: where code may begin, and the code that was made for it; `enter`, in `machine`: how it is run.
+//!
+//! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block Versioning"
+//! (ECOOP 2015), with all versions made at once.
+
+mod calls;
+mod entries;
+mod flow;
+mod kinds;
+mod operate;
+mod write;
+
+pub(crate) use entries::{Entries, Entry};
+pub(crate) use kinds::{Kind, Reg};
+pub(crate) use write::{Exit, Routine};
+
+/// Words that code and machine exchange.
+pub(crate) mod words {
+    /// Steps that the code may take, and how many are left.
+    pub const STEPS: usize = 0;
+    /// Instructions carried out.
+    pub const DONE: usize = 1;
+    /// Scratch registers that the run has used before, from the first one of the function.
+    pub const ROOM: usize = 2;
+    /// Addresses of constants, at most so many.
+    pub const CONSTANTS: usize = 3;
+    pub const MOST_CONSTANTS: usize = 32;
+    /// Registers: what they hold where the code begins, and where it leaves.
+    pub const REGISTERS: usize = CONSTANTS + MOST_CONSTANTS;
+}

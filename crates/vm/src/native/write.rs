@@ -1,0 +1,708 @@
+//! Machine code from bytecode: a piece of code for each instruction and each combination of kinds.
+//!
+//! The registers of the model are variables of Cranelift's builder, which makes them values of the processor. A piece begins
+//! at a jump's target; its *key* is where that is, the calls of pure functions that it is in, and the kinds of the registers
+//! that are live. A jump leads to the piece with the key that it has by then, which is written if there is none yet. So
+//! a variable that is a whole number in the first round of a loop and a real one in the others has a piece for each, and no
+//! instruction tests a kind that is known.
+
+use super::entries::{Found, kind_of};
+use super::flow::Flow;
+use super::kinds::{Form, Kind, Reg};
+use super::words;
+use crate::code::{Function, FunctionId, Operand, Place, Program};
+use crate::value::Value as Model;
+use niwaki_native::codegen::ir::condcodes::IntCC;
+use niwaki_native::codegen::ir::types::{F64, I64};
+use niwaki_native::codegen::ir::{
+    AbiParam, Block, InstBuilder, MemFlagsData, Signature, StackSlot, StackSlotData, StackSlotKind, Type,
+    UserFuncName, Value,
+};
+use niwaki_native::codegen::isa::CallConv;
+use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
+use niwaki_native::module::{Linkage, Module as _};
+use niwaki_native::{Effort, Memory, Written, module};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Most pieces of a routine: what is beyond them is left to the interpreter.
+const PIECES: usize = 160;
+
+/// Most registers that a routine exchanges with the machine.
+const REGISTERS: usize = 200;
+
+/// Words of an array that a called function answers to, and of one for arguments.
+pub(super) const ARGUMENTS: u32 = 8;
+
+/// Flags of valid, aligned memory.
+pub(super) const PLAIN: MemFlagsData = MemFlagsData::trusted();
+
+/// `(words)`, as [`words`] says; gives the number of the exit taken.
+type Code = unsafe extern "C" fn(*mut u64) -> u64;
+
+/// Machine code for one combination of kinds.
+pub(crate) struct Routine {
+    /// Registers that it reads where it begins, and their kinds there.
+    pub inputs: Vec<(Reg, Kind)>,
+    /// Constants that are no numbers: of which function, and which.
+    pub constants: Vec<(FunctionId, u16)>,
+    /// Other registers that it may write: they must hold nothing shared.
+    pub overwritten: Vec<Reg>,
+    /// Where it may leave.
+    pub exits: Vec<Exit>,
+    /// Whether it writes registers of the activation.
+    pub writes_node: bool,
+    /// Words that it exchanges with the machine.
+    pub words: usize,
+    code: Code,
+    bytes: usize,
+    _names: Vec<Box<Box<str>>>,
+    _memory: Memory,
+}
+
+impl std::fmt::Debug for Routine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Routine({} bytes, {:?})", self.bytes, self.inputs)
+    }
+}
+
+/// A place where machine code leaves.
+#[derive(Debug)]
+pub(crate) struct Exit {
+    /// Calls of pure functions that are in progress, from the outermost: where each was called.
+    pub calls: Vec<Call>,
+    /// The function that the interpreter continues in.
+    pub function: FunctionId,
+    /// Its first scratch register, from that of the function where the code began.
+    pub base: u32,
+    /// The instruction that it continues at.
+    pub pc: u32,
+    /// Registers that have changed, in the order of their words.
+    pub registers: Vec<(Reg, Kind)>,
+    /// Whether some of them hold what is shared.
+    pub has_objects: bool,
+}
+
+/// A call of a pure function in progress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Call {
+    /// Who calls.
+    pub caller: FunctionId,
+    /// The caller's first scratch register.
+    pub base: u32,
+    /// Where the caller continues.
+    pub back: u32,
+    /// The register for the result.
+    pub to: Operand,
+}
+
+impl Routine {
+    /// How much code it is.
+    pub fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    /// Runs it: gives the exit that it took.
+    ///
+    /// # Panics
+    /// When there are fewer than [`Routine::words`].
+    #[inline]
+    #[allow(unsafe_code)]
+    pub fn run(&self, words: &mut [u64]) -> &Exit {
+        assert!(words.len() >= self.words);
+        // SAFETY: the code stays within so many words. The addresses among them are those of values of the kinds that it
+        // was written for, as `enter` put them there, and nobody changes these meanwhile.
+        let exit = unsafe { (self.code)(words.as_mut_ptr()) };
+        &self.exits[exit as usize]
+    }
+
+    /// Writes the code of a function from an instruction on. `found` gives what a register holds there now.
+    ///
+    /// # Errors
+    /// Too many registers, a processor that Cranelift does not know, or memory that may not be executed.
+    pub fn write<'v>(
+        program: &'v Program,
+        function: FunctionId,
+        pc: usize,
+        found: Found<'_, 'v>,
+    ) -> Written<Routine> {
+        let mut module = module(Effort::Quick)?;
+        let mut context = module.make_context();
+        let mut signature = Signature::new(module.target_config().default_call_conv);
+        signature.params.push(AbiParam::new(I64));
+        signature.returns.push(AbiParam::new(I64));
+        let convention = signature.call_conv;
+        let id = module.declare_function("routine", Linkage::Local, &signature)?;
+        context.func.signature = signature;
+        context.func.name = UserFuncName::user(0, 0);
+        let mut builder_context = FunctionBuilderContext::new();
+        let b = FunctionBuilder::new(&mut context.func, &mut builder_context);
+        let mut writer = Writer::new(program, b, convention);
+        let inputs = writer.begin(function, pc, found)?;
+        writer.all_pieces();
+        let exits = writer.all_exits();
+        let Writer { mut b, constants, written, names, words, .. } = writer;
+        b.seal_all_blocks();
+        b.finalize(module.target_config());
+        if cfg!(debug_assertions) || cfg!(test) {
+            niwaki_native::check(&module, &context.func)?;
+        }
+        module.define_function(id, &mut context)?;
+        let bytes = context.compiled_code().map_or(0, |code| code.code_info().total_size as usize);
+        let memory = Memory::finish(module)?;
+        let is_input = |reg: &Reg| inputs.iter().any(|(input, _)| input == reg);
+        let writes_node = written.iter().any(|reg| matches!(reg, Reg::Node(_)));
+        let overwritten = written.into_iter().filter(|reg| !is_input(reg)).collect();
+        // SAFETY: it was written with this signature.
+        #[allow(unsafe_code)]
+        let code = unsafe { std::mem::transmute::<*const u8, Code>(memory.address(id)) };
+        Ok(Routine {
+            inputs,
+            constants,
+            overwritten,
+            exits,
+            writes_node,
+            words,
+            code,
+            bytes,
+            _names: names,
+            _memory: memory,
+        })
+    }
+}
+
+/// A value in the processor.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Typed {
+    None,
+    Unset,
+    Opaque,
+    Bool(Value),
+    Int(Value),
+    Real(Value),
+    Range { object: Value, first: Value, step: Value },
+    Object(Value, Form),
+}
+
+impl Typed {
+    pub(super) fn kind(&self) -> Kind {
+        match self {
+            Typed::None => Kind::None,
+            Typed::Unset => Kind::Unset,
+            Typed::Opaque => Kind::Opaque,
+            Typed::Bool(_) => Kind::Bool,
+            Typed::Int(_) => Kind::Int,
+            Typed::Real(_) => Kind::Real,
+            Typed::Range { .. } => Kind::Range,
+            Typed::Object(_, form) => Kind::Object(*form),
+        }
+    }
+}
+
+/// An operand, with a value that it had when the code was written: it says what the elements are like.
+#[derive(Clone, Copy)]
+pub(super) struct Got<'v> {
+    pub typed: Typed,
+    pub sample: Option<&'v Model>,
+}
+
+/// What a piece of code is for.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Key {
+    calls: Vec<Call>,
+    function: FunctionId,
+    base: u32,
+    pc: u32,
+    kinds: Vec<(Reg, Kind)>,
+}
+
+/// Where the writer is in a piece.
+#[derive(Clone)]
+pub(super) struct Now<'v> {
+    pub calls: Vec<Call>,
+    pub function: FunctionId,
+    pub base: u32,
+    kinds: BTreeMap<Reg, Kind>,
+    samples: HashMap<Reg, &'v Model>,
+    /// Instructions since they were counted.
+    done: i64,
+}
+
+/// How the writing goes on after an instruction.
+pub(super) enum Then {
+    /// With the next one.
+    Next,
+    /// The piece has ended.
+    Ended,
+    /// There is no code for this instruction.
+    Leave,
+}
+
+/// An exit whose code is not written yet.
+struct Leaving {
+    block: Block,
+    exit: Exit,
+    values: Vec<(Reg, Kind, Vec<Value>)>,
+    done: i64,
+}
+
+/// A routine while it is written.
+pub(super) struct Writer<'p, 'v, 'b> {
+    pub program: &'p Program,
+    pub b: FunctionBuilder<'b>,
+    convention: CallConv,
+    flows: HashMap<FunctionId, Flow>,
+    pieces: HashMap<Key, Block>,
+    waiting: Vec<(Block, usize, Now<'v>)>,
+    leaving: Vec<Leaving>,
+    variables: HashMap<(Reg, u8), Variable>,
+    /// What registers held where the code begins, if it was shared.
+    began_with: BTreeSet<Reg>,
+    constants: Vec<(FunctionId, u16)>,
+    written: BTreeSet<Reg>,
+    names: Vec<Box<Box<str>>>,
+    words: usize,
+    exchange: Value,
+    answer: StackSlot,
+    arguments: StackSlot,
+    steps: Variable,
+    done: Variable,
+}
+
+fn offset(word: usize) -> i32 {
+    i32::try_from(8 * word).expect("there are few words")
+}
+
+impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
+    fn new(program: &'p Program, mut b: FunctionBuilder<'b>, convention: CallConv) -> Self {
+        let slot = |words: u32| StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * words, 3);
+        let (answer, arguments) =
+            (b.create_sized_stack_slot(slot(1)), b.create_sized_stack_slot(slot(2 * ARGUMENTS)));
+        let (steps, done) = (b.declare_var(I64), b.declare_var(I64));
+        Writer {
+            program,
+            b,
+            convention,
+            flows: HashMap::new(),
+            pieces: HashMap::new(),
+            waiting: vec![],
+            leaving: vec![],
+            variables: HashMap::new(),
+            began_with: BTreeSet::new(),
+            constants: vec![],
+            written: BTreeSet::new(),
+            names: vec![],
+            words: 0,
+            exchange: Value::from_u32(0),
+            answer,
+            arguments,
+            steps,
+            done,
+        }
+    }
+
+    pub(super) fn f(&self, now: &Now<'_>) -> &'p Function {
+        self.program.function(now.function)
+    }
+
+    pub(super) fn flow(&mut self, id: FunctionId) -> &Flow {
+        self.flows.entry(id).or_insert_with(|| Flow::of(self.program.function(id)))
+    }
+
+    /// The code that reads all inputs, and the first piece. Gives the inputs.
+    fn begin(&mut self, id: FunctionId, pc: usize, found: Found<'_, 'v>) -> Written<Vec<(Reg, Kind)>> {
+        let f = self.program.function(id);
+        let block = self.b.create_block();
+        self.b.switch_to_block(block);
+        self.b.append_block_params_for_function_params(block);
+        self.exchange = self.b.block_params(block)[0];
+        let steps = self.word(words::STEPS);
+        self.b.def_var(self.steps, steps);
+        let zero = self.int(0);
+        self.b.def_var(self.done, zero);
+
+        // Registers that hold something shared are inputs even where they are dead: when one is written, what it held
+        // goes.
+        let flow = self.flow(id);
+        let mut inputs: Vec<Reg> = vec![];
+        let own = (0..f.node_registers).map(|i| (Reg::Node(i), Operand::new(Place::Node, i.into())));
+        let scratch = (0..f.scratch_registers)
+            .map(|i| (Reg::Scratch(i.into()), Operand::new(Place::Scratch, i.into())));
+        for (reg, o) in own.chain(scratch) {
+            if flow.is_live(pc, o) || kind_of(found, reg).is_some_and(|kind| !kind.is_plain()) {
+                inputs.push(reg);
+            }
+        }
+        let outers = f.code.iter().flat_map(|op| crate::passes::place::reads_and_writes(f, op).0);
+        let outers: BTreeSet<Operand> = outers.filter(|o| o.place() == Place::Outer).collect();
+        inputs.extend(outers.into_iter().map(|o| Reg::Outer(o.index() as u16)));
+
+        let mut now = Now {
+            calls: vec![],
+            function: id,
+            base: 0,
+            kinds: BTreeMap::new(),
+            samples: HashMap::new(),
+            done: 0,
+        };
+        let mut known = vec![];
+        let mut at = words::REGISTERS;
+        for reg in inputs {
+            let Some(value) = found(reg) else { return Err("a register that is not there".into()) };
+            let kind = Kind::of(value);
+            if !kind.is_plain() {
+                self.began_with.insert(reg);
+                now.samples.insert(reg, value);
+            }
+            let typed = match kind {
+                Kind::None => Typed::None,
+                Kind::Unset => Typed::Unset,
+                Kind::Opaque => Typed::Opaque,
+                Kind::Bool => Typed::Bool(self.word(at)),
+                Kind::Int => Typed::Int(self.word(at)),
+                Kind::Real => Typed::Real(self.b.ins().load(F64, PLAIN, self.exchange, offset(at))),
+                Kind::Range => {
+                    Typed::Range { object: self.word(at), first: self.word(at + 1), step: self.word(at + 2) }
+                }
+                Kind::Object(form) => Typed::Object(self.word(at), form),
+            };
+            self.define(reg, typed);
+            now.kinds.insert(reg, kind);
+            known.push((reg, kind));
+            at += kind.words();
+        }
+        if known.len() > REGISTERS {
+            return Err("too many registers".into());
+        }
+        self.words = at;
+        self.go(&mut now, pc);
+        Ok(known)
+    }
+
+    /// Writes every piece that some other leads to.
+    fn all_pieces(&mut self) {
+        while let Some((block, first, mut now)) = self.waiting.pop() {
+            self.b.switch_to_block(block);
+            let mut pc = first;
+            loop {
+                if pc != first && self.flow(now.function).is_target(pc) {
+                    self.go(&mut now, pc);
+                    break;
+                }
+                match self.instruction(&mut now, pc) {
+                    Then::Next => {
+                        now.done += 1;
+                        pc += 1;
+                    }
+                    Then::Ended => break,
+                    Then::Leave => {
+                        let exit = self.exit(&now, pc);
+                        self.b.ins().jump(exit, &[]);
+                        break;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Writes the code of every exit.
+    fn all_exits(&mut self) -> Vec<Exit> {
+        let mut exits = vec![];
+        for Leaving { block, mut exit, values, done } in std::mem::take(&mut self.leaving) {
+            self.b.switch_to_block(block);
+            let mut at = words::REGISTERS;
+            for (reg, kind, values) in values {
+                if !self.written.contains(&reg) {
+                    continue;
+                }
+                for value in values {
+                    self.b.ins().store(PLAIN, value, self.exchange, offset(at));
+                    at += 1;
+                }
+                exit.has_objects |= !kind.is_plain();
+                exit.registers.push((reg, kind));
+            }
+            self.words = self.words.max(at);
+            let steps = self.b.use_var(self.steps);
+            self.b.ins().store(PLAIN, steps, self.exchange, offset(words::STEPS));
+            let before = self.b.use_var(self.done);
+            let done = self.b.ins().iadd_imm_s(before, done);
+            self.b.ins().store(PLAIN, done, self.exchange, offset(words::DONE));
+            let number = self.int(exits.len() as i64);
+            self.b.ins().return_(&[number]);
+            exits.push(exit);
+        }
+        exits
+    }
+
+    /// Jumps to the piece that begins at an instruction with the kinds known now.
+    pub(super) fn go(&mut self, now: &mut Now<'v>, pc: usize) {
+        let before = self.b.use_var(self.done);
+        let done = self.b.ins().iadd_imm_s(before, now.done);
+        self.b.def_var(self.done, done);
+        now.done = 0;
+        self.forget_dead(now, pc);
+        let key = Key {
+            calls: now.calls.clone(),
+            function: now.function,
+            base: now.base,
+            pc: pc as u32,
+            kinds: now.kinds.iter().map(|(reg, kind)| (*reg, *kind)).collect(),
+        };
+        let block = match self.pieces.get(&key) {
+            Some(block) => *block,
+            None if self.pieces.len() >= PIECES => self.exit(now, pc),
+            None => {
+                let block = self.b.create_block();
+                self.pieces.insert(key, block);
+                self.waiting.push((block, pc, now.clone()));
+                block
+            }
+        };
+        self.b.ins().jump(block, &[]);
+    }
+
+    /// Forgets registers that nobody reads again. One that holds something shared, or did so where the code began, stays: what
+    /// it holds counts as long as it holds it.
+    fn forget_dead(&mut self, now: &mut Now<'v>, pc: usize) {
+        let mut places: Vec<(FunctionId, u32, usize)> =
+            now.calls.iter().map(|call| (call.caller, call.base, call.back as usize)).collect();
+        places.push((now.function, now.base, pc));
+        let innermost_end = now.base + u32::from(self.f(now).scratch_registers);
+        let mut dead = vec![];
+        for (reg, kind) in &now.kinds {
+            if !kind.is_plain() || self.began_with.contains(reg) {
+                continue;
+            }
+            let (id, at, o) = match *reg {
+                Reg::Outer(_) => continue,
+                Reg::Node(i) => (places[0].0, places[0].2, Operand::new(Place::Node, i.into())),
+                Reg::Scratch(i) if i >= innermost_end => {
+                    dead.push(*reg);
+                    continue;
+                }
+                Reg::Scratch(i) => {
+                    let (id, base, at) =
+                        *places.iter().rev().find(|(_, base, _)| *base <= i).expect("the first base is zero");
+                    (id, at, Operand::new(Place::Scratch, (i - base) as usize))
+                }
+            };
+            let flow = self.flows.entry(id).or_insert_with(|| Flow::of(self.program.function(id)));
+            if !flow.is_live(at, o) {
+                dead.push(*reg);
+            }
+        }
+        for reg in dead {
+            now.kinds.remove(&reg);
+            now.samples.remove(&reg);
+        }
+    }
+
+    /// A place to leave at, before an instruction.
+    pub(super) fn exit(&mut self, now: &Now<'v>, pc: usize) -> Block {
+        let block = self.b.create_block();
+        self.b.set_cold_block(block);
+        let mut values = vec![];
+        for (reg, kind) in &now.kinds {
+            // A register that is only read stays as it is.
+            if !matches!(reg, Reg::Outer(_)) && *kind != Kind::Opaque {
+                let parts = match self.typed(*reg, *kind) {
+                    Typed::None | Typed::Unset | Typed::Opaque => vec![],
+                    Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) | Typed::Object(x, _) => vec![x],
+                    Typed::Range { object, .. } => vec![object],
+                };
+                values.push((*reg, *kind, parts));
+            }
+        }
+        let exit = Exit {
+            calls: now.calls.clone(),
+            function: now.function,
+            base: now.base,
+            pc: pc as u32,
+            registers: vec![],
+            has_objects: false,
+        };
+        self.leaving.push(Leaving { block, exit, values, done: now.done });
+        block
+    }
+
+    /// Leaves before the instruction where a condition holds.
+    pub(super) fn leave_if(&mut self, now: &Now<'v>, pc: usize, condition: Value) {
+        let (exit, on) = (self.exit(now, pc), self.b.create_block());
+        self.b.ins().brif(condition, exit, &[], on, &[]);
+        self.b.switch_to_block(on);
+    }
+
+    /// A jump: one that goes back is a step.
+    pub(super) fn jump(&mut self, now: &mut Now<'v>, pc: usize, target: usize) {
+        if target <= pc {
+            self.take_step(now, pc);
+        }
+        now.done += 1;
+        self.go(now, target);
+    }
+
+    /// Takes a step, or leaves before the instruction where there is none left.
+    pub(super) fn take_step(&mut self, now: &Now<'v>, pc: usize) {
+        let left = self.b.use_var(self.steps);
+        let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThanOrEqual, left, 0);
+        self.leave_if(now, pc, none);
+        let left = self.b.ins().iadd_imm_s(left, -1);
+        self.b.def_var(self.steps, left);
+    }
+
+    /// A word that the machine gave.
+    pub(super) fn word(&mut self, at: usize) -> Value {
+        self.b.ins().load(I64, PLAIN, self.exchange, offset(at))
+    }
+
+    pub(super) fn int(&mut self, n: i64) -> Value {
+        self.b.ins().iconst(I64, n)
+    }
+
+    fn variable(&mut self, reg: Reg, part: u8) -> Variable {
+        let b = &mut self.b;
+        *self.variables.entry((reg, part)).or_insert_with(|| b.declare_var(if part == 0 { F64 } else { I64 }))
+    }
+
+    /// Sets a register's variables.
+    fn define(&mut self, reg: Reg, typed: Typed) {
+        let parts: &[(u8, Value)] = match typed {
+            Typed::None | Typed::Unset | Typed::Opaque => &[],
+            Typed::Real(x) => &[(0, x)],
+            Typed::Bool(x) | Typed::Int(x) | Typed::Object(x, _) => &[(1, x)],
+            Typed::Range { object, first, step } => &[(1, object), (2, first), (3, step)],
+        };
+        for (part, value) in parts {
+            let variable = self.variable(reg, *part);
+            self.b.def_var(variable, *value);
+        }
+    }
+
+    /// The value of a register of that kind.
+    fn typed(&mut self, reg: Reg, kind: Kind) -> Typed {
+        let mut part = |part| {
+            let variable = self.variable(reg, part);
+            self.b.use_var(variable)
+        };
+        match kind {
+            Kind::None => Typed::None,
+            Kind::Unset => Typed::Unset,
+            Kind::Opaque => Typed::Opaque,
+            Kind::Bool => Typed::Bool(part(1)),
+            Kind::Int => Typed::Int(part(1)),
+            Kind::Real => Typed::Real(part(0)),
+            Kind::Range => Typed::Range { object: part(1), first: part(2), step: part(3) },
+            Kind::Object(form) => Typed::Object(part(1), form),
+        }
+    }
+
+    fn reg(now: &Now<'_>, o: Operand) -> Reg {
+        match o.place() {
+            Place::Node => Reg::Node(o.index() as u16),
+            Place::Outer => Reg::Outer(o.index() as u16),
+            Place::Scratch | Place::Constant => Reg::Scratch(now.base + o.index() as u32),
+        }
+    }
+
+    /// The value of an operand; `None` for one that the code knows nothing of.
+    pub(super) fn get(&mut self, now: &Now<'v>, o: Operand) -> Option<Got<'v>> {
+        if o.is_constant() {
+            return self.constant(now, o);
+        }
+        let reg = Self::reg(now, o);
+        let kind = *now.kinds.get(&reg)?;
+        Some(Got { typed: self.typed(reg, kind), sample: now.samples.get(&reg).copied() })
+    }
+
+    fn constant(&mut self, now: &Now<'v>, o: Operand) -> Option<Got<'v>> {
+        let value: &'v Model = &self.program.function(now.function).constants[o.index()];
+        let typed = match value {
+            Model::None => Typed::None,
+            Model::Bool(b) => Typed::Bool(self.int(i64::from(*b))),
+            Model::Int(n) => Typed::Int(self.int(*n)),
+            Model::Real(x) => Typed::Real(self.b.ins().f64const(*x)),
+            other => {
+                let which = (now.function, o.index() as u16);
+                let known = self.constants.iter().position(|known| *known == which);
+                let at = known.unwrap_or(self.constants.len());
+                if at >= words::MOST_CONSTANTS {
+                    return None;
+                }
+                if known.is_none() {
+                    self.constants.push(which);
+                }
+                let object = self.word(words::CONSTANTS + at);
+                match (other, Kind::of(other)) {
+                    (Model::Range(range), _) => {
+                        Typed::Range { object, first: self.int(range.start), step: self.int(range.step) }
+                    }
+                    (_, Kind::Object(form)) => Typed::Object(object, form),
+                    _ => return None,
+                }
+            }
+        };
+        Some(Got { typed, sample: Some(value) })
+    }
+
+    /// Writes a register.
+    pub(super) fn put(&mut self, now: &mut Now<'v>, o: Operand, typed: Typed, sample: Option<&'v Model>) {
+        let reg = Self::reg(now, o);
+        self.written.insert(reg);
+        self.define(reg, typed);
+        now.kinds.insert(reg, typed.kind());
+        match sample.filter(|_| !typed.kind().is_plain()) {
+            Some(sample) => now.samples.insert(reg, sample),
+            None => now.samples.remove(&reg),
+        };
+    }
+}
+
+/// Calls of functions that are not machine code of ours.
+impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
+    /// Calls the function at an address.
+    pub(super) fn call_address(&mut self, function: *const u8, given: &[Value], answer: Type) -> Value {
+        let mut signature = Signature::new(self.convention);
+        for value in given {
+            let ty = self.b.func.dfg.value_type(*value);
+            signature.params.push(AbiParam::new(ty));
+        }
+        signature.returns.push(AbiParam::new(answer));
+        let signature = self.b.import_signature(signature);
+        let address = self.int(function as i64);
+        let call = self.b.ins().call_indirect(signature, address, given);
+        self.b.inst_results(call)[0]
+    }
+
+    /// The address of the word that called functions answer to.
+    pub(super) fn answer(&mut self) -> Value {
+        self.b.ins().stack_addr(I64, self.answer, 0)
+    }
+
+    /// The address of the array for arguments.
+    pub(super) fn arguments(&mut self) -> Value {
+        self.b.ins().stack_addr(I64, self.arguments, 0)
+    }
+
+    /// The address of a name, which lives as long as the code.
+    pub(super) fn keep_name(&mut self, name: &str) -> Value {
+        let name: Box<Box<str>> = Box::new(name.into());
+        let address = std::ptr::from_ref(&*name) as i64;
+        self.names.push(name);
+        self.int(address)
+    }
+}
+
+impl Now<'_> {
+    /// Counts an instruction that the writer of a piece does not count.
+    pub(super) fn count(&mut self) {
+        self.done += 1;
+    }
+
+    /// The whole number that an operand is, where it is a constant.
+    pub(super) fn constant_int(&self, f: &Function, o: Operand) -> Option<i64> {
+        match f.constants.get(o.index()) {
+            Some(Model::Int(n)) if o.is_constant() => Some(*n),
+            _ => None,
+        }
+    }
+}
