@@ -43,11 +43,10 @@ fn outcome(program: &Program, limits: Limits) -> (String, u64) {
     }
 }
 
-/// The same with machine code and without, with all limits of steps up to a number.
+/// The same with machine code and without, with all limits of steps up to a number. Gives the result.
 fn agree(text: &str, most: u64) -> String {
     let program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
-    let (plain, quick) =
-        (program.clone().with_machine_code_after(0), program.with_machine_code_after(1));
+    let (plain, quick) = (program.clone().with_machine_code_after(0), program.with_machine_code_after(1));
     for steps in (0..most).chain([20_000_000]) {
         let limits = Limits { steps, ..Limits::default() };
         assert_eq!(outcome(&plain, limits), outcome(&quick, limits), "{steps} steps of {text}");
@@ -61,8 +60,217 @@ fn entry(body: &str) -> String {
 
 #[test]
 fn loops_of_numbers() {
-    let sum = entry(
-        "(set $s 0) (for $i (range 1000) (body (set $s (add $s (mul $i 0.5))))) (return $s)",
-    );
+    let sum = entry("(set $s 0) (for $i (range 1000) (body (set $s (add $s (mul $i 0.5))))) (return $s)");
     assert_eq!(agree(&sum, 40), "249750.0");
+}
+
+#[test]
+fn a_variable_may_change_its_kind() {
+    let text = entry("(set $x 0) (for $i (range 9) (body (set $x (add $x 0.25)))) (return $x)");
+    assert_eq!(agree(&text, 20), "2.25");
+    let text = entry(
+        "(set $x none) (for $i (range 9) (body (if (is_none $x) (then (set $x $i)) (else (set $x (div $x 2)))))) (return $x)",
+    );
+    assert_eq!(agree(&text, 20), "0.0");
+}
+
+#[test]
+fn faults_are_those_of_the_interpreter() {
+    let cases = [
+        (
+            "(set $x 9) (while true (body (set $x (sub $x 1)) (set $y (div 1 $x)))) (return 0)",
+            "division-by-zero",
+        ),
+        ("(set $x 1) (while true (body (set $x (mul $x 3)))) (return 0)", "integer-overflow"),
+        (
+            "(set $x 1.0) (while true (body (set $x (sub $x 0.25)) (set $y (sqrt $x)))) (return 0)",
+            "math-domain",
+        ),
+        (
+            "(set $l (list 1 2 3)) (set $k 0) (while true (body (set $y (index $l $k)) (set $k (add $k 1)))) (return 0)",
+            "list-index",
+        ),
+        ("(set $x 2.0) (while true (body (set $x (pow $x 2)))) (return 0)", "float-overflow"),
+        ("(set $x 0) (while true (body (set $x (add $x 1)))) (return 0)", "step-budget"),
+        (
+            "(set $x 0) (for $i (range 9) (body (if (eq $i 6) (then (set $x \"a\"))) (set $x (add $x 1)))) (return 0)",
+            "type-mismatch",
+        ),
+    ];
+    for (body, code) in cases {
+        let found = agree(&entry(body), 30);
+        assert!(found.contains(code), "{found}");
+    }
+}
+
+#[test]
+fn a_call_in_progress_is_in_the_stack_of_a_fault() {
+    let text = "(module (fn \"half\" (params $x) (return (div 1.0 $x)))
+        (fn \"twice\" (params $x) (set $y (call \"half\" $x)) (return (mul 2 $y)))
+        (fn \"m\" (params) (set $x 8) (while true (body (set $x (sub $x 1)) (set $z (call \"twice\" $x)))) (return 0))
+        (entry \"m\"))";
+    let found = agree(text, 60);
+    assert!(["half", "twice", "division-by-zero"].iter().all(|word| found.contains(word)), "{found}");
+}
+
+#[test]
+fn elements_of_what_is_shared() {
+    let text = entry(
+        "(set $rows (list (tuple 1.5 2) (tuple 2.5 3) (tuple 3.5 4))) (set $s 0) (set $last none)
+         (for $k (range 5) (body (for $row $rows (body (set $last $row) (set $s (add $s (mul (index $row 0) (index $row 1))))))))
+         (return (tuple $s $last))",
+    );
+    assert_eq!(agree(&text, 40), "(122.5, (3.5, 4))");
+    let text = entry(
+        "(set $v (vec 1.0 2.0 3.0)) (set $s 0.0) (for $k (range 5) (body (for $x $v (body (set $s (add $s $x)))))) (return $s)",
+    );
+    assert_eq!(agree(&text, 40), "30.0");
+}
+
+/// A program at random: numbers, loops, branches, calls, elements; sometimes a fault.
+struct Writer {
+    dice: u64,
+    text: String,
+    depth: usize,
+    loops: usize,
+}
+
+impl Writer {
+    fn roll(&mut self, n: u64) -> u64 {
+        self.dice = self.dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.dice >> 33) % n
+    }
+
+    fn variable(&mut self) -> &'static str {
+        ["$a", "$b", "$c", "$d"][self.roll(4) as usize]
+    }
+
+    fn expression(&mut self, depth: usize) -> String {
+        let kind = self.roll(if depth == 0 { 4 } else { 17 });
+        let (a, b) = if kind > 3 {
+            (self.expression(depth - 1), self.expression(depth - 1))
+        } else {
+            (String::new(), String::new())
+        };
+        match kind {
+            0 | 1 => self.variable().into(),
+            2 => format!("{}", self.roll(7) as i64 - 2),
+            3 => {
+                ["0.5", "-1.25", "3.0", "true", "1e200", "4611686018427387904"][self.roll(6) as usize].into()
+            }
+            4..=8 => format!("({} {a} {b})", ["add", "sub", "mul", "add", "sub"][self.roll(5) as usize]),
+            9 => format!("(div {a} {b})"),
+            10 => format!("({} {a} {b})", ["mod", "floordiv", "pow"][self.roll(3) as usize]),
+            11 => format!("({} {a} {b})", ["lt", "le", "eq", "ne", "gt", "ge"][self.roll(6) as usize]),
+            12 => format!(
+                "({} {a})",
+                ["neg", "not", "abs", "float", "int", "floor", "round"][self.roll(7) as usize]
+            ),
+            13 => {
+                format!("({} {a})", ["sin", "sqrt", "exp", "log", "is_none", "sign"][self.roll(6) as usize])
+            }
+            14 => format!("({} {a} {b})", ["min", "max", "atan2", "hypot"][self.roll(4) as usize]),
+            15 => format!("(index $l (mod {a} 4))"),
+            _ => format!("(call \"f{}\" {a} {b})", self.roll(2)),
+        }
+    }
+
+    fn statements(&mut self, depth: usize) {
+        for _ in 0..1 + self.roll(3) {
+            let kind = self.roll(if depth == 0 { 7 } else { 12 });
+            match kind {
+                0..=5 => {
+                    let (to, value) = (self.variable(), self.expression(2));
+                    self.text += &format!("(set {to} {value}) ");
+                }
+                6 if self.depth > 0 => {
+                    let test = self.expression(1);
+                    let what = ["break", "continue"][self.roll(2) as usize];
+                    self.text += &format!("(if (lt {test} 0) (then ({what}))) ");
+                }
+                6 => self.text += "(set $t (tuple $a $b)) (unpack ($b $a) $t) ",
+                7 | 8 => {
+                    let test = self.expression(1);
+                    self.text += &format!("(if (gt {test} 0.5) (then ");
+                    self.statements(depth - 1);
+                    self.text += ") (else ";
+                    self.statements(depth - 1);
+                    self.text += ")) ";
+                }
+                9 => {
+                    self.loops += 1;
+                    let k = format!("$k{}", self.loops);
+                    let most = 3 + self.roll(9);
+                    self.text += &format!("(set {k} 0) (while (lt {k} {most}) (body (set {k} (add {k} 1)) ");
+                    self.inside(depth);
+                }
+                10 => {
+                    self.loops += 1;
+                    let k = format!("$k{}", self.loops);
+                    let count = 2 + self.roll(12);
+                    self.text += &format!("(for {k} (range {count}) (body (set $a {k}) ");
+                    self.inside(depth);
+                }
+                _ => {
+                    let over = ["$l", "$p", "(list 1 0.5 2)", "(vec 0.5 0.25)", "(tuple $a 2.0)"]
+                        [self.roll(5) as usize];
+                    self.text += &format!("(for $x {over} (body (set $b $x) ");
+                    self.inside(depth);
+                }
+            }
+        }
+    }
+
+    fn inside(&mut self, depth: usize) {
+        self.depth += 1;
+        self.statements(depth - 1);
+        self.depth -= 1;
+        self.text += ")) ";
+    }
+
+    fn program(seed: u64) -> String {
+        let mut writer = Writer { dice: seed, text: String::new(), depth: 0, loops: 0 };
+        writer.text += "(module ";
+        for k in 0..2 {
+            // The second function may call the first; neither calls itself.
+            writer.text += &format!(
+                "(fn \"f{k}\" (params $a $b) (set $c 1.5) (set $d $b) (set $l (list $a $b 0.5 2)) (set $p (tuple 1.0 $a)) "
+            );
+            let start = writer.text.len();
+            writer.statements(1);
+            writer.text += "(return (add $a $c))) ";
+            let own = writer.text.split_off(start);
+            writer.text += &if k == 0 {
+                own.replace("(call \"f0\"", "(add").replace("(call \"f1\"", "(sub")
+            } else {
+                own.replace("(call \"f1\"", "(call \"f0\"")
+            };
+        }
+        writer.text += "(fn \"m\" (params) (set $a 1) (set $b 2.5) (set $c 0) (set $d -1.5) (set $l (list 0.5 1.5 2.5 3.5)) (set $p (tuple 1 2)) ";
+        let rounds = 2 + writer.roll(6);
+        writer.text += &format!("(for $again (range {rounds}) (body ");
+        writer.statements(3);
+        writer.text += ")) (return (tuple $a $b $c $d))) (entry \"m\"))";
+        writer.text
+    }
+}
+
+#[test]
+fn programs_at_random() {
+    let mut faults = 0;
+    for seed in 0..400 {
+        let text = Writer::program(seed);
+        let Ok(module) = parse(&text) else { panic!("{text}") };
+        let program = compile::<f64>(&module, vec![]).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let (plain, quick) = (program.clone().with_machine_code_after(0), program.with_machine_code_after(1));
+        for (steps, bytes) in
+            [(60_000, 1 << 26), (7, 1 << 26), (300, 1 << 26), (60_000, 1 << 26), (60_000, 12_000)]
+        {
+            let limits = Limits { steps, bytes };
+            let (one, other) = (outcome(&plain, limits), outcome(&quick, limits));
+            faults += u32::from(one.0.contains("code:"));
+            assert_eq!(one, other, "seed {seed}, {steps} steps, {bytes} bytes: {text}");
+        }
+    }
+    assert!((100..1900).contains(&faults), "{faults} of 2000 runs fault");
 }
