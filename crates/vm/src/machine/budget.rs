@@ -410,7 +410,9 @@ impl<S: Scalar> Machine<'_, S> {
         let mut census = Census::new();
         self.leave_out_given(state, &mut census);
         state.count(&mut census);
-        self.scratch[..self.high].iter().for_each(|value| census.add(value));
+        // What is small and in no other value may be gone already, where machine code ran.
+        let scratch = self.scratch[..self.high].iter().filter(|value| !value.is_small());
+        scratch.for_each(|value| census.add(value));
         keep.count_bytes(&mut census);
         census.bytes()
     }

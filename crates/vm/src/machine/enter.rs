@@ -4,7 +4,7 @@ use super::registers::Registers;
 use super::state::State;
 use super::{Machine, PureCall};
 use crate::code::{FunctionId, Program};
-use crate::native::{Entry, Exit, Kind, Reg, Routine, words};
+use crate::native::{Entry, Exit, Kind, Made, Part, Reg, Routine, is_counted, words};
 use crate::value::Value;
 use niwaki_math::Scalar;
 use std::any::Any;
@@ -32,9 +32,10 @@ impl<S: Scalar> Machine<'_, S> {
     ) -> Option<Onwards> {
         for routine in entry.routines() {
             if !(keeps && routine.writes_node) && self.give(state, r, routine) {
-                let given = self.words[words::STEPS];
+                let [steps, bytes] = [words::STEPS, words::BYTES].map(|at| self.words[at]);
                 let exit = routine.run(&mut self.words);
-                state.steps += given - self.words[words::STEPS];
+                state.steps += steps - self.words[words::STEPS];
+                state.charged += (bytes - self.words[words::BYTES]) as usize;
                 let done = self.words[words::DONE];
                 entry.note(done);
                 self.take_back(state, r, exit);
@@ -98,7 +99,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             at += kind.words();
         }
-        let is_free = |reg: &Reg| self.held_by(state, r, *reg).is_none_or(Value::is_plain);
+        let is_free = |reg: &Reg| self.held_by(state, r, *reg).is_none_or(|value| !is_counted(*reg, value));
         if !routine.overwritten.iter().all(is_free) {
             return false;
         }
@@ -106,6 +107,7 @@ impl<S: Scalar> Machine<'_, S> {
             words[words::CONSTANTS + k] = address(&self.program.function(*id).constants[usize::from(*i)]);
         }
         words[words::STEPS] = state.alarm.saturating_sub(state.steps).min(i64::MAX.cast_unsigned());
+        words[words::BYTES] = state.ceiling.saturating_sub(state.bytes()) as u64;
         words[words::ROOM] = self.high.saturating_sub(r.scratch) as u64;
         true
     }
@@ -117,13 +119,14 @@ impl<S: Scalar> Machine<'_, S> {
             self.buffer.clear();
             let mut at = words::REGISTERS;
             for (_, kind) in &exit.registers {
-                if !kind.is_plain() {
+                if matches!(kind, Kind::Object(_) | Kind::Range) {
                     self.buffer.push(shared(self.words[at]));
                 }
-                at += usize::from(kind.words() > 0);
+                at += kind.words_out();
             }
         }
         let mut objects = self.buffer.drain(..);
+        let mut made: Vec<(u16, Value<S>)> = Vec::new();
         let mut at = words::REGISTERS;
         for (reg, kind) in &exit.registers {
             let register = match *reg {
@@ -138,8 +141,17 @@ impl<S: Scalar> Machine<'_, S> {
                 Kind::None | Kind::Opaque => register.store(Value::None),
                 Kind::Unset => register.store(Value::Unset),
                 Kind::Range | Kind::Object(_) => register.store(objects.next().unwrap_or_default()),
+                Kind::Fresh { made: what, parts, number } => {
+                    let known = made.iter().find(|(own, _)| own == number).map(|(_, value)| value.clone());
+                    let value = known.unwrap_or_else(|| {
+                        let value = build(*what, parts, &self.words[at..]);
+                        made.push((*number, value.clone()));
+                        value
+                    });
+                    register.store(value);
+                }
             }
-            at += usize::from(kind.words() > 0);
+            at += kind.words_out();
         }
         for call in &exit.calls {
             self.pure.push(PureCall {
@@ -149,6 +161,23 @@ impl<S: Scalar> Machine<'_, S> {
                 to: call.to,
                 as_future: false,
             });
+        }
+    }
+}
+
+/// A vector or tuple of the numbers in these words.
+fn build<S: Scalar>(made: Made, parts: &[Option<Part>], words: &[u64]) -> Value<S> {
+    let numbers = parts.iter().flatten().zip(words).map(|(part, word)| match part {
+        Part::Bool => Value::Bool(*word != 0),
+        Part::Int => Value::Int(word.cast_signed()),
+        Part::Real => Value::real(f64::from_bits(*word)),
+    });
+    match made {
+        Made::Tuple => Value::tuple(numbers.collect()),
+        Made::Vector => {
+            let reals = words.iter().take(parts.iter().flatten().count());
+            let reals: Vec<S> = reals.map(|word| S::from_f64(f64::from_bits(*word))).collect();
+            Value::vector(&reals)
         }
     }
 }

@@ -21,8 +21,11 @@ fn give(value: &Value, out: &mut u64) -> u64 {
         Value::Real(x) => x.to_bits(),
         Value::Int(n) => n.cast_unsigned(),
         Value::Bool(b) => u64::from(*b),
-        other if !kind.is_plain() => std::ptr::from_ref(other) as u64,
-        _ => 0,
+        other if kind.is_plain() => {
+            debug_assert!(other.is_plain());
+            0
+        }
+        other => std::ptr::from_ref(other) as u64,
     };
     kind.mark()
 }

@@ -1,7 +1,7 @@
 //! Where machine code may begin, and the code that was made for it.
 
 use super::flow::entries;
-use super::kinds::{Kind, Reg};
+use super::kinds::Reg;
 use super::write::Routine;
 use crate::code::{Function, FunctionId, Program};
 use crate::value::Value;
@@ -150,8 +150,3 @@ impl Drop for Entry {
 
 /// What the registers of a function hold where code begins.
 pub(super) type Found<'a, 'v> = &'a dyn Fn(Reg) -> Option<&'v Value>;
-
-/// The kind of a register there.
-pub(super) fn kind_of(found: Found<'_, '_>, reg: Reg) -> Option<Kind> {
-    found(reg).map(Kind::of)
-}

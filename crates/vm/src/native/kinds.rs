@@ -32,9 +32,30 @@ pub(crate) enum Kind {
     /// Anything shared: the address of the register, or of the element, that holds it. The code reads it and never
     /// changes it.
     Object(Form),
+    /// A vector or tuple of numbers that the code made: one number for each part, and no object in memory yet. Registers
+    /// with the same number hold the same one.
+    Fresh { made: Made, parts: Parts, number: u16 },
     /// Something else that machine code never looks at.
     Opaque,
 }
+
+/// What a value is that the code made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Made {
+    Vector,
+    Tuple,
+}
+
+/// The kind of a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Part {
+    Bool,
+    Int,
+    Real,
+}
+
+/// The kinds of up to four parts.
+pub(crate) type Parts = [Option<Part>; 4];
 
 /// The form of what is shared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -43,7 +64,9 @@ pub(crate) enum Form {
     List = 16,
     Tuple,
     Record,
-    Vector,
+    Vector2,
+    Vector3,
+    Vector4,
     Other,
 }
 
@@ -62,7 +85,11 @@ impl Kind {
             Value::List(_) => Kind::Object(Form::List),
             Value::Tuple(_) => Kind::Object(Form::Tuple),
             Value::Record(_) => Kind::Object(Form::Record),
-            Value::Vector(_) => Kind::Object(Form::Vector),
+            Value::Vector(v) => Kind::Object(match v.components().len() {
+                2 => Form::Vector2,
+                3 => Form::Vector3,
+                _ => Form::Vector4,
+            }),
             Value::Str(_) | Value::Returned(_) | Value::Dict(_) => Kind::Object(Form::Other),
             Value::Rotation(_) | Value::Shape(_) => Kind::Object(Form::Other),
             Value::Dist(_) | Value::Function(_) => Kind::Object(Form::Other),
@@ -71,7 +98,7 @@ impl Kind {
 
     /// Whether such a value holds nothing that is shared.
     pub fn is_plain(self) -> bool {
-        !matches!(self, Kind::Range | Kind::Object(_))
+        !matches!(self, Kind::Range | Kind::Object(_) | Kind::Fresh { .. })
     }
 
     /// How a function called by the code names the kind of what it gives.
@@ -84,16 +111,38 @@ impl Kind {
             Kind::Unset => 4,
             Kind::Range => 5,
             Kind::Opaque => 6,
+            Kind::Fresh { .. } => 7,
             Kind::Object(form) => form as u64,
         }
     }
 
-    /// How many words it has where code and machine exchange values.
+    /// How many words it has where the code begins.
     pub fn words(self) -> usize {
         match self {
             Kind::None | Kind::Unset | Kind::Opaque => 0,
             Kind::Bool | Kind::Int | Kind::Real | Kind::Object(_) => 1,
             Kind::Range => 3,
+            Kind::Fresh { parts, .. } => parts.iter().flatten().count(),
         }
     }
+
+    /// How many words it has where the code leaves.
+    pub fn words_out(self) -> usize {
+        if self == Kind::Range { 1 } else { self.words() }
+    }
+
+    /// Whether what a register of that kind holds may be counted as memory of the run.
+    pub fn is_counted(self, reg: Reg) -> bool {
+        let in_scratch = matches!(reg, Reg::Scratch(_));
+        match self {
+            Kind::Fresh { .. } => !in_scratch,
+            Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => !in_scratch,
+            other => !other.is_plain(),
+        }
+    }
+}
+
+/// Whether what a register holds is counted as memory of the run: see [`Value::is_small`].
+pub(crate) fn is_counted<S: Scalar>(reg: Reg, value: &Value<S>) -> bool {
+    !value.is_plain() && !(matches!(reg, Reg::Scratch(_)) && value.is_small())
 }

@@ -18,7 +18,7 @@
 //!
 //! * [`kinds`]: what is known of a register; `flow`: which registers are live;
 //! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `operate`: the
-//!   instructions; `calls`: functions that the code calls;
+//!   instructions; `vectors`: those of vectors; `calls`: functions that the code calls;
 //! * `entries`: where code may begin, and the code that was made for it; `enter`, in `machine`: how it is run.
 //!
 //! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block Versioning"
@@ -29,10 +29,11 @@ mod entries;
 mod flow;
 mod kinds;
 mod operate;
+mod vectors;
 mod write;
 
 pub(crate) use entries::{Entries, Entry};
-pub(crate) use kinds::{Kind, Reg};
+pub(crate) use kinds::{Kind, Made, Part, Reg, is_counted};
 pub(crate) use write::{Exit, Routine};
 
 /// Words that code and machine exchange.
@@ -43,8 +44,10 @@ pub(crate) mod words {
     pub const DONE: usize = 1;
     /// Scratch registers that the run has used before, from the first one of the function.
     pub const ROOM: usize = 2;
+    /// Bytes that the code may charge, and how many are left.
+    pub const BYTES: usize = 3;
     /// Addresses of constants, at most so many.
-    pub const CONSTANTS: usize = 3;
+    pub const CONSTANTS: usize = 4;
     pub const MOST_CONSTANTS: usize = 32;
     /// Registers: what they hold where the code begins, and where it leaves.
     pub const REGISTERS: usize = CONSTANTS + MOST_CONSTANTS;

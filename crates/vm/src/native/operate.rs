@@ -1,9 +1,9 @@
 //! The instructions that have machine code.
 
 use super::calls::{self, NOT};
-use super::kinds::{Form, Kind};
+use super::kinds::{Form, Kind, Made};
 use super::words;
-use super::write::{ARGUMENTS, Call, Got, Now, PLAIN, Then, Typed, Writer};
+use super::write::{ARGUMENTS, Call, Got, Now, Number, PLAIN, Then, Typed, Writer};
 use crate::builtins::builtin;
 use crate::code::{Args, Binary, FunctionId, Op, Operand};
 use crate::value::{Value as Model, index};
@@ -46,7 +46,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                         self.leave_if(now, pc, least);
                         Typed::Int(self.b.ins().ineg(n))
                     }
-                    _ => return None,
+                    other => self.negated(now, pc, other)?,
                 };
                 self.put(now, to, typed, None);
             }
@@ -77,21 +77,44 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 self.branch(now, pc, holds, false, target as usize);
             }
             Op::Length { to, a } => {
-                let object = self.object(now, a)?;
-                let n = self.length(now, pc, object);
+                let n = match Self::count_of_parts(self.get(now, a)?.typed) {
+                    Some(n) => self.int(n as i64),
+                    None => {
+                        let object = self.object(now, a)?;
+                        self.length(now, pc, object)
+                    }
+                };
                 self.put(now, to, Typed::Int(n), None);
             }
             Op::Next { to, over, index, length, target } => {
                 return self.next(now, pc, to, over, index, length, target as usize);
             }
+            Op::Tuple { to, args } => {
+                let operands = &self.f(now).operands[args.range()];
+                if !(1..=4).contains(&operands.len()) {
+                    return None;
+                }
+                let numbers: Vec<Number> =
+                    operands.iter().map(|o| self.get(now, *o)?.typed.number()).collect::<Option<_>>()?;
+                let typed = self.make(now, pc, Made::Tuple, &numbers);
+                self.put(now, to, typed, None);
+            }
             Op::Field { to, a, name } => {
+                let typed = self.get(now, a)?.typed;
+                let name_of = &self.f(now).names[name as usize];
+                if let Some(at) = ["x", "y", "z", "w"].iter().position(|own| *own == &**name_of)
+                    && !matches!(typed, Typed::Fresh { made: Made::Tuple, .. })
+                    && let Some(part) = self.part(typed, at)
+                {
+                    self.put(now, to, part, None);
+                    return Some(Then::Next);
+                }
                 let Got { typed: Typed::Object(object, _), sample: Some(sample) } = self.get(now, a)? else {
                     return None;
                 };
                 let name = &self.f(now).names[name as usize];
                 let like = match sample {
                     Model::Record(record) => Like::of(record.field(name)?),
-                    Model::Vector(v) => v.field(name).map(|_| Like::REAL)?,
                     _ => return None,
                 };
                 let name = self.keep_name(name);
@@ -148,12 +171,14 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 self.b.ins().fcmp(FloatCC::NotEqual, x, zero)
             }
             Typed::None => self.int(0),
+            // It has parts.
+            Typed::Fresh { .. } => self.int(1),
             _ => return None,
         })
     }
 
     /// A number as a real one.
-    fn real(&mut self, typed: Typed) -> Option<Value> {
+    pub(super) fn real(&mut self, typed: Typed) -> Option<Value> {
         match typed {
             Typed::Real(x) => Some(x),
             Typed::Int(n) => Some(self.b.ins().fcvt_from_sint(F64, n)),
@@ -172,7 +197,10 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         let (x, y) = (self.get(now, a)?, self.get(now, b)?);
         let typed = match op {
             Binary::Add | Binary::Sub | Binary::Mul | Binary::Div => {
-                self.arithmetic(now, pc, op, x.typed, y.typed)?
+                match self.arithmetic(now, pc, op, x.typed, y.typed) {
+                    Some(typed) => typed,
+                    None => self.of_vectors(now, pc, op, x.typed, y.typed)?,
+                }
             }
             Binary::Mod | Binary::FloorDiv | Binary::Pow => match (x.typed, y.typed) {
                 (Typed::Int(x), Typed::Int(y)) if op != Binary::Pow => self.divide(now, pc, op, x, y),
@@ -192,6 +220,12 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 }
             },
             Binary::Index => {
+                if Self::count_of_parts(x.typed).is_some() {
+                    let at = now.constant_int(self.f(now), b)?;
+                    let part = self.part(x.typed, usize::try_from(at).ok()?)?;
+                    self.put(now, to, part, None);
+                    return Some(Then::Next);
+                }
                 let (Typed::Object(object, _), Typed::Int(at)) = (x.typed, y.typed) else { return None };
                 let place = match now.constant_int(self.f(now), b) {
                     Some(at) => usize::try_from(at).ok()?,
@@ -226,9 +260,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Binary::Sub => self.b.ins().fsub(a, b),
             Binary::Mul => self.b.ins().fmul(a, b),
             _ => {
-                let zero = self.b.ins().f64const(0.0);
-                let by_zero = self.b.ins().fcmp(FloatCC::Equal, b, zero);
-                self.leave_if(now, pc, by_zero);
+                self.leave_if_zero(now, pc, b);
                 self.b.ins().fdiv(a, b)
             }
         }))
@@ -363,7 +395,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         let got = self.get(now, over)?;
         let like = match got.typed {
             Typed::Range { .. } => Like::INT,
-            Typed::Object(_, Form::List | Form::Tuple | Form::Vector) => {
+            Typed::Object(_, Form::List | Form::Tuple | Form::Vector2 | Form::Vector3 | Form::Vector4) => {
                 Like::element(got.sample?, 0).unwrap_or(Like::REAL)
             }
             _ => return None,
@@ -386,6 +418,17 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
     fn unpack(&mut self, now: &mut Now<'v>, pc: usize, from: Operand, to: Args) -> Option<Then> {
         let names = &self.f(now).operands[to.range()];
+        let typed = self.get(now, from)?.typed;
+        if let Some(n) = Self::count_of_parts(typed) {
+            if n != names.len() {
+                return None;
+            }
+            let parts: Vec<Typed> = (0..n).map(|k| self.part(typed, k)).collect::<Option<_>>()?;
+            for (o, part) in names.iter().zip(parts) {
+                self.put(now, *o, part, None);
+            }
+            return Some(Then::Next);
+        }
         let Got { typed: Typed::Object(object, Form::Tuple), sample: Some(sample) } = self.get(now, from)?
         else {
             return None;
@@ -469,7 +512,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Kind::Int => Typed::Int(self.b.ins().load(I64, PLAIN, out, 0)),
             Kind::Bool => Typed::Bool(self.b.ins().load(I64, PLAIN, out, 0)),
             Kind::Object(form) => Typed::Object(self.b.ins().load(I64, PLAIN, out, 0), form),
-            Kind::Range | Kind::Unset | Kind::Opaque => return None,
+            Kind::Range | Kind::Unset | Kind::Opaque | Kind::Fresh { .. } => return None,
         })
     }
 
@@ -477,12 +520,14 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         let operands = &self.f(now).operands[args.range()];
         let given: Vec<Typed> =
             operands.iter().map(|o| self.get(now, *o).map(|got| got.typed)).collect::<Option<_>>()?;
-        let typed = match self.quick(now, pc, builtin::<f64>(id).name, &given) {
-            Some(typed) => typed,
-            None => {
-                let kind = kind_of_answer(builtin::<f64>(id).name, &given)?;
-                self.call_builtin(now, pc, id, &given, kind)?
-            }
+        let name = builtin::<f64>(id).name;
+        let typed = if let Some(typed) = self.quick(now, pc, name, &given) {
+            typed
+        } else if let Some(typed) = self.vector_function(now, pc, name, &given) {
+            typed
+        } else {
+            let kind = kind_of_answer(name, &given)?;
+            self.call_builtin(now, pc, id, &given, kind)?
         };
         self.put(now, to, typed, None);
         Some(Then::Next)
@@ -534,6 +579,9 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 let wide = self.b.ins().fsub(*b, *a);
                 let part = self.b.ins().fmul(wide, *t);
                 Some(Typed::Real(self.b.ins().fadd(*a, part)))
+            }
+            ("is_none", [x]) if !matches!(x, Typed::Opaque | Typed::Unset) => {
+                Some(Typed::Bool(self.int(i64::from(matches!(x, Typed::None)))))
             }
             (name, [x]) => {
                 let function = calls::real_function(name)?;

@@ -6,9 +6,9 @@
 //! a variable that is a whole number in the first round of a loop and a real one in the others has a piece for each, and no
 //! instruction tests a kind that is known.
 
-use super::entries::{Found, kind_of};
+use super::entries::Found;
 use super::flow::Flow;
-use super::kinds::{Form, Kind, Reg};
+use super::kinds::{Form, Kind, Made, Part, Reg, is_counted};
 use super::words;
 use crate::code::{Function, FunctionId, Operand, Place, Program};
 use crate::value::Value as Model;
@@ -181,9 +181,53 @@ pub(super) enum Typed {
     Real(Value),
     Range { object: Value, first: Value, step: Value },
     Object(Value, Form),
+    Fresh { made: Made, parts: [Option<Number>; 4], number: u16 },
+}
+
+/// A number in the processor.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Number {
+    Bool(Value),
+    Int(Value),
+    Real(Value),
+}
+
+impl Number {
+    fn part(self) -> Part {
+        match self {
+            Number::Bool(_) => Part::Bool,
+            Number::Int(_) => Part::Int,
+            Number::Real(_) => Part::Real,
+        }
+    }
+
+    fn value(self) -> Value {
+        match self {
+            Number::Bool(x) | Number::Int(x) | Number::Real(x) => x,
+        }
+    }
+}
+
+impl From<Number> for Typed {
+    fn from(number: Number) -> Typed {
+        match number {
+            Number::Bool(x) => Typed::Bool(x),
+            Number::Int(x) => Typed::Int(x),
+            Number::Real(x) => Typed::Real(x),
+        }
+    }
 }
 
 impl Typed {
+    pub(super) fn number(self) -> Option<Number> {
+        match self {
+            Typed::Bool(x) => Some(Number::Bool(x)),
+            Typed::Int(x) => Some(Number::Int(x)),
+            Typed::Real(x) => Some(Number::Real(x)),
+            _ => None,
+        }
+    }
+
     pub(super) fn kind(&self) -> Kind {
         match self {
             Typed::None => Kind::None,
@@ -194,6 +238,9 @@ impl Typed {
             Typed::Real(_) => Kind::Real,
             Typed::Range { .. } => Kind::Range,
             Typed::Object(_, form) => Kind::Object(*form),
+            Typed::Fresh { made, parts, number } => {
+                Kind::Fresh { made: *made, parts: parts.map(|part| part.map(Number::part)), number: *number }
+            }
         }
     }
 }
@@ -225,6 +272,8 @@ pub(super) struct Now<'v> {
     samples: HashMap<Reg, &'v Model>,
     /// Instructions since they were counted.
     done: i64,
+    /// How many vectors and tuples the code has made so far.
+    made: u16,
 }
 
 /// How the writing goes on after an instruction.
@@ -265,7 +314,16 @@ pub(super) struct Writer<'p, 'v, 'b> {
     answer: StackSlot,
     arguments: StackSlot,
     steps: Variable,
+    bytes: Variable,
     done: Variable,
+}
+
+/// Numbers of variables of parts: whole ones, then real ones.
+const WHOLE_PARTS: u8 = 4;
+const REAL_PARTS: u8 = 8;
+
+fn part_of(k: usize, kind: Part) -> u8 {
+    k as u8 + if kind == Part::Real { REAL_PARTS } else { WHOLE_PARTS }
 }
 
 fn offset(word: usize) -> i32 {
@@ -277,7 +335,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let slot = |words: u32| StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * words, 3);
         let (answer, arguments) =
             (b.create_sized_stack_slot(slot(1)), b.create_sized_stack_slot(slot(2 * ARGUMENTS)));
-        let (steps, done) = (b.declare_var(I64), b.declare_var(I64));
+        let [steps, bytes, done] = [(); 3].map(|()| b.declare_var(I64));
         Writer {
             program,
             b,
@@ -296,6 +354,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             answer,
             arguments,
             steps,
+            bytes,
             done,
         }
     }
@@ -317,6 +376,8 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         self.exchange = self.b.block_params(block)[0];
         let steps = self.word(words::STEPS);
         self.b.def_var(self.steps, steps);
+        let bytes = self.word(words::BYTES);
+        self.b.def_var(self.bytes, bytes);
         let zero = self.int(0);
         self.b.def_var(self.done, zero);
 
@@ -328,7 +389,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let scratch = (0..f.scratch_registers)
             .map(|i| (Reg::Scratch(i.into()), Operand::new(Place::Scratch, i.into())));
         for (reg, o) in own.chain(scratch) {
-            if flow.is_live(pc, o) || kind_of(found, reg).is_some_and(|kind| !kind.is_plain()) {
+            if flow.is_live(pc, o) || found(reg).is_some_and(|value| is_counted(reg, value)) {
                 inputs.push(reg);
             }
         }
@@ -343,6 +404,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             kinds: BTreeMap::new(),
             samples: HashMap::new(),
             done: 0,
+            made: 0,
         };
         let mut known = vec![];
         let mut at = words::REGISTERS;
@@ -350,7 +412,9 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             let Some(value) = found(reg) else { return Err("a register that is not there".into()) };
             let kind = Kind::of(value);
             if !kind.is_plain() {
-                self.began_with.insert(reg);
+                if kind.is_counted(reg) {
+                    self.began_with.insert(reg);
+                }
                 now.samples.insert(reg, value);
             }
             let typed = match kind {
@@ -364,6 +428,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                     Typed::Range { object: self.word(at), first: self.word(at + 1), step: self.word(at + 2) }
                 }
                 Kind::Object(form) => Typed::Object(self.word(at), form),
+                Kind::Fresh { .. } => return Err("only code makes these".into()),
             };
             self.define(reg, typed);
             now.kinds.insert(reg, kind);
@@ -418,12 +483,14 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                     self.b.ins().store(PLAIN, value, self.exchange, offset(at));
                     at += 1;
                 }
-                exit.has_objects |= !kind.is_plain();
+                exit.has_objects |= matches!(kind, Kind::Object(_) | Kind::Range);
                 exit.registers.push((reg, kind));
             }
             self.words = self.words.max(at);
             let steps = self.b.use_var(self.steps);
             self.b.ins().store(PLAIN, steps, self.exchange, offset(words::STEPS));
+            let bytes = self.b.use_var(self.bytes);
+            self.b.ins().store(PLAIN, bytes, self.exchange, offset(words::BYTES));
             let before = self.b.use_var(self.done);
             let done = self.b.ins().iadd_imm_s(before, done);
             self.b.ins().store(PLAIN, done, self.exchange, offset(words::DONE));
@@ -441,6 +508,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         self.b.def_var(self.done, done);
         now.done = 0;
         self.forget_dead(now, pc);
+        now.number_again();
         let key = Key {
             calls: now.calls.clone(),
             function: now.function,
@@ -470,7 +538,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let innermost_end = now.base + u32::from(self.f(now).scratch_registers);
         let mut dead = vec![];
         for (reg, kind) in &now.kinds {
-            if !kind.is_plain() || self.began_with.contains(reg) {
+            if kind.is_counted(*reg) || self.began_with.contains(reg) {
                 continue;
             }
             let (id, at, o) = match *reg {
@@ -509,6 +577,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                     Typed::None | Typed::Unset | Typed::Opaque => vec![],
                     Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) | Typed::Object(x, _) => vec![x],
                     Typed::Range { object, .. } => vec![object],
+                    Typed::Fresh { parts, .. } => parts.iter().flatten().map(|part| part.value()).collect(),
                 };
                 values.push((*reg, *kind, parts));
             }
@@ -550,6 +619,29 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         self.b.def_var(self.steps, left);
     }
 
+    /// Charges what an instruction makes, or leaves before it: the last that it checks.
+    pub(super) fn charge(&mut self, now: &Now<'v>, pc: usize, bytes: usize) {
+        let left = self.b.use_var(self.bytes);
+        let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, left, bytes as i64);
+        self.leave_if(now, pc, none);
+        let left = self.b.ins().iadd_imm_s(left, -(bytes as i64));
+        self.b.def_var(self.bytes, left);
+    }
+
+    /// A vector or tuple of these numbers, which is charged and in no memory yet.
+    pub(super) fn make(&mut self, now: &mut Now<'v>, pc: usize, made: Made, numbers: &[Number]) -> Typed {
+        let like: Vec<Model> = numbers.iter().map(|_| Model::real(0.0)).collect();
+        let bytes = match made {
+            Made::Vector => Model::<f64>::vector(&[0.0; 3]).own_bytes(),
+            Made::Tuple => Model::tuple(like).own_bytes(),
+        };
+        self.charge(now, pc, bytes);
+        let mut parts = [None; 4];
+        parts.iter_mut().zip(numbers).for_each(|(part, number)| *part = Some(*number));
+        now.made += 1;
+        Typed::Fresh { made, parts, number: now.made }
+    }
+
     /// A word that the machine gave.
     pub(super) fn word(&mut self, at: usize) -> Value {
         self.b.ins().load(I64, PLAIN, self.exchange, offset(at))
@@ -561,7 +653,10 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
 
     fn variable(&mut self, reg: Reg, part: u8) -> Variable {
         let b = &mut self.b;
-        *self.variables.entry((reg, part)).or_insert_with(|| b.declare_var(if part == 0 { F64 } else { I64 }))
+        *self
+            .variables
+            .entry((reg, part))
+            .or_insert_with(|| b.declare_var(if part == 0 || part >= REAL_PARTS { F64 } else { I64 }))
     }
 
     /// Sets a register's variables.
@@ -571,6 +666,13 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             Typed::Real(x) => &[(0, x)],
             Typed::Bool(x) | Typed::Int(x) | Typed::Object(x, _) => &[(1, x)],
             Typed::Range { object, first, step } => &[(1, object), (2, first), (3, step)],
+            Typed::Fresh { parts, .. } => {
+                for (k, part) in parts.into_iter().flatten().enumerate() {
+                    let variable = self.variable(reg, part_of(k, part.part()));
+                    self.b.def_var(variable, part.value());
+                }
+                &[]
+            }
         };
         for (part, value) in parts {
             let variable = self.variable(reg, *part);
@@ -593,6 +695,20 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             Kind::Real => Typed::Real(part(0)),
             Kind::Range => Typed::Range { object: part(1), first: part(2), step: part(3) },
             Kind::Object(form) => Typed::Object(part(1), form),
+            Kind::Fresh { made, parts, number } => {
+                let mut all = [None; 4];
+                for (k, (own, kind)) in all.iter_mut().zip(parts).enumerate() {
+                    *own = kind.map(|kind| {
+                        let x = part(part_of(k, kind));
+                        match kind {
+                            Part::Bool => Number::Bool(x),
+                            Part::Int => Number::Int(x),
+                            Part::Real => Number::Real(x),
+                        }
+                    });
+                }
+                Typed::Fresh { made, parts: all, number }
+            }
         }
     }
 
@@ -693,6 +809,22 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 }
 
 impl Now<'_> {
+    /// Numbers what the code has made from one on, in the order of the registers: so that pieces are alike where only these
+    /// numbers would differ.
+    fn number_again(&mut self) {
+        let mut known: Vec<u16> = vec![];
+        for kind in self.kinds.values_mut() {
+            if let Kind::Fresh { number, .. } = kind {
+                let at = known.iter().position(|own| own == number).unwrap_or(known.len());
+                if at == known.len() {
+                    known.push(*number);
+                }
+                *number = at as u16 + 1;
+            }
+        }
+        self.made = known.len() as u16;
+    }
+
     /// Counts an instruction that the writer of a piece does not count.
     pub(super) fn count(&mut self) {
         self.done += 1;

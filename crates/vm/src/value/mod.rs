@@ -169,6 +169,16 @@ impl<S: Scalar> Value<S> {
         )
     }
 
+    /// Whether it is a vector, or a tuple of up to four values without shared data: so little that registers of the machine
+    /// may hold it uncounted. Machine code keeps these in the processor.
+    pub fn is_small(&self) -> bool {
+        match self {
+            Value::Vector(_) => true,
+            Value::Tuple(tuple) => tuple.items().len() <= 4 && tuple.items().iter().all(Value::is_plain),
+            _ => false,
+        }
+    }
+
     /// Assigns. A register nearly always holds a number and gets one of the same kind: then one word is written.
     // Writing both words would use the stack, where a value stored as two words and loaded as sixteen
     // bytes delays the next instruction.
