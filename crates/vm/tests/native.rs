@@ -232,7 +232,12 @@ impl Writer {
                     self.loops += 1;
                     let k = format!("$k{}", self.loops);
                     let count = 2 + self.roll(12);
-                    self.text += &format!("(for {k} (range {count}) (body (set $a {k}) ");
+                    let range = match self.roll(4) {
+                        0 => format!("(range $a {count})"),
+                        1 => format!("(range {count} -3 -2)"),
+                        _ => format!("(range {count})"),
+                    };
+                    self.text += &format!("(for {k} {range} (body (set $a {k}) ");
                     self.inside(depth);
                 }
                 _ => {

@@ -5,9 +5,10 @@ use super::state::State;
 use super::{Machine, PureCall};
 use crate::code::{FunctionId, Program};
 use crate::native::{Entry, Exit, Kind, Made, Part, Reg, Routine, is_counted, words};
-use crate::value::Value;
+use crate::value::{Range, Value};
 use niwaki_math::Scalar;
 use std::any::Any;
+use std::sync::Arc;
 
 /// Where the interpreter continues after machine code.
 pub(super) struct Onwards {
@@ -19,8 +20,8 @@ pub(super) struct Onwards {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Runs the machine code that begins here, if there is some for these registers. Where activations are kept, their
-    /// registers are written one by one for the journal: then only code that leaves them alone runs.
+    /// Runs the machine code that begins here, if there is some for these registers. Where what registers of the activation
+    /// held is noted for each write, only code that leaves them alone runs.
     #[inline(never)]
     pub(super) fn enter(
         &mut self,
@@ -28,10 +29,10 @@ impl<S: Scalar> Machine<'_, S> {
         r: Registers<'_, S>,
         function: FunctionId,
         entry: &Entry,
-        keeps: bool,
+        writes_plainly: bool,
     ) -> Option<Onwards> {
         for routine in entry.routines() {
-            if !(keeps && routine.writes_node) && self.give(state, r, routine) {
+            if (writes_plainly || !routine.writes_node) && self.give(state, r, routine) {
                 let [steps, bytes] = [words::STEPS, words::BYTES].map(|at| self.words[at]);
                 let exit = routine.run(&mut self.words);
                 state.steps += steps - self.words[words::STEPS];
@@ -174,6 +175,10 @@ fn build<S: Scalar>(made: Made, parts: &[Option<Part>], words: &[u64]) -> Value<
     });
     match made {
         Made::Tuple => Value::tuple(numbers.collect()),
+        Made::Range => {
+            let [start, stop, step] = [0, 1, 2].map(|k| words[k].cast_signed());
+            Range::new(start, stop, step).map_or(Value::None, |range| Value::Range(Arc::new(range)))
+        }
         Made::Vector => {
             let reals = words.iter().take(parts.iter().flatten().count());
             let reals: Vec<S> = reals.map(|word| S::from_f64(f64::from_bits(*word))).collect();

@@ -125,7 +125,7 @@ impl<S: Scalar> Machine<'_, S> {
             ($pc:expr) => {
                 if let Some(entry) = f.native.at($pc)
                     && entry.is_open()
-                    && let Some(on) = self.enter(state, r!(), id, entry, K::KEEPS)
+                    && let Some(on) = self.enter(state, r!(), id, entry, keep.writes_plainly())
                 {
                     if K::KEEPS {
                         executed += on.done;

@@ -43,6 +43,9 @@ pub(super) trait Keep<S: Scalar>: Sized {
     /// The machine continues in this activation.
     fn enter(&mut self, state: &State<S>, node: NodeId);
 
+    /// Whether registers of the current activation are written as they are, without a note of what they held.
+    fn writes_plainly(&self) -> bool;
+
     /// Writes a register of the current activation.
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>);
 
@@ -134,6 +137,10 @@ impl<S: Scalar> Keep<S> for Dropped {
     const KEEPS: bool = false;
 
     fn enter(&mut self, _: &State<S>, _: NodeId) {}
+
+    fn writes_plainly(&self) -> bool {
+        true
+    }
 
     fn write(&mut self, _: &mut State<S>, _: usize, _: Value<S>) {}
 

@@ -8,7 +8,7 @@
 
 use super::kinds::Kind;
 use crate::builtins::builtin;
-use crate::value::{Value, index, iter_len};
+use crate::value::{Range, Value, index, iter_len};
 use niwaki_math::Scalar;
 
 /// No answer.
@@ -71,6 +71,14 @@ pub(super) unsafe extern "C" fn length(value: *const Value) -> i64 {
     // SAFETY: as above.
     let value = unsafe { &*value };
     iter_len(value).ok().and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)
+}
+
+/// How many numbers a range has; below zero where there is no such range.
+pub(super) extern "C" fn range_length(start: i64, stop: i64, step: i64) -> i64 {
+    if let (Some(n), 1) = (stop.checked_sub(start), step) {
+        return n.max(0);
+    }
+    Range::new(start, stop, step).map_or(-1, |range| range.len as i64)
 }
 
 /// A built-in function of plain values.

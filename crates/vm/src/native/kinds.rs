@@ -32,7 +32,7 @@ pub(crate) enum Kind {
     /// Anything shared: the address of the register, or of the element, that holds it. The code reads it and never
     /// changes it.
     Object(Form),
-    /// A vector or tuple of numbers that the code made: one number for each part, and no object in memory yet. Registers
+    /// A vector, tuple or range that the code made: one number for each part, and no object in memory yet. Registers
     /// with the same number hold the same one.
     Fresh { made: Made, parts: Parts, number: u16 },
     /// Something else that machine code never looks at.
@@ -44,6 +44,8 @@ pub(crate) enum Kind {
 pub(crate) enum Made {
     Vector,
     Tuple,
+    /// Its first number, its end, its step.
+    Range,
 }
 
 /// The kind of a part.
@@ -136,7 +138,7 @@ impl Kind {
         let in_scratch = matches!(reg, Reg::Scratch(_));
         match self {
             Kind::Fresh { .. } => !in_scratch,
-            Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => !in_scratch,
+            Kind::Range | Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => !in_scratch,
             other => !other.is_plain(),
         }
     }

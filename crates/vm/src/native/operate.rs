@@ -76,16 +76,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 let holds = self.compare(now, pc, op, a, b)?;
                 self.branch(now, pc, holds, false, target as usize);
             }
-            Op::Length { to, a } => {
-                let n = match Self::count_of_parts(self.get(now, a)?.typed) {
-                    Some(n) => self.int(n as i64),
-                    None => {
-                        let object = self.object(now, a)?;
-                        self.length(now, pc, object)
-                    }
-                };
-                self.put(now, to, Typed::Int(n), None);
-            }
+            Op::Length { to, a } => return self.length_of_operand(now, pc, to, a),
             Op::Next { to, over, index, length, target } => {
                 return self.next(now, pc, to, over, index, length, target as usize);
             }
@@ -172,7 +163,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             }
             Typed::None => self.int(0),
             // It has parts.
-            Typed::Fresh { .. } => self.int(1),
+            Typed::Fresh { made: Made::Vector | Made::Tuple, .. } => self.int(1),
             _ => return None,
         })
     }
@@ -362,14 +353,22 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         })
     }
 
-    /// The address of something that has elements.
-    fn object(&mut self, now: &Now<'v>, o: Operand) -> Option<Value> {
-        match self.get(now, o)?.typed {
-            Typed::Object(object, _) | Typed::Range { object, .. } => Some(object),
-            _ => None,
-        }
+    fn length_of_operand(&mut self, now: &mut Now<'v>, pc: usize, to: Operand, a: Operand) -> Option<Then> {
+        let typed = self.get(now, a)?.typed;
+        let n = match (Self::count_of_parts(typed), typed) {
+            (Some(n), _) => self.int(n as i64),
+            (None, Typed::Fresh { parts, .. }) => {
+                let given: Vec<Value> = parts.iter().flatten().map(|part| part.value()).collect();
+                self.call_address(calls::range_length as *const u8, &given, I64)
+            }
+            (None, Typed::Object(object, _) | Typed::Range { object, .. }) => self.length(now, pc, object),
+            _ => return None,
+        };
+        self.put(now, to, Typed::Int(n), None);
+        Some(Then::Next)
     }
 
+    /// How many elements a loop over an object visits.
     fn length(&mut self, now: &Now<'v>, pc: usize, object: Value) -> Value {
         let n = self.call_address(calls::length as *const u8, &[object], I64);
         let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, n, 0);
@@ -394,7 +393,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         };
         let got = self.get(now, over)?;
         let like = match got.typed {
-            Typed::Range { .. } => Like::INT,
+            Typed::Range { .. } | Typed::Fresh { made: Made::Range, .. } => Like::INT,
             Typed::Object(_, Form::List | Form::Tuple | Form::Vector2 | Form::Vector3 | Form::Vector4) => {
                 Like::element(got.sample?, 0).unwrap_or(Like::REAL)
             }
@@ -404,6 +403,10 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.branch(now, pc, ended, true, target);
         let typed = match got.typed {
             Typed::Range { first, step, .. } => {
+                let far = self.b.ins().imul(step, i);
+                Typed::Int(self.b.ins().iadd(first, far))
+            }
+            Typed::Fresh { parts: [Some(Number::Int(first)), _, Some(Number::Int(step)), _], .. } => {
                 let far = self.b.ins().imul(step, i);
                 Typed::Int(self.b.ins().iadd(first, far))
             }
@@ -521,7 +524,11 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         let given: Vec<Typed> =
             operands.iter().map(|o| self.get(now, *o).map(|got| got.typed)).collect::<Option<_>>()?;
         let name = builtin::<f64>(id).name;
-        let typed = if let Some(typed) = self.quick(now, pc, name, &given) {
+        let typed = if let ("len", [one]) = (name, operands) {
+            return self.length_of_operand(now, pc, to, *one);
+        } else if let Some(typed) = self.quick(now, pc, name, &given) {
+            typed
+        } else if let ("range", Some(typed)) = (name, self.range(now, pc, &given)) {
             typed
         } else if let Some(typed) = self.vector_function(now, pc, name, &given) {
             typed
@@ -592,6 +599,21 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             }
             _ => None,
         }
+    }
+
+    /// A range; leaves where there is none.
+    fn range(&mut self, now: &mut Now<'v>, pc: usize, given: &[Typed]) -> Option<Typed> {
+        let (zero, one) = (self.int(0), self.int(1));
+        let parts = match *given {
+            [Typed::Int(stop)] => [zero, stop, one],
+            [Typed::Int(start), Typed::Int(stop)] => [start, stop, one],
+            [Typed::Int(start), Typed::Int(stop), Typed::Int(step)] => [start, stop, step],
+            _ => return None,
+        };
+        let n = self.call_address(calls::range_length as *const u8, &parts, I64);
+        let refused = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, n, 0);
+        self.leave_if(now, pc, refused);
+        Some(self.make(now, pc, Made::Range, &parts.map(Number::Int)))
     }
 
     fn leave_unless_finite(&mut self, now: &Now<'v>, pc: usize, x: Value) {

@@ -45,6 +45,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     /// A part of what the code made, or a component of a vector.
     pub(super) fn part(&mut self, typed: Typed, at: usize) -> Option<Typed> {
         match typed {
+            Typed::Fresh { made: Made::Range, .. } => None,
             Typed::Fresh { parts, .. } => parts.get(at).copied().flatten().map(Typed::from),
             other => self.vector(other)?.get(at).map(|x| Typed::Real(*x)),
         }
@@ -53,6 +54,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     /// How many parts there are.
     pub(super) fn count_of_parts(typed: Typed) -> Option<usize> {
         match typed {
+            Typed::Fresh { made: Made::Range, .. } => None,
             Typed::Fresh { parts, .. } => Some(parts.iter().flatten().count()),
             Typed::Object(_, Form::Vector2) => Some(2),
             Typed::Object(_, Form::Vector3) => Some(3),

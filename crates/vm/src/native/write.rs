@@ -11,7 +11,7 @@ use super::flow::Flow;
 use super::kinds::{Form, Kind, Made, Part, Reg, is_counted};
 use super::words;
 use crate::code::{Function, FunctionId, Operand, Place, Program};
-use crate::value::Value as Model;
+use crate::value::{Range, Value as Model};
 use niwaki_native::codegen::ir::condcodes::IntCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{
@@ -23,6 +23,7 @@ use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext, Variable}
 use niwaki_native::module::{Linkage, Module as _};
 use niwaki_native::{Effort, Memory, Written, module};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
 
 /// Most pieces of a routine: what is beyond them is left to the interpreter.
 const PIECES: usize = 160;
@@ -201,7 +202,7 @@ impl Number {
         }
     }
 
-    fn value(self) -> Value {
+    pub(super) fn value(self) -> Value {
         match self {
             Number::Bool(x) | Number::Int(x) | Number::Real(x) => x,
         }
@@ -630,12 +631,13 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
 
     /// A vector or tuple of these numbers, which is charged and in no memory yet.
     pub(super) fn make(&mut self, now: &mut Now<'v>, pc: usize, made: Made, numbers: &[Number]) -> Typed {
-        let like: Vec<Model> = numbers.iter().map(|_| Model::real(0.0)).collect();
-        let bytes = match made {
-            Made::Vector => Model::<f64>::vector(&[0.0; 3]).own_bytes(),
-            Made::Tuple => Model::tuple(like).own_bytes(),
+        let numbers_of = || numbers.iter().map(|_| Model::real(0.0)).collect();
+        let like: Model = match made {
+            Made::Vector => Model::vector(&[0.0; 3]),
+            Made::Tuple => Model::tuple(numbers_of()),
+            Made::Range => Model::Range(Arc::new(Range { start: 0, stop: 0, step: 1, len: 0 })),
         };
-        self.charge(now, pc, bytes);
+        self.charge(now, pc, like.own_bytes());
         let mut parts = [None; 4];
         parts.iter_mut().zip(numbers).for_each(|(part, number)| *part = Some(*number));
         now.made += 1;

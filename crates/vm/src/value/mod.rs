@@ -169,11 +169,11 @@ impl<S: Scalar> Value<S> {
         )
     }
 
-    /// Whether it is a vector, or a tuple of up to four values without shared data: so little that registers of the machine
+    /// Whether it is a vector, a range, or a tuple of up to four values without shared data: so little that registers of the machine
     /// may hold it uncounted. Machine code keeps these in the processor.
     pub fn is_small(&self) -> bool {
         match self {
-            Value::Vector(_) => true,
+            Value::Vector(_) | Value::Range(_) => true,
             Value::Tuple(tuple) => tuple.items().len() <= 4 && tuple.items().iter().all(Value::is_plain),
             _ => false,
         }

@@ -429,6 +429,11 @@ impl<S: Scalar> Keep<S> for Kept<S> {
     }
 
     #[inline(always)]
+    fn writes_plainly(&self) -> bool {
+        self.quiet
+    }
+
+    #[inline(always)]
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>) {
         let register = &mut state.registers[place];
         if self.quiet {
