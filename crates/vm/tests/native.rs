@@ -75,6 +75,14 @@ fn a_variable_may_change_its_kind() {
 }
 
 #[test]
+fn a_whole_number_beyond_the_reals() {
+    let text = entry(
+        "(set $n 9007199254740993) (set $x 9007199254740992.0) (set $k 0) (for $i (range 9) (body (if (gt $n $x) (then (set $k (add $k 1)))))) (return $k)",
+    );
+    assert_eq!(agree(&text, 20), "9");
+}
+
+#[test]
 fn faults_are_those_of_the_interpreter() {
     let cases = [
         (

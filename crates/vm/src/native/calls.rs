@@ -49,18 +49,21 @@ pub(super) unsafe extern "C" fn element(value: *const Value, at: i64, out: *mut 
     NOT
 }
 
-/// A field of a record or of a vector.
+/// A field of a record.
 ///
 /// # Safety
-/// As for [`element`]; `name` is a name that the code keeps.
-pub(super) unsafe extern "C" fn field(value: *const Value, name: *const Box<str>, out: *mut u64) -> u64 {
+/// As for [`element`]; `name` is the text of so many bytes that the code keeps.
+pub(super) unsafe extern "C" fn field(
+    value: *const Value,
+    name: *const u8,
+    bytes: u64,
+    out: *mut u64,
+) -> u64 {
     // SAFETY: as above.
-    let (value, name, out) = unsafe { (&*value, &*name, &mut *out) };
-    match value {
-        Value::Record(record) => record.field(name).map_or(NOT, |value| give(value, out)),
-        Value::Vector(v) => v.field(name).map_or(NOT, |x| give(&Value::Real(x), out)),
-        _ => NOT,
-    }
+    let (value, name, out) =
+        unsafe { (&*value, std::slice::from_raw_parts(name, bytes as usize), &mut *out) };
+    let (Value::Record(record), Ok(name)) = (value, std::str::from_utf8(name)) else { return NOT };
+    record.field(name).map_or(NOT, |value| give(value, out))
 }
 
 /// How many elements a loop visits; below zero where it cannot be looped over.

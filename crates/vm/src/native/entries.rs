@@ -2,7 +2,7 @@
 
 use super::flow::entries;
 use super::kinds::Reg;
-use super::write::Routine;
+use super::routine::Routine;
 use crate::code::{Function, FunctionId, Program};
 use crate::value::Value;
 use niwaki_math::Scalar;

@@ -146,5 +146,5 @@ impl Kind {
 
 /// Whether what a register holds is counted as memory of the run: see [`Value::is_small`].
 pub(crate) fn is_counted<S: Scalar>(reg: Reg, value: &Value<S>) -> bool {
-    !value.is_plain() && !(matches!(reg, Reg::Scratch(_)) && value.is_small())
+    !(value.is_plain() || matches!(reg, Reg::Scratch(_)) && value.is_small())
 }

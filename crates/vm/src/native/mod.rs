@@ -16,10 +16,12 @@
 //! with every register as the interpreter would have it there. So values are the same to the last bit, a fault is raised by
 //! the interpreter at its place, and limits of steps and memory are met at the same instruction.
 //!
-//! * [`kinds`]: what is known of a register; `flow`: which registers are live;
-//! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `operate`: the
-//!   instructions; `vectors`: those of vectors; `calls`: functions that the code calls;
-//! * `entries`: where code may begin, and the code that was made for it; `enter`, in `machine`: how it is run.
+//! * `entries`: where code may begin, and the code that was made for it; `routine`: such code and its exits. How it is run
+//!   is in `machine/enter`;
+//! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `registers`: the model's
+//!   registers while it is written; `flow`: which of them are live;
+//! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in functions;
+//! * `kinds`: what is known of a register; `typed`: a value in the processor; `calls`: functions that the code calls.
 //!
 //! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block Versioning"
 //! (ECOOP 2015), with all versions made at once.
@@ -27,14 +29,19 @@
 mod calls;
 mod entries;
 mod flow;
+mod functions;
 mod kinds;
+mod numbers;
 mod operate;
+mod registers;
+mod routine;
+mod typed;
 mod vectors;
 mod write;
 
 pub(crate) use entries::{Entries, Entry};
 pub(crate) use kinds::{Kind, Made, Part, Reg, is_counted};
-pub(crate) use write::{Exit, Routine};
+pub(crate) use routine::{Exit, Routine};
 
 /// Words that code and machine exchange.
 pub(crate) mod words {

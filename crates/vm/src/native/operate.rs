@@ -2,17 +2,15 @@
 
 use super::calls::{self, NOT};
 use super::kinds::{Form, Kind, Made};
+use super::routine::Call;
+use super::typed::{Got, Number, Typed};
 use super::words;
-use super::write::{ARGUMENTS, Call, Got, Now, Number, PLAIN, Then, Typed, Writer};
-use crate::builtins::builtin;
+use super::write::{Now, PLAIN, Then, Writer};
 use crate::code::{Args, Binary, FunctionId, Op, Operand};
 use crate::value::{Value as Model, index};
-use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
+use niwaki_native::codegen::ir::condcodes::IntCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};
-
-/// Whole numbers up to this size are real numbers without loss.
-const EXACT: i64 = 1 << 53;
 
 /// Most calls of pure functions inside each other that a routine follows.
 const DEPTH: usize = 6;
@@ -108,8 +106,8 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                     Model::Record(record) => Like::of(record.field(name)?),
                     _ => return None,
                 };
-                let name = self.keep_name(name);
-                let typed = self.ask(now, pc, calls::field as *const u8, &[object, name], like)?;
+                let [name, length] = self.keep_name(name);
+                let typed = self.ask(now, pc, calls::field as *const u8, &[object, name, length], like)?;
                 self.put(now, to, typed, like.sample);
             }
             Op::Unpack { from, to } => return self.unpack(now, pc, from, to),
@@ -150,31 +148,6 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.b.switch_to_block(taken);
         self.jump(&mut now.clone(), pc, target);
         self.b.switch_to_block(on);
-    }
-
-    /// Python's truth of a plain value.
-    fn truth(&mut self, typed: Typed) -> Option<Value> {
-        Some(match typed {
-            Typed::Bool(x) => x,
-            Typed::Int(n) => self.b.ins().icmp_imm_s(IntCC::NotEqual, n, 0),
-            Typed::Real(x) => {
-                let zero = self.b.ins().f64const(0.0);
-                self.b.ins().fcmp(FloatCC::NotEqual, x, zero)
-            }
-            Typed::None => self.int(0),
-            // It has parts.
-            Typed::Fresh { made: Made::Vector | Made::Tuple, .. } => self.int(1),
-            _ => return None,
-        })
-    }
-
-    /// A number as a real one.
-    pub(super) fn real(&mut self, typed: Typed) -> Option<Value> {
-        match typed {
-            Typed::Real(x) => Some(x),
-            Typed::Int(n) => Some(self.b.ins().fcvt_from_sint(F64, n)),
-            _ => None,
-        }
     }
 
     fn binary(
@@ -241,119 +214,13 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         now.constant_int(self.f(now), o) == Some(2)
     }
 
-    fn arithmetic(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Typed, b: Typed) -> Option<Typed> {
-        if let (Typed::Int(a), Typed::Int(b)) = (a, b) {
-            return Some(self.whole(now, pc, op, a, b));
-        }
-        let (a, b) = (self.real(a)?, self.real(b)?);
-        Some(Typed::Real(match op {
-            Binary::Add => self.b.ins().fadd(a, b),
-            Binary::Sub => self.b.ins().fsub(a, b),
-            Binary::Mul => self.b.ins().fmul(a, b),
-            _ => {
-                self.leave_if_zero(now, pc, b);
-                self.b.ins().fdiv(a, b)
-            }
-        }))
-    }
-
-    /// Arithmetic of whole numbers: leaves where the result has no 64 bits.
-    fn whole(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
-        match op {
-            Binary::Add | Binary::Sub => {
-                // It overflows where the result's sign is not the one that both operands ask for.
-                let (result, other) = if op == Binary::Add {
-                    (self.b.ins().iadd(a, b), self.b.ins().bxor(a, b))
-                } else {
-                    let other = self.b.ins().bxor(a, b);
-                    (self.b.ins().isub(a, b), self.b.ins().bnot(other))
-                };
-                let turned = self.b.ins().bxor(a, result);
-                let over = self.b.ins().band_not(turned, other);
-                let over = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, over, 0);
-                self.leave_if(now, pc, over);
-                Typed::Int(result)
-            }
-            Binary::Mul => {
-                let (low, high) = (self.b.ins().imul(a, b), self.b.ins().smulhi(a, b));
-                let sign = self.b.ins().sshr_imm_s(low, 63);
-                let over = self.b.ins().icmp(IntCC::NotEqual, high, sign);
-                self.leave_if(now, pc, over);
-                Typed::Int(low)
-            }
-            _ => {
-                let zero = self.b.ins().icmp_imm_s(IntCC::Equal, b, 0);
-                self.leave_if(now, pc, zero);
-                for n in [a, b] {
-                    self.leave_unless_exact(now, pc, n);
-                }
-                let (a, b) = (self.b.ins().fcvt_from_sint(F64, a), self.b.ins().fcvt_from_sint(F64, b));
-                Typed::Real(self.b.ins().fdiv(a, b))
-            }
-        }
-    }
-
-    /// Leaves where a whole number is no real one without loss.
-    fn leave_unless_exact(&mut self, now: &Now<'v>, pc: usize, n: Value) {
-        let shifted = self.b.ins().iadd_imm_s(n, EXACT);
-        let large = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, shifted, 2 * EXACT);
-        self.leave_if(now, pc, large);
-    }
-
-    /// Quotient or remainder of whole numbers, rounded down. Leaves unless the divisor is positive.
-    fn divide(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
-        let refused = self.b.ins().icmp_imm_s(IntCC::SignedLessThanOrEqual, b, 0);
-        self.leave_if(now, pc, refused);
-        let rest = self.b.ins().srem(a, b);
-        let below = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, rest, 0);
-        Typed::Int(if op == Binary::Mod {
-            let raised = self.b.ins().iadd(rest, b);
-            self.b.ins().select(below, raised, rest)
-        } else {
-            let quotient = self.b.ins().sdiv(a, b);
-            let below = self.b.ins().uextend(I64, below);
-            self.b.ins().isub(quotient, below)
-        })
-    }
-
-    /// The truth of a comparison, in eight bits.
-    fn compare(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Typed, b: Typed) -> Option<Value> {
-        let reals = match op {
-            Binary::Eq => FloatCC::Equal,
-            Binary::Ne => FloatCC::NotEqual,
-            Binary::Lt => FloatCC::LessThan,
-            Binary::Le => FloatCC::LessThanOrEqual,
-            Binary::Gt => FloatCC::GreaterThan,
-            Binary::Ge => FloatCC::GreaterThanOrEqual,
-            _ => return None,
-        };
-        let wholes = match op {
-            Binary::Eq => IntCC::Equal,
-            Binary::Ne => IntCC::NotEqual,
-            Binary::Lt => IntCC::SignedLessThan,
-            Binary::Le => IntCC::SignedLessThanOrEqual,
-            Binary::Gt => IntCC::SignedGreaterThan,
-            _ => IntCC::SignedGreaterThanOrEqual,
-        };
-        Some(match (a, b) {
-            (Typed::Int(a), Typed::Int(b)) => self.b.ins().icmp(wholes, a, b),
-            (Typed::Bool(a), Typed::Bool(b)) => self.b.ins().icmp(wholes, a, b),
-            (Typed::Real(a), Typed::Real(b)) => self.b.ins().fcmp(reals, a, b),
-            (Typed::Int(n), Typed::Real(x)) => {
-                self.leave_unless_exact(now, pc, n);
-                let n = self.b.ins().fcvt_from_sint(F64, n);
-                self.b.ins().fcmp(reals, n, x)
-            }
-            (Typed::Real(x), Typed::Int(n)) => {
-                self.leave_unless_exact(now, pc, n);
-                let n = self.b.ins().fcvt_from_sint(F64, n);
-                self.b.ins().fcmp(reals, x, n)
-            }
-            _ => return None,
-        })
-    }
-
-    fn length_of_operand(&mut self, now: &mut Now<'v>, pc: usize, to: Operand, a: Operand) -> Option<Then> {
+    pub(super) fn length_of_operand(
+        &mut self,
+        now: &mut Now<'v>,
+        pc: usize,
+        to: Operand,
+        a: Operand,
+    ) -> Option<Then> {
         let typed = self.get(now, a)?.typed;
         let n = match (Self::count_of_parts(typed), typed) {
             (Some(n), _) => self.int(n as i64),
@@ -504,7 +371,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     }
 
     /// The answer of a called function that gave a mark.
-    fn answered(&mut self, now: &Now<'v>, pc: usize, mark: Value, kind: Kind) -> Option<Typed> {
+    pub(super) fn answered(&mut self, now: &Now<'v>, pc: usize, mark: Value, kind: Kind) -> Option<Typed> {
         debug_assert_ne!(kind.mark(), NOT);
         let other = self.b.ins().icmp_imm_s(IntCC::NotEqual, mark, kind.mark().cast_signed());
         self.leave_if(now, pc, other);
@@ -518,175 +385,6 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Kind::Range | Kind::Unset | Kind::Opaque | Kind::Fresh { .. } => return None,
         })
     }
-
-    fn builtin(&mut self, now: &mut Now<'v>, pc: usize, to: Operand, id: u16, args: Args) -> Option<Then> {
-        let operands = &self.f(now).operands[args.range()];
-        let given: Vec<Typed> =
-            operands.iter().map(|o| self.get(now, *o).map(|got| got.typed)).collect::<Option<_>>()?;
-        let name = builtin::<f64>(id).name;
-        let typed = if let ("len", [one]) = (name, operands) {
-            return self.length_of_operand(now, pc, to, *one);
-        } else if let Some(typed) = self.quick(now, pc, name, &given) {
-            typed
-        } else if let ("range", Some(typed)) = (name, self.range(now, pc, &given)) {
-            typed
-        } else if let Some(typed) = self.vector_function(now, pc, name, &given) {
-            typed
-        } else {
-            let kind = kind_of_answer(name, &given)?;
-            self.call_builtin(now, pc, id, &given, kind)?
-        };
-        self.put(now, to, typed, None);
-        Some(Then::Next)
-    }
-
-    /// A built-in function that is a few instructions, or one call.
-    fn quick(&mut self, now: &Now<'v>, pc: usize, name: &str, given: &[Typed]) -> Option<Typed> {
-        match (name, given) {
-            ("sqrt", [x]) => {
-                let x = self.real(*x)?;
-                let root = self.b.ins().sqrt(x);
-                self.leave_unless_finite(now, pc, root);
-                Some(Typed::Real(root))
-            }
-            ("abs", [Typed::Real(x)]) => Some(Typed::Real(self.b.ins().fabs(*x))),
-            ("float", [x]) => Some(Typed::Real(self.real(*x)?)),
-            ("int" | "floor" | "ceil" | "trunc" | "round", [Typed::Int(n)]) => Some(Typed::Int(*n)),
-            ("int" | "floor" | "ceil" | "trunc" | "round", [Typed::Real(x)]) => {
-                let whole = match name {
-                    "floor" => self.b.ins().floor(*x),
-                    "ceil" => self.b.ins().ceil(*x),
-                    "round" => self.b.ins().nearest(*x),
-                    _ => self.b.ins().trunc(*x),
-                };
-                let size = self.b.ins().fabs(whole);
-                let most = self.b.ins().f64const(9.0e18);
-                let fits = self.b.ins().fcmp(FloatCC::LessThan, size, most);
-                let refused = self.b.ins().icmp_imm_s(IntCC::Equal, fits, 0);
-                self.leave_if(now, pc, refused);
-                Some(Typed::Int(self.b.ins().fcvt_to_sint_sat(I64, whole)))
-            }
-            ("min" | "max", [Typed::Real(a), Typed::Real(b)]) => {
-                let (less, more) = if name == "min" { (*b, *a) } else { (*a, *b) };
-                let second = self.b.ins().fcmp(FloatCC::LessThan, less, more);
-                Some(Typed::Real(self.b.ins().select(second, *b, *a)))
-            }
-            ("min" | "max", [Typed::Int(a), Typed::Int(b)]) => {
-                let (less, more) = if name == "min" { (*b, *a) } else { (*a, *b) };
-                let second = self.b.ins().icmp(IntCC::SignedLessThan, less, more);
-                Some(Typed::Int(self.b.ins().select(second, *b, *a)))
-            }
-            ("clip", [Typed::Real(x), Typed::Real(low), Typed::Real(high)]) => {
-                let above = self.b.ins().fcmp(FloatCC::LessThan, *high, *x);
-                let clipped = self.b.ins().select(above, *high, *x);
-                let below = self.b.ins().fcmp(FloatCC::LessThan, *x, *low);
-                Some(Typed::Real(self.b.ins().select(below, *low, clipped)))
-            }
-            ("lerp", [Typed::Real(a), Typed::Real(b), Typed::Real(t)]) => {
-                let wide = self.b.ins().fsub(*b, *a);
-                let part = self.b.ins().fmul(wide, *t);
-                Some(Typed::Real(self.b.ins().fadd(*a, part)))
-            }
-            ("is_none", [x]) if !matches!(x, Typed::Opaque | Typed::Unset) => {
-                Some(Typed::Bool(self.int(i64::from(matches!(x, Typed::None)))))
-            }
-            (name, [x]) => {
-                let function = calls::real_function(name)?;
-                let x = self.real(*x)?;
-                let y = self.call_address(function, &[x], F64);
-                self.leave_unless_finite(now, pc, y);
-                Some(Typed::Real(y))
-            }
-            _ => None,
-        }
-    }
-
-    /// A range; leaves where there is none.
-    fn range(&mut self, now: &mut Now<'v>, pc: usize, given: &[Typed]) -> Option<Typed> {
-        let (zero, one) = (self.int(0), self.int(1));
-        let parts = match *given {
-            [Typed::Int(stop)] => [zero, stop, one],
-            [Typed::Int(start), Typed::Int(stop)] => [start, stop, one],
-            [Typed::Int(start), Typed::Int(stop), Typed::Int(step)] => [start, stop, step],
-            _ => return None,
-        };
-        let n = self.call_address(calls::range_length as *const u8, &parts, I64);
-        let refused = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, n, 0);
-        self.leave_if(now, pc, refused);
-        Some(self.make(now, pc, Made::Range, &parts.map(Number::Int)))
-    }
-
-    fn leave_unless_finite(&mut self, now: &Now<'v>, pc: usize, x: Value) {
-        let size = self.b.ins().fabs(x);
-        let infinite = self.b.ins().f64const(f64::INFINITY);
-        let is_finite = self.b.ins().fcmp(FloatCC::LessThan, size, infinite);
-        let refused = self.b.ins().icmp_imm_s(IntCC::Equal, is_finite, 0);
-        self.leave_if(now, pc, refused);
-    }
-
-    /// Calls a built-in function of plain values that is expected to give that kind.
-    fn call_builtin(
-        &mut self,
-        now: &Now<'v>,
-        pc: usize,
-        id: u16,
-        given: &[Typed],
-        kind: Kind,
-    ) -> Option<Typed> {
-        if given.len() > ARGUMENTS as usize {
-            return None;
-        }
-        let args = self.arguments();
-        for (k, typed) in given.iter().enumerate() {
-            let at = 16 * k as i32;
-            match typed {
-                Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) => {
-                    self.b.ins().store(PLAIN, *x, args, at + 8);
-                }
-                Typed::None => {}
-                _ => return None,
-            }
-            let mark = self.int(typed.kind().mark().cast_signed());
-            self.b.ins().store(PLAIN, mark, args, at);
-        }
-        let (id, n, out) = (self.int(i64::from(id)), self.int(given.len() as i64), self.answer());
-        let mark = self.call_address(calls::call as *const u8, &[id, args, n, out], I64);
-        self.answered(now, pc, mark, kind)
-    }
-}
-
-/// The kind of what a built-in function of plain values is expected to give. It is only a guess: the code looks.
-fn kind_of_answer(name: &str, given: &[Typed]) -> Option<Kind> {
-    let all = |kind: Kind| given.iter().all(|typed| typed.kind() == kind);
-    if !given.iter().all(|typed| matches!(typed.kind(), Kind::Real | Kind::Int | Kind::Bool | Kind::None)) {
-        return None;
-    }
-    Some(match name {
-        "sqrt" | "exp" | "log" | "log2" | "log10" | "log1p" | "expm1" | "sin" | "cos" | "tan" | "asin"
-        | "acos" | "atan" | "atan2" | "sinh" | "cosh" | "tanh" | "hypot" | "fabs" | "degrees" | "radians"
-        | "copysign" | "fmod" | "math_pow" | "lgamma" | "erf" | "softeq" | "soft_at_least"
-        | "soft_at_most" | "smooth_max" | "smooth_min" | "smooth_abs" | "float" | "div" => Kind::Real,
-        "int" | "floor" | "ceil" | "trunc" | "sign" | "gcd" | "factorial" | "comb" | "band" | "bor"
-        | "bxor" | "invert" | "shl" | "shr" => Kind::Int,
-        "round" => {
-            if given.len() == 1 {
-                Kind::Int
-            } else {
-                Kind::Real
-            }
-        }
-        "bool" | "not" | "eq" | "ne" | "lt" | "le" | "gt" | "ge" | "is_none" | "isfinite" | "isnan"
-        | "isinf" => Kind::Bool,
-        "add" | "sub" | "mul" | "floordiv" | "mod" | "pow" | "neg" | "pos" | "abs" | "min" | "max"
-        | "lerp" | "clip" => {
-            if all(Kind::Int) {
-                Kind::Int
-            } else {
-                Kind::Real
-            }
-        }
-        _ => return None,
-    })
 }
 
 /// What a value is expected to be like.

@@ -2,7 +2,8 @@
 
 use super::calls;
 use super::kinds::{Form, Made};
-use super::write::{Now, Number, PLAIN, Typed, Writer};
+use super::typed::{Number, Typed};
+use super::write::{Now, PLAIN, Writer};
 use crate::code::Binary;
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::condcodes::FloatCC;

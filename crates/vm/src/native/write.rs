@@ -8,20 +8,20 @@
 
 use super::entries::Found;
 use super::flow::Flow;
-use super::kinds::{Form, Kind, Made, Part, Reg, is_counted};
+use super::kinds::{Kind, Made, Reg, is_counted};
+use super::routine::{Call, Exit};
+use super::typed::{Number, Typed};
 use super::words;
 use crate::code::{Function, FunctionId, Operand, Place, Program};
 use crate::value::{Range, Value as Model};
+use niwaki_native::Written;
 use niwaki_native::codegen::ir::condcodes::IntCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{
-    AbiParam, Block, InstBuilder, MemFlagsData, Signature, StackSlot, StackSlotData, StackSlotKind, Type,
-    UserFuncName, Value,
+    Block, InstBuilder, MemFlagsData, StackSlot, StackSlotData, StackSlotKind, Value,
 };
 use niwaki_native::codegen::isa::CallConv;
-use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext, Variable};
-use niwaki_native::module::{Linkage, Module as _};
-use niwaki_native::{Effort, Memory, Written, module};
+use niwaki_native::frontend::{FunctionBuilder, Variable};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -36,222 +36,6 @@ pub(super) const ARGUMENTS: u32 = 8;
 
 /// Flags of valid, aligned memory.
 pub(super) const PLAIN: MemFlagsData = MemFlagsData::trusted();
-
-/// `(words)`, as [`words`] says; gives the number of the exit taken.
-type Code = unsafe extern "C" fn(*mut u64) -> u64;
-
-/// Machine code for one combination of kinds.
-pub(crate) struct Routine {
-    /// Registers that it reads where it begins, and their kinds there.
-    pub inputs: Vec<(Reg, Kind)>,
-    /// Constants that are no numbers: of which function, and which.
-    pub constants: Vec<(FunctionId, u16)>,
-    /// Other registers that it may write: they must hold nothing shared.
-    pub overwritten: Vec<Reg>,
-    /// Where it may leave.
-    pub exits: Vec<Exit>,
-    /// Whether it writes registers of the activation.
-    pub writes_node: bool,
-    /// Words that it exchanges with the machine.
-    pub words: usize,
-    code: Code,
-    bytes: usize,
-    _names: Vec<Box<Box<str>>>,
-    _memory: Memory,
-}
-
-impl std::fmt::Debug for Routine {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Routine({} bytes, {:?})", self.bytes, self.inputs)
-    }
-}
-
-/// A place where machine code leaves.
-#[derive(Debug)]
-pub(crate) struct Exit {
-    /// Calls of pure functions that are in progress, from the outermost: where each was called.
-    pub calls: Vec<Call>,
-    /// The function that the interpreter continues in.
-    pub function: FunctionId,
-    /// Its first scratch register, from that of the function where the code began.
-    pub base: u32,
-    /// The instruction that it continues at.
-    pub pc: u32,
-    /// Registers that have changed, in the order of their words.
-    pub registers: Vec<(Reg, Kind)>,
-    /// Whether some of them hold what is shared.
-    pub has_objects: bool,
-}
-
-/// A call of a pure function in progress.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Call {
-    /// Who calls.
-    pub caller: FunctionId,
-    /// The caller's first scratch register.
-    pub base: u32,
-    /// Where the caller continues.
-    pub back: u32,
-    /// The register for the result.
-    pub to: Operand,
-}
-
-impl Routine {
-    /// How much code it is.
-    pub fn bytes(&self) -> usize {
-        self.bytes
-    }
-
-    /// Runs it: gives the exit that it took.
-    ///
-    /// # Panics
-    /// When there are fewer than [`Routine::words`].
-    #[inline]
-    #[allow(unsafe_code)]
-    pub fn run(&self, words: &mut [u64]) -> &Exit {
-        assert!(words.len() >= self.words);
-        // SAFETY: the code stays within so many words. The addresses among them are those of values of the kinds that it
-        // was written for, as `enter` put them there, and nobody changes these meanwhile.
-        let exit = unsafe { (self.code)(words.as_mut_ptr()) };
-        &self.exits[exit as usize]
-    }
-
-    /// Writes the code of a function from an instruction on. `found` gives what a register holds there now.
-    ///
-    /// # Errors
-    /// Too many registers, a processor that Cranelift does not know, or memory that may not be executed.
-    pub fn write<'v>(
-        program: &'v Program,
-        function: FunctionId,
-        pc: usize,
-        found: Found<'_, 'v>,
-    ) -> Written<Routine> {
-        let mut module = module(Effort::Quick)?;
-        let mut context = module.make_context();
-        let mut signature = Signature::new(module.target_config().default_call_conv);
-        signature.params.push(AbiParam::new(I64));
-        signature.returns.push(AbiParam::new(I64));
-        let convention = signature.call_conv;
-        let id = module.declare_function("routine", Linkage::Local, &signature)?;
-        context.func.signature = signature;
-        context.func.name = UserFuncName::user(0, 0);
-        let mut builder_context = FunctionBuilderContext::new();
-        let b = FunctionBuilder::new(&mut context.func, &mut builder_context);
-        let mut writer = Writer::new(program, b, convention);
-        let inputs = writer.begin(function, pc, found)?;
-        writer.all_pieces();
-        let exits = writer.all_exits();
-        let Writer { mut b, constants, written, names, words, .. } = writer;
-        b.seal_all_blocks();
-        b.finalize(module.target_config());
-        if cfg!(debug_assertions) || cfg!(test) {
-            niwaki_native::check(&module, &context.func)?;
-        }
-        module.define_function(id, &mut context)?;
-        let bytes = context.compiled_code().map_or(0, |code| code.code_info().total_size as usize);
-        let memory = Memory::finish(module)?;
-        let is_input = |reg: &Reg| inputs.iter().any(|(input, _)| input == reg);
-        let writes_node = written.iter().any(|reg| matches!(reg, Reg::Node(_)));
-        let overwritten = written.into_iter().filter(|reg| !is_input(reg)).collect();
-        // SAFETY: it was written with this signature.
-        #[allow(unsafe_code)]
-        let code = unsafe { std::mem::transmute::<*const u8, Code>(memory.address(id)) };
-        Ok(Routine {
-            inputs,
-            constants,
-            overwritten,
-            exits,
-            writes_node,
-            words,
-            code,
-            bytes,
-            _names: names,
-            _memory: memory,
-        })
-    }
-}
-
-/// A value in the processor.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Typed {
-    None,
-    Unset,
-    Opaque,
-    Bool(Value),
-    Int(Value),
-    Real(Value),
-    Range { object: Value, first: Value, step: Value },
-    Object(Value, Form),
-    Fresh { made: Made, parts: [Option<Number>; 4], number: u16 },
-}
-
-/// A number in the processor.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Number {
-    Bool(Value),
-    Int(Value),
-    Real(Value),
-}
-
-impl Number {
-    fn part(self) -> Part {
-        match self {
-            Number::Bool(_) => Part::Bool,
-            Number::Int(_) => Part::Int,
-            Number::Real(_) => Part::Real,
-        }
-    }
-
-    pub(super) fn value(self) -> Value {
-        match self {
-            Number::Bool(x) | Number::Int(x) | Number::Real(x) => x,
-        }
-    }
-}
-
-impl From<Number> for Typed {
-    fn from(number: Number) -> Typed {
-        match number {
-            Number::Bool(x) => Typed::Bool(x),
-            Number::Int(x) => Typed::Int(x),
-            Number::Real(x) => Typed::Real(x),
-        }
-    }
-}
-
-impl Typed {
-    pub(super) fn number(self) -> Option<Number> {
-        match self {
-            Typed::Bool(x) => Some(Number::Bool(x)),
-            Typed::Int(x) => Some(Number::Int(x)),
-            Typed::Real(x) => Some(Number::Real(x)),
-            _ => None,
-        }
-    }
-
-    pub(super) fn kind(&self) -> Kind {
-        match self {
-            Typed::None => Kind::None,
-            Typed::Unset => Kind::Unset,
-            Typed::Opaque => Kind::Opaque,
-            Typed::Bool(_) => Kind::Bool,
-            Typed::Int(_) => Kind::Int,
-            Typed::Real(_) => Kind::Real,
-            Typed::Range { .. } => Kind::Range,
-            Typed::Object(_, form) => Kind::Object(*form),
-            Typed::Fresh { made, parts, number } => {
-                Kind::Fresh { made: *made, parts: parts.map(|part| part.map(Number::part)), number: *number }
-            }
-        }
-    }
-}
-
-/// An operand, with a value that it had when the code was written: it says what the elements are like.
-#[derive(Clone, Copy)]
-pub(super) struct Got<'v> {
-    pub typed: Typed,
-    pub sample: Option<&'v Model>,
-}
 
 /// What a piece of code is for.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -269,8 +53,8 @@ pub(super) struct Now<'v> {
     pub calls: Vec<Call>,
     pub function: FunctionId,
     pub base: u32,
-    kinds: BTreeMap<Reg, Kind>,
-    samples: HashMap<Reg, &'v Model>,
+    pub(super) kinds: BTreeMap<Reg, Kind>,
+    pub(super) samples: HashMap<Reg, &'v Model>,
     /// Instructions since they were counted.
     done: i64,
     /// How many vectors and tuples the code has made so far.
@@ -299,32 +83,24 @@ struct Leaving {
 pub(super) struct Writer<'p, 'v, 'b> {
     pub program: &'p Program,
     pub b: FunctionBuilder<'b>,
-    convention: CallConv,
+    pub(super) convention: CallConv,
     flows: HashMap<FunctionId, Flow>,
     pieces: HashMap<Key, Block>,
     waiting: Vec<(Block, usize, Now<'v>)>,
     leaving: Vec<Leaving>,
-    variables: HashMap<(Reg, u8), Variable>,
+    pub(super) variables: HashMap<(Reg, u8), Variable>,
     /// What registers held where the code begins, if it was shared.
     began_with: BTreeSet<Reg>,
-    constants: Vec<(FunctionId, u16)>,
-    written: BTreeSet<Reg>,
-    names: Vec<Box<Box<str>>>,
-    words: usize,
+    pub(super) constants: Vec<(FunctionId, u16)>,
+    pub(super) written: BTreeSet<Reg>,
+    pub(super) names: Vec<Box<str>>,
+    pub(super) words: usize,
     exchange: Value,
-    answer: StackSlot,
-    arguments: StackSlot,
+    pub(super) answer: StackSlot,
+    pub(super) arguments: StackSlot,
     steps: Variable,
     bytes: Variable,
     done: Variable,
-}
-
-/// Numbers of variables of parts: whole ones, then real ones.
-const WHOLE_PARTS: u8 = 4;
-const REAL_PARTS: u8 = 8;
-
-fn part_of(k: usize, kind: Part) -> u8 {
-    k as u8 + if kind == Part::Real { REAL_PARTS } else { WHOLE_PARTS }
 }
 
 fn offset(word: usize) -> i32 {
@@ -332,7 +108,7 @@ fn offset(word: usize) -> i32 {
 }
 
 impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
-    fn new(program: &'p Program, mut b: FunctionBuilder<'b>, convention: CallConv) -> Self {
+    pub(super) fn new(program: &'p Program, mut b: FunctionBuilder<'b>, convention: CallConv) -> Self {
         let slot = |words: u32| StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * words, 3);
         let (answer, arguments) =
             (b.create_sized_stack_slot(slot(1)), b.create_sized_stack_slot(slot(2 * ARGUMENTS)));
@@ -369,7 +145,12 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
     }
 
     /// The code that reads all inputs, and the first piece. Gives the inputs.
-    fn begin(&mut self, id: FunctionId, pc: usize, found: Found<'_, 'v>) -> Written<Vec<(Reg, Kind)>> {
+    pub(super) fn begin(
+        &mut self,
+        id: FunctionId,
+        pc: usize,
+        found: Found<'_, 'v>,
+    ) -> Written<Vec<(Reg, Kind)>> {
         let f = self.program.function(id);
         let block = self.b.create_block();
         self.b.switch_to_block(block);
@@ -445,7 +226,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
     }
 
     /// Writes every piece that some other leads to.
-    fn all_pieces(&mut self) {
+    pub(super) fn all_pieces(&mut self) {
         while let Some((block, first, mut now)) = self.waiting.pop() {
             self.b.switch_to_block(block);
             let mut pc = first;
@@ -471,7 +252,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
     }
 
     /// Writes the code of every exit.
-    fn all_exits(&mut self) -> Vec<Exit> {
+    pub(super) fn all_exits(&mut self) -> Vec<Exit> {
         let mut exits = vec![];
         for Leaving { block, mut exit, values, done } in std::mem::take(&mut self.leaving) {
             self.b.switch_to_block(block);
@@ -651,162 +432,6 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
 
     pub(super) fn int(&mut self, n: i64) -> Value {
         self.b.ins().iconst(I64, n)
-    }
-
-    fn variable(&mut self, reg: Reg, part: u8) -> Variable {
-        let b = &mut self.b;
-        *self
-            .variables
-            .entry((reg, part))
-            .or_insert_with(|| b.declare_var(if part == 0 || part >= REAL_PARTS { F64 } else { I64 }))
-    }
-
-    /// Sets a register's variables.
-    fn define(&mut self, reg: Reg, typed: Typed) {
-        let parts: &[(u8, Value)] = match typed {
-            Typed::None | Typed::Unset | Typed::Opaque => &[],
-            Typed::Real(x) => &[(0, x)],
-            Typed::Bool(x) | Typed::Int(x) | Typed::Object(x, _) => &[(1, x)],
-            Typed::Range { object, first, step } => &[(1, object), (2, first), (3, step)],
-            Typed::Fresh { parts, .. } => {
-                for (k, part) in parts.into_iter().flatten().enumerate() {
-                    let variable = self.variable(reg, part_of(k, part.part()));
-                    self.b.def_var(variable, part.value());
-                }
-                &[]
-            }
-        };
-        for (part, value) in parts {
-            let variable = self.variable(reg, *part);
-            self.b.def_var(variable, *value);
-        }
-    }
-
-    /// The value of a register of that kind.
-    fn typed(&mut self, reg: Reg, kind: Kind) -> Typed {
-        let mut part = |part| {
-            let variable = self.variable(reg, part);
-            self.b.use_var(variable)
-        };
-        match kind {
-            Kind::None => Typed::None,
-            Kind::Unset => Typed::Unset,
-            Kind::Opaque => Typed::Opaque,
-            Kind::Bool => Typed::Bool(part(1)),
-            Kind::Int => Typed::Int(part(1)),
-            Kind::Real => Typed::Real(part(0)),
-            Kind::Range => Typed::Range { object: part(1), first: part(2), step: part(3) },
-            Kind::Object(form) => Typed::Object(part(1), form),
-            Kind::Fresh { made, parts, number } => {
-                let mut all = [None; 4];
-                for (k, (own, kind)) in all.iter_mut().zip(parts).enumerate() {
-                    *own = kind.map(|kind| {
-                        let x = part(part_of(k, kind));
-                        match kind {
-                            Part::Bool => Number::Bool(x),
-                            Part::Int => Number::Int(x),
-                            Part::Real => Number::Real(x),
-                        }
-                    });
-                }
-                Typed::Fresh { made, parts: all, number }
-            }
-        }
-    }
-
-    fn reg(now: &Now<'_>, o: Operand) -> Reg {
-        match o.place() {
-            Place::Node => Reg::Node(o.index() as u16),
-            Place::Outer => Reg::Outer(o.index() as u16),
-            Place::Scratch | Place::Constant => Reg::Scratch(now.base + o.index() as u32),
-        }
-    }
-
-    /// The value of an operand; `None` for one that the code knows nothing of.
-    pub(super) fn get(&mut self, now: &Now<'v>, o: Operand) -> Option<Got<'v>> {
-        if o.is_constant() {
-            return self.constant(now, o);
-        }
-        let reg = Self::reg(now, o);
-        let kind = *now.kinds.get(&reg)?;
-        Some(Got { typed: self.typed(reg, kind), sample: now.samples.get(&reg).copied() })
-    }
-
-    fn constant(&mut self, now: &Now<'v>, o: Operand) -> Option<Got<'v>> {
-        let value: &'v Model = &self.program.function(now.function).constants[o.index()];
-        let typed = match value {
-            Model::None => Typed::None,
-            Model::Bool(b) => Typed::Bool(self.int(i64::from(*b))),
-            Model::Int(n) => Typed::Int(self.int(*n)),
-            Model::Real(x) => Typed::Real(self.b.ins().f64const(*x)),
-            other => {
-                let which = (now.function, o.index() as u16);
-                let known = self.constants.iter().position(|known| *known == which);
-                let at = known.unwrap_or(self.constants.len());
-                if at >= words::MOST_CONSTANTS {
-                    return None;
-                }
-                if known.is_none() {
-                    self.constants.push(which);
-                }
-                let object = self.word(words::CONSTANTS + at);
-                match (other, Kind::of(other)) {
-                    (Model::Range(range), _) => {
-                        Typed::Range { object, first: self.int(range.start), step: self.int(range.step) }
-                    }
-                    (_, Kind::Object(form)) => Typed::Object(object, form),
-                    _ => return None,
-                }
-            }
-        };
-        Some(Got { typed, sample: Some(value) })
-    }
-
-    /// Writes a register.
-    pub(super) fn put(&mut self, now: &mut Now<'v>, o: Operand, typed: Typed, sample: Option<&'v Model>) {
-        let reg = Self::reg(now, o);
-        self.written.insert(reg);
-        self.define(reg, typed);
-        now.kinds.insert(reg, typed.kind());
-        match sample.filter(|_| !typed.kind().is_plain()) {
-            Some(sample) => now.samples.insert(reg, sample),
-            None => now.samples.remove(&reg),
-        };
-    }
-}
-
-/// Calls of functions that are not machine code of ours.
-impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
-    /// Calls the function at an address.
-    pub(super) fn call_address(&mut self, function: *const u8, given: &[Value], answer: Type) -> Value {
-        let mut signature = Signature::new(self.convention);
-        for value in given {
-            let ty = self.b.func.dfg.value_type(*value);
-            signature.params.push(AbiParam::new(ty));
-        }
-        signature.returns.push(AbiParam::new(answer));
-        let signature = self.b.import_signature(signature);
-        let address = self.int(function as i64);
-        let call = self.b.ins().call_indirect(signature, address, given);
-        self.b.inst_results(call)[0]
-    }
-
-    /// The address of the word that called functions answer to.
-    pub(super) fn answer(&mut self) -> Value {
-        self.b.ins().stack_addr(I64, self.answer, 0)
-    }
-
-    /// The address of the array for arguments.
-    pub(super) fn arguments(&mut self) -> Value {
-        self.b.ins().stack_addr(I64, self.arguments, 0)
-    }
-
-    /// The address of a name, which lives as long as the code.
-    pub(super) fn keep_name(&mut self, name: &str) -> Value {
-        let name: Box<Box<str>> = Box::new(name.into());
-        let address = std::ptr::from_ref(&*name) as i64;
-        self.names.push(name);
-        self.int(address)
     }
 }
 
