@@ -68,7 +68,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -92,6 +92,10 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 
 demo: $(STAMPS)/engine
 	$(PY) -m niwaki.shell.demo out
+
+# What `make test` runs of the engine: to be built beside something else.
+test-binaries: $(STAMPS)/engine
+	cargo test $(CARGO_FLAGS) --workspace --no-run
 
 test: $(STAMPS)/engine $(STAMPS)/test
 	cargo test $(CARGO_FLAGS) --workspace
@@ -134,13 +138,18 @@ test-blender:
 blender-pictures:
 	NIWAKI_PICTURES=$(CURDIR)/docs/pictures $(MAKE) --no-print-directory test-blender
 
-lint: $(STAMPS)/engine $(STAMPS)/lint
+lint: lint-rust lint-python
+
+# A folder of its own: it runs beside the build of the engine.
+lint-rust: $(STAMPS)/venv
 	cargo fmt --all --check
 	cargo fmt --manifest-path benches/limit/Cargo.toml --check
 	cargo fmt --manifest-path benches/sketches/Cargo.toml --check
 	cargo fmt --manifest-path fuzz/Cargo.toml --check
-	cargo clippy $(CARGO_FLAGS) --workspace --all-targets -- -D warnings
+	cargo clippy $(CARGO_FLAGS) --target-dir target/clippy --workspace --all-targets -- -D warnings
 	cargo clippy $(CARGO_FLAGS) $(LIMIT) --all-targets -- -D warnings
+
+lint-python: $(STAMPS)/engine $(STAMPS)/lint
 	$(VENV)/bin/ruff format --check $(PYTHON_SOURCES)
 	$(VENV)/bin/ruff check $(PYTHON_SOURCES)
 	$(VENV)/bin/lint-imports --no-cache

@@ -53,9 +53,9 @@ from test_chains import disagreement
 from test_engine import compared, differs, facts, load
 
 #: Programs of `make test`: less than a minute.
-PROGRAMS = 80
+PROGRAMS = 50
 #: Those with memoised functions.
-MEMOISED = 50
+MEMOISED = 30
 #: States of a chain.
 STATES = 150
 #: As many values of a method's samples are run again in plain Python.

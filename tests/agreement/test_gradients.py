@@ -1,4 +1,4 @@
-"""Gradients of a thousand random programs are those of central differences, to 1e-6 of the largest component.
+"""Gradients of random programs are those of central differences, to 1e-6 of the largest component.
 
 The differences are taken of the density itself where its value is also checked against the engine's own log joint:
 after a recording the density at the run's coordinates is log prior + log score + the Jacobians, which are checked one
@@ -6,6 +6,8 @@ family at a time in the engine's tests. Seeds are fixed; nothing here is statist
 """
 
 from __future__ import annotations
+
+import secrets
 
 import niwaki as nw
 import numpy as np
@@ -15,7 +17,7 @@ from niwaki.result.gradient import LogDensity
 from programs import program
 from test_engine import load
 
-PROGRAMS = 1000
+PROGRAMS = 400
 #: Why a random program may have no density.
 WITHOUT = {"no-continuous-choices", "no-derivative", "impossible-trace"}
 
@@ -57,15 +59,27 @@ def checked(seed: int) -> str:
     return "checked" if smooth else "corner"
 
 
-def test_a_thousand_random_programs() -> None:
+def look(programs: int, first: int) -> None:
+    """Checks so many programs, from a seed on."""
     outcomes: dict[str, int] = {}
-    seed = 0
-    while outcomes.get("checked", 0) < PROGRAMS and seed < 12 * PROGRAMS:
+    seed = first
+    while outcomes.get("checked", 0) < programs and seed < first + 12 * programs:
         outcome = checked(seed)
         outcomes[outcome] = outcomes.get(outcome, 0) + 1
         seed += 1
-    assert outcomes["checked"] == PROGRAMS, outcomes
-    assert outcomes.get("corner", 0) < 0.2 * PROGRAMS, outcomes
+    assert outcomes["checked"] == programs, outcomes
+    assert outcomes.get("corner", 0) < 0.2 * programs, outcomes
+
+
+def test_random_programs() -> None:
+    look(PROGRAMS, 0)
+
+
+@pytest.mark.soak
+def test_random_programs_for_long() -> None:
+    first = secrets.randbelow(2**31)
+    print(f"first seed {first}")
+    look(5 * PROGRAMS, first)
 
 
 @pytest.mark.parametrize("seed", range(20))

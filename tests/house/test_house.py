@@ -171,7 +171,7 @@ def test_help_names_only_what_there_is():
 
 
 def test_crates_import_only_the_rooms_above_them():
-    crates = ["math", "geom", "vm", "grad", "guide", "infer", "py"]
+    crates = ["math", "geom", "native", "vm", "grad", "guide", "infer", "py"]
     for place, crate in enumerate(crates):
         manifest = tomllib.loads((ROOT / "crates" / crate / "Cargo.toml").read_text())
         used = {

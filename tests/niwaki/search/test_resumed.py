@@ -79,7 +79,7 @@ def killed(case: str, place: Path, times: int, seed: int) -> tuple[str, int]:
                 time.sleep(0.01)
             try:
                 said, _ = child.communicate(
-                    timeout=chance.uniform(0.0, 0.5) * seconds if kills < times else 300
+                    timeout=chance.uniform(0.0, 0.2) * seconds if kills < times else 300
                 )
             except subprocess.TimeoutExpired:
                 child.send_signal(signal.SIGKILL)
