@@ -39,6 +39,9 @@ def around():
 m = around
 """
 
+#: Most steps of a search: one program in a hundred takes more, and some of those would take minutes.
+STEPS = 5_000
+
 CHOICES = [
     "n = poisson(2.0)",
     "b = flip(0.4)",
@@ -82,7 +85,7 @@ def said(seed: int) -> str:
     )
     try:
         result = nw.run(
-            load(text(seed)), method=method, seed=seed, max_steps=200_000, threads=pick.choice([1, 2])
+            load(text(seed)), method=method, seed=seed, max_steps=STEPS, threads=pick.choice([1, 2])
         )
     except NiwakiError as error:
         return f"{type(error).__name__}: {error}"

@@ -13,7 +13,7 @@
 use std::fmt;
 
 /// A sum of multiples of 2^-32 with a result below this size, nats, was not rounded.
-const NEAR: f64 = (1u64 << 20) as f64;
+pub const NEAR: f64 = (1u64 << 20) as f64;
 /// Far terms are held times 2^-64, so that no partial sum overflows. All stay far above subnormal numbers.
 const SCALE: f64 = 1.0 / (1u128 << 64) as f64;
 

@@ -89,7 +89,8 @@ def train_guide(
     args
         The model's arguments for a target; none when left out.
     held_out
-        Targets that are never learned from; each eighth of `targets` when left out.
+        Targets that are never learned from; each eighth of `targets` when left out. A guide that learns by the evidence
+        bound needs one.
     rounds
         Searches of each round; (150, 400) when left out.
     searches
@@ -152,6 +153,8 @@ def train_guide(
         for name, value in (("rounds", rounds), ("searches", searches), ("keep", keep)):
             if value is not None:
                 raise bad(name, value, f"nothing with the objective {training.objective!r}", "None")
+        if not judged:
+            raise bad("held_out", held_out, "at least one target by which the best guide is known", "None")
     rounds = (ROUNDS if rounds is None else rounds) if by_examples else (0,)
     searches = SEARCHES if searches is None else searches
     if not rounds or by_examples and not all(is_whole(one) and one >= 2 for one in rounds):

@@ -12,6 +12,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
+from bars import PAGES
 from niwaki.errors import InputError, ModelFault
 from niwaki.guides import Training, train_guide, train_look_ahead
 from niwaki.methods import particle_gibbs, pimh, smc
@@ -45,18 +46,6 @@ def brittle(size):  # type: ignore[no-untyped-def]
     factor(1.0)
     if flip(0.5):
         factor(size / (2.0 - size))
-
-
-def page(side: int) -> np.ndarray[Any, Any]:
-    """A slanted bar that leads to one side."""
-    greys = np.full((24, 24), 255, dtype=np.uint8)
-    for row in range(2, 22):
-        middle = 12 + side * (row - 12) // 3
-        greys[row, middle - 3 : middle + 3] = 0
-    return greys
-
-
-PAGES = [page(side) for side in (-3, -2, -1, 1, 2, 3)]
 
 
 def score(one: Any) -> nw.Score:

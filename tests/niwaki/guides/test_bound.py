@@ -183,6 +183,11 @@ def test_what_only_examples_need_is_refused(given: dict[str, Any]) -> None:
         trained(agree, **given)
 
 
+def test_without_a_target_that_judges_it_is_refused() -> None:
+    with pytest.raises(InputError, match="at least one target by which the best guide is known"):
+        trained(agree, held_out=[])
+
+
 @pytest.mark.parametrize(
     "wrong", [{"objective": "evidence"}, {"runs": 1}, {"architecture": "dissertation"}, {"batch": 0}]
 )

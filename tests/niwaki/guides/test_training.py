@@ -14,6 +14,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
+from bars import PAGES
 from niwaki import guides
 from niwaki.errors import InputError, ModelFault
 from niwaki.guides import Round, Training, train_guide
@@ -48,18 +49,6 @@ def step(x, y, depth):  # type: ignore[no-untyped-def]
 def broken():  # type: ignore[no-untyped-def]
     """Divides by zero."""
     return 1.0 / (gaussian(0.0, 1.0) * 0.0)
-
-
-def page(side: int) -> np.ndarray[Any, Any]:
-    """A slanted bar that leads to one side."""
-    greys = np.full((24, 24), 255, dtype=np.uint8)
-    for row in range(2, 22):
-        middle = 12 + side * (row - 12) // 3
-        greys[row, middle - 3 : middle + 3] = 0
-    return greys
-
-
-PAGES = [page(side) for side in (-3, -2, -1, 1, 2, 3)]
 
 
 def trained(**settings: Any) -> nw.Guide:

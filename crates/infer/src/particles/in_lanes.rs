@@ -13,6 +13,7 @@ use super::resident::{Growth, values_to_recount};
 use crate::log::Log;
 use crate::particle::Particle;
 use crate::weights::near_log_step;
+use niwaki_math::total::NEAR;
 use niwaki_math::{Draw, FirstBlocks, StreamKey, grid};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::{Answer, At, Factor};
@@ -24,9 +25,6 @@ pub(super) const LEAST: usize = 16;
 
 /// Choices that are stored before those that no particle descends from are looked for.
 const STORED: usize = 1 << 16;
-
-/// A sum of log densities is exact below this, nats ([`Total`](niwaki_math::Total)).
-const NEAR: f64 = (1u64 << 20) as f64;
 
 /// Particles as columns.
 pub(super) struct InLanes {

@@ -288,6 +288,7 @@ impl<S: Scalar> Machine<'_, S> {
                         }
                         Ok(After::Pure { function, to, as_future }) => call_pure!(function, to, as_future),
                         Ok(After::Stop(stop)) => return Ok(stop),
+                        Ok(After::Entered) => unreachable!("only lanes enter a function by themselves"),
                         Err(halt) => stop!(halt, f.sites[number.0 as usize]),
                     }
                 }
@@ -321,6 +322,7 @@ impl<S: Scalar> Machine<'_, S> {
                             }
                             After::Pure { function, to, as_future } => call_pure!(function, to, as_future),
                             After::Stop(stop) => return Ok(stop),
+                            After::Entered => unreachable!("only lanes enter a function by themselves"),
                         },
                     }
                 }

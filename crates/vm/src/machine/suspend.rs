@@ -10,7 +10,7 @@ use super::state::{FutureId, NodeId, State, Status};
 use super::{Machine, Stop};
 use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
-use crate::value::{Memo, Value, index, iter_get, iter_len, ops};
+use crate::value::{Closure, Memo, Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 use std::sync::Arc;
 
@@ -27,6 +27,8 @@ pub(super) enum After {
     Goto(u32),
     /// In a pure function, its arguments in the buffer.
     Pure { function: FunctionId, to: Operand, as_future: bool },
+    /// In a pure function, which lanes have entered.
+    Entered,
     /// The run stops here.
     Stop(Stop),
 }
@@ -37,6 +39,29 @@ pub(super) struct Callee {
     pub pure: bool,
     /// Which memoised function it is.
     pub memo: Option<Arc<Memo>>,
+}
+
+/// The defaults of the parameters of a function value that a call with so many arguments leaves out.
+///
+/// # Errors
+/// A call needs fewer arguments, or more.
+pub(super) fn defaults<'a, S: Scalar>(
+    f: &'a Function<S>,
+    closure: &'a Closure<S>,
+    given: usize,
+) -> Result<impl Iterator<Item = &'a Value<S>>, Fault> {
+    let (needed, optional) = (f.params as usize, f.defaults.len());
+    if given > needed || given + optional < needed {
+        let plural = if needed == 1 { "" } else { "s" };
+        return Err(Fault::new(
+            "wrong-arity",
+            format!("`{}` takes {needed} argument{plural}, {given} given", f.name),
+        ));
+    }
+    Ok(f.defaults[given + optional - needed..].iter().map(move |default| match default.place() {
+        Place::Constant => &f.constants[default.index()],
+        _ => &closure.captures[default.index() - needed],
+    }))
 }
 
 impl<S: Scalar> Machine<'_, S> {
@@ -213,21 +238,7 @@ impl<S: Scalar> Machine<'_, S> {
         };
         let id = FunctionId(closure.function);
         let f = self.program.function(id);
-        let (given, needed, optional) = (self.buffer.len(), f.params as usize, f.defaults.len());
-        if given > needed || given + optional < needed {
-            let plural = if needed == 1 { "" } else { "s" };
-            return Err(Fault::new(
-                "wrong-arity",
-                format!("`{}` takes {needed} argument{plural}, {given} given", f.name),
-            ));
-        }
-        for i in given..needed {
-            let default = f.defaults[i + optional - needed];
-            self.buffer.push(match default.place() {
-                Place::Constant => f.constants[default.index()].clone(),
-                _ => closure.captures[default.index() - needed].clone(),
-            });
-        }
+        self.buffer.extend(defaults(f, closure, self.buffer.len())?.cloned());
         self.buffer.extend(closure.captures.iter().cloned());
         Ok(Callee { function: id, pure: f.mode == Mode::Pure, memo: closure.memo.clone() })
     }

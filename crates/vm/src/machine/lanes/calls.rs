@@ -3,12 +3,12 @@
 use super::Apart;
 use super::column::{Column, Side};
 use super::interpret::Run;
-use crate::code::{Args, FunctionId, Loop, Mode, Place, Site, SiteId, SiteKind, exit};
+use crate::code::{Args, FunctionId, Loop, Mode, Site, SiteId, SiteKind, exit};
 use crate::machine::address::{iteration_key, join};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
 use crate::machine::state::{FutureId, Node, NodeId};
-use crate::machine::suspend::After;
+use crate::machine::suspend::{After, defaults};
 use crate::value::{Value, index, iter_get, iter_len, ops};
 
 impl Run<'_, '_> {
@@ -108,22 +108,15 @@ impl Run<'_, '_> {
         let Some(Side::All(Value::Function(closure))) = inputs.next() else { return Err(Apart) };
         let function = FunctionId(closure.function);
         let f = self.machine.program.function(function);
-        let (given, needed, optional) = (inputs.len(), f.params as usize, f.defaults.len());
-        if given > needed || given + optional < needed || closure.memo.is_some() {
+        if closure.memo.is_some() {
             return Err(Apart);
         }
-        let default = |i: usize| {
-            let default = f.defaults[i + optional - needed];
-            Side::All(match default.place() {
-                Place::Constant => f.constants[default.index()].clone(),
-                _ => closure.captures[default.index() - needed].clone(),
-            })
-        };
-        let captures = closure.captures.iter().cloned().map(Side::All);
-        let inputs: Vec<Side> = inputs.chain((given..needed).map(default)).chain(captures).collect();
+        let left_out = defaults(f, &closure, inputs.len())?;
+        let hidden = left_out.chain(&closure.captures).cloned().map(Side::All);
+        let inputs: Vec<Side> = inputs.chain(hidden).collect();
         if f.mode == Mode::Pure {
             self.enter_pure(function, site.to, inputs)?;
-            return Ok(After::Goto(0));
+            return Ok(After::Entered);
         }
         Ok(After::Enter(self.call(number, site, function, inputs)?, 0))
     }

@@ -271,10 +271,9 @@ impl<'r, 'p> Run<'r, 'p> {
                         self.enter(inner, at as usize);
                         continue;
                     }
-                    // A pure function that was entered.
-                    After::Goto(_) => continue,
+                    After::Entered => continue,
                     After::Stop(stop) => return Ok(stop),
-                    After::Pure { .. } => return Err(Apart),
+                    After::Goto(_) | After::Pure { .. } => return Err(Apart),
                 },
                 op @ (Op::List { args, .. }
                 | Op::Tuple { args, .. }
