@@ -141,6 +141,8 @@ struct Writer {
     text: String,
     depth: usize,
     loops: usize,
+    /// Whether functions make choices now.
+    chooses: bool,
 }
 
 impl Writer {
@@ -206,6 +208,15 @@ impl Writer {
     fn statements(&mut self, depth: usize) {
         for _ in 0..1 + self.roll(3) {
             let kind = self.roll(if depth == 0 { 9 } else { 14 });
+            if self.chooses && self.roll(7) == 0 {
+                let a = self.variable();
+                let statement = match self.roll(4) {
+                    0 => format!("(set {a} (call \"g\" $b $v)) "),
+                    1 => format!("(do (factor (sub {a} {a}))) "),
+                    _ => format!("(set {a} (sample (dist uniform 0.0 1.0))) "),
+                };
+                self.text += &statement;
+            }
             match kind {
                 0..=5 => {
                     let (to, value) = (self.variable(), self.expression(2));
@@ -266,7 +277,7 @@ impl Writer {
     }
 
     fn program(seed: u64) -> String {
-        let mut writer = Writer { dice: seed, text: String::new(), depth: 0, loops: 0 };
+        let mut writer = Writer { dice: seed, text: String::new(), depth: 0, loops: 0, chooses: false };
         writer.text += "(module ";
         for k in 0..2 {
             // The second function may call the first; neither calls itself.
@@ -283,6 +294,10 @@ impl Writer {
                 own.replace("(call \"f1\"", "(call \"f0\"")
             };
         }
+        writer.text += "(fn \"g\" (params $a $v) (set $b (sample (dist uniform 0.0 1.0))) (set $c 2) (set $d $a) (set $l (list 1 2 3 4.5)) (set $p (tuple $b 2)) (set $w $v) ";
+        writer.statements(1);
+        writer.text += "(do (factor 0.0)) (return (add $a $c))) ";
+        writer.chooses = seed % 2 == 0;
         writer.text += "(fn \"m\" (params) (set $a 1) (set $b 2.5) (set $c 0) (set $d -1.5) (set $l (list 0.5 1.5 2.5 3.5)) (set $p (tuple 1 2)) (set $v (vec 0.5 1.5 2.5)) (set $w (vec 1.0 0.0 $a)) ";
         let rounds = 2 + writer.roll(6);
         writer.text += &format!("(for $again (range {rounds}) (body ");

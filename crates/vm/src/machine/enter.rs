@@ -3,8 +3,8 @@
 use super::registers::Registers;
 use super::state::State;
 use super::{Machine, PureCall};
-use crate::code::{FunctionId, Program};
-use crate::native::{Entry, Exit, Kind, Made, Part, Reg, Routine, is_counted, words};
+use crate::code::{FunctionId, Mode, Program};
+use crate::native::{Entry, Exit, Input, Kind, Made, Part, Reg, Routine, is_counted, words};
 use crate::value::{Range, Value};
 use niwaki_math::Scalar;
 use std::any::Any;
@@ -31,14 +31,17 @@ impl<S: Scalar> Machine<'_, S> {
         entry: &Entry,
         writes_plainly: bool,
     ) -> Option<Onwards> {
+        if !writes_plainly && entry.routines().any(|routine| routine.writes_node) {
+            return None;
+        }
         for routine in entry.routines() {
-            if (writes_plainly || !routine.writes_node) && self.give(state, r, routine) {
+            if self.give(state, r, routine) {
                 let [steps, bytes] = [words::STEPS, words::BYTES].map(|at| self.words[at]);
                 let exit = routine.run(&mut self.words);
                 state.steps += steps - self.words[words::STEPS];
                 state.charged += (bytes - self.words[words::BYTES]) as usize;
                 let done = self.words[words::DONE];
-                entry.note(done);
+                entry.note(done + (bytes - self.words[words::BYTES]) / 8);
                 self.take_back(state, r, exit);
                 return Some(Onwards {
                     function: exit.function,
@@ -48,7 +51,7 @@ impl<S: Scalar> Machine<'_, S> {
                 });
             }
         }
-        if entry.is_due() {
+        if (writes_plainly || r.f.mode == Mode::Pure) && entry.is_due() {
             let program: &dyn Any = self.program;
             if let Some(program) = program.downcast_ref::<Program>() {
                 entry.write(program, function, &|reg| {
@@ -83,10 +86,9 @@ impl<S: Scalar> Machine<'_, S> {
 
     fn fill(&self, state: &State<S>, r: Registers<'_, S>, routine: &Routine, words: &mut [u64]) -> bool {
         let address = |value: &Value<S>| std::ptr::from_ref(value) as u64;
-        let mut at = words::REGISTERS;
-        for (reg, kind) in &routine.inputs {
-            let Some(value) = self.held_by(state, r, *reg) else { return false };
-            match (value, *kind) {
+        for &Input { reg, kind, word: at } in &routine.inputs {
+            let Some(value) = self.held_by(state, r, reg) else { return false };
+            match (value, kind) {
                 (Value::Real(x), Kind::Real) => words[at] = x.value().to_bits(),
                 (Value::Int(n), Kind::Int) => words[at] = n.cast_unsigned(),
                 (Value::Bool(b), Kind::Bool) => words[at] = u64::from(*b),
@@ -94,11 +96,10 @@ impl<S: Scalar> Machine<'_, S> {
                     let [first, step] = [range.start, range.step].map(i64::cast_unsigned);
                     words[at..at + 3].copy_from_slice(&[address(value), first, step]);
                 }
-                (value, Kind::Object(_)) if Kind::of(value) == *kind => words[at] = address(value),
+                (value, Kind::Object(_)) if Kind::of(value) == kind => words[at] = address(value),
                 (value, kind) if kind.words() == 0 && Kind::of(value) == kind => {}
                 _ => return false,
             }
-            at += kind.words();
         }
         let is_free = |reg: &Reg| self.held_by(state, r, *reg).is_none_or(|value| !is_counted(*reg, value));
         if !routine.overwritten.iter().all(is_free) {

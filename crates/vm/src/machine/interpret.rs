@@ -134,7 +134,9 @@ impl<S: Scalar> Machine<'_, S> {
                     f = program.function(id);
                     code = &f.code;
                     (scratch, pc) = (on.scratch, on.pc);
-                    continue;
+                    true
+                } else {
+                    false
                 }
             };
         }
@@ -143,7 +145,9 @@ impl<S: Scalar> Machine<'_, S> {
                 let target = $target as usize;
                 if target <= pc {
                     step!();
-                    native!(target);
+                    if native!(target) {
+                        continue;
+                    }
                 }
                 pc = target;
                 continue;
@@ -162,6 +166,7 @@ impl<S: Scalar> Machine<'_, S> {
                 if K::KEEPS {
                     keep.enter(state, node);
                 }
+                native!(pc);
                 continue;
             }};
         }
@@ -213,12 +218,15 @@ impl<S: Scalar> Machine<'_, S> {
                 if deeper {
                     check!(self.afford(state, keep));
                 }
-                native!(0);
+                if native!(0) {
+                    continue;
+                }
                 pc = 0;
                 continue;
             }};
         }
 
+        native!(pc);
         loop {
             if K::KEEPS {
                 executed += 1;
@@ -291,6 +299,9 @@ impl<S: Scalar> Machine<'_, S> {
                         Ok(After::Entered) => unreachable!("only lanes enter a function by themselves"),
                         Err(halt) => stop!(halt, f.sites[number.0 as usize]),
                     }
+                    if native!(pc + 1) {
+                        continue;
+                    }
                 }
                 Op::Site { site: number } => {
                     let site = &f.sites[number.0 as usize];
@@ -324,6 +335,9 @@ impl<S: Scalar> Machine<'_, S> {
                             After::Stop(stop) => return Ok(stop),
                             After::Entered => unreachable!("only lanes enter a function by themselves"),
                         },
+                    }
+                    if native!(pc + 1) {
+                        continue;
                     }
                 }
                 Op::Builtin { to, id: builtin, args } => {

@@ -16,9 +16,9 @@ const VISITS: u32 = 2000;
 const ROUTINES: usize = 3;
 
 /// Uses after which it is known whether the code is worth its calls, and the fewest instructions that a use must carry
-/// out on average: a call costs about as much as these.
+/// out on average: a call costs about as much as these. A vector that was made counts as eight.
 const TRIAL: u32 = 256;
-const WORTH: u64 = 12;
+const WORTH: u64 = 8;
 
 /// Most bytes of machine code that all programs of a process have at a time.
 const MOST_BYTES: usize = 64 << 20;
@@ -32,7 +32,11 @@ static SAID: LazyLock<Option<u32>> =
 
 /// The places of one function where machine code may begin. Copies of a program share them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Entries(Vec<Arc<Entry>>);
+pub(crate) struct Entries {
+    /// For each instruction, the number of its entry from one on; zero for none.
+    numbers: Arc<[u16]>,
+    all: Arc<[Entry]>,
+}
 
 impl Entries {
     /// Those of a function, whose code is made after the usual number of visits.
@@ -43,13 +47,21 @@ impl Entries {
     /// Those of a function, whose code is made after so many visits; none for zero.
     pub fn after<S: Scalar>(f: &Function<S>, visits: u32) -> Entries {
         let places = if visits == 0 { vec![] } else { entries(f) };
-        Entries(places.into_iter().map(|pc| Arc::new(Entry::new(pc, visits))).collect())
+        let mut numbers = vec![0; if places.is_empty() { 0 } else { f.code.len() }];
+        for (k, pc) in places.iter().enumerate() {
+            numbers[*pc as usize] = k as u16 + 1;
+        }
+        let all = places.into_iter().map(|pc| Entry::new(pc, visits));
+        Entries { numbers: numbers.into(), all: all.collect() }
     }
 
     /// The one at an instruction.
     #[inline]
     pub fn at(&self, pc: usize) -> Option<&Entry> {
-        self.0.iter().find(|entry| entry.pc as usize == pc).map(|entry| &**entry)
+        match self.numbers.get(pc) {
+            None | Some(0) => None,
+            Some(number) => self.all.get(usize::from(*number) - 1),
+        }
     }
 }
 

@@ -1,8 +1,13 @@
 //! What the code of a function needs to know of it: which registers are live where, and where jumps lead.
 
-use crate::code::{Function, Op, Operand, Place};
+use super::functions::is_known;
+use crate::builtins::builtin;
+use crate::code::{Function, Mode, Op, Operand, Place};
 use crate::passes::place::{Bits, live_before, successors};
 use niwaki_math::Scalar;
+
+/// Instructions that a straight piece must have to be worth machine code.
+const LINE: usize = 5;
 
 /// The flow of one function.
 pub(super) struct Flow {
@@ -43,7 +48,8 @@ impl Flow {
     }
 }
 
-/// Instructions where machine code may begin: where a pure function does, and where a loop goes back to.
+/// Instructions where machine code may begin: where a pure function does, where a loop goes back to, and where a function that
+/// can suspend begins or goes on after a site, if there is enough to do before the next one.
 pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
     let back = f.code.iter().enumerate().filter_map(|(at, op)| match *op {
         Op::Jump { target }
@@ -56,9 +62,28 @@ pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
         }
         _ => None,
     });
-    let first = (f.mode == crate::code::Mode::Pure).then_some(0);
-    let mut all: Vec<u32> = back.chain(first).collect();
+    let first = (f.mode == Mode::Pure).then_some(0);
+    let after = f.code.iter().enumerate().filter(|(_, op)| matches!(op, Op::Site { .. }));
+    let after = after.map(|(at, _)| at + 1).chain((f.mode != Mode::Pure).then_some(0));
+    let lines = after.filter(|at| line(f, *at) >= LINE).map(|at| at as u32);
+    let mut all: Vec<u32> = back.chain(first).chain(lines).collect();
     all.sort_unstable();
     all.dedup();
+    all.truncate(usize::from(u16::MAX));
     all
+}
+
+/// How many instructions there are from one on, before the next that has no machine code.
+fn line<S: Scalar>(f: &Function<S>, from: usize) -> usize {
+    let has_code = |op: &&Op| match op {
+        Op::Add { .. } | Op::Sub { .. } | Op::Mul { .. } | Op::Div { .. } | Op::Binary { .. } => true,
+        Op::Neg { .. } | Op::Not { .. } | Op::Field { .. } | Op::Tuple { .. } | Op::Unpack { .. } => true,
+        Op::Move { .. } | Op::Jump { .. } | Op::JumpIf { .. } | Op::JumpUnless { .. } => true,
+        Op::JumpUnlessCompare { .. } | Op::Length { .. } | Op::Next { .. } | Op::CallPure { .. } => true,
+        Op::CheckSet { .. } => true,
+        Op::Builtin { id, .. } => is_known(builtin::<S>(*id).name),
+        _ => false,
+    };
+    let moves = |op: &&Op| matches!(op, Op::Move { .. } | Op::CheckSet { .. } | Op::Jump { .. });
+    f.code.iter().skip(from).take_while(has_code).filter(|op| !moves(op)).count()
 }

@@ -187,3 +187,9 @@ fn kind_of_answer(name: &str, given: &[Typed]) -> Option<Kind> {
         _ => return None,
     })
 }
+
+/// Whether there is machine code for a built-in function, given the right values.
+pub(super) fn is_known(name: &str) -> bool {
+    let of_vectors = ["vec", "dot", "norm", "distance", "normalize", "cross", "rotate", "range", "len"];
+    of_vectors.contains(&name) || kind_of_answer(name, &[]).is_some()
+}

@@ -2,7 +2,8 @@
 //!
 //! The interpreter is right and starts at once. Where it goes through the same instructions thousands of times, they
 //! are compiled: for the kinds of values that the registers hold there, real and whole numbers in registers of the
-//! processor. The code begins where a loop goes back to or where a pure function begins, and it goes as far as it can:
+//! processor. The code begins where a loop goes back to, where a pure function begins or where a run goes on after a choice,
+//! and it goes as far as it can:
 //!
 //! ```text
 //! interpreter --- a loop goes back, for the 2000th time ---> compile for the kinds found
@@ -41,7 +42,7 @@ mod write;
 
 pub(crate) use entries::{Entries, Entry};
 pub(crate) use kinds::{Kind, Made, Part, Reg, is_counted};
-pub(crate) use routine::{Exit, Routine};
+pub(crate) use routine::{Exit, Input, Routine};
 
 /// Words that code and machine exchange.
 pub(crate) mod words {

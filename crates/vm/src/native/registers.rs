@@ -95,6 +95,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
         let reg = Self::reg(now, o);
         let kind = *now.kinds.get(&reg)?;
+        self.read.insert(reg);
         Some(Got { typed: self.typed(reg, kind), sample: now.samples.get(&reg).copied() })
     }
 

@@ -16,7 +16,7 @@ type Code = unsafe extern "C" fn(*mut u64) -> u64;
 /// Machine code for one combination of kinds.
 pub(crate) struct Routine {
     /// Registers that it reads where it begins, and their kinds there.
-    pub inputs: Vec<(Reg, Kind)>,
+    pub inputs: Vec<Input>,
     /// Constants that are no numbers: of which function, and which.
     pub constants: Vec<(FunctionId, u16)>,
     /// Other registers that it may write: they must hold nothing shared.
@@ -37,6 +37,15 @@ impl std::fmt::Debug for Routine {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "Routine({} bytes, {:?})", self.bytes, self.inputs)
     }
+}
+
+/// A register that machine code reads where it begins.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Input {
+    pub reg: Reg,
+    pub kind: Kind,
+    /// Its first word.
+    pub word: usize,
 }
 
 /// A place where machine code leaves.
@@ -111,10 +120,11 @@ impl Routine {
         let mut builder_context = FunctionBuilderContext::new();
         let b = FunctionBuilder::new(&mut context.func, &mut builder_context);
         let mut writer = Writer::new(program, b, convention);
-        let inputs = writer.begin(function, pc, found)?;
+        let mut inputs = writer.begin(function, pc, found)?;
         writer.all_pieces();
         let exits = writer.all_exits();
-        let Writer { mut b, constants, written, names, words, .. } = writer;
+        let Writer { mut b, constants, written, read, names, words, .. } = writer;
+        inputs.retain(|input| read.contains(&input.reg) || written.contains(&input.reg));
         b.seal_all_blocks();
         b.finalize(module.target_config());
         if cfg!(debug_assertions) || cfg!(test) {
@@ -123,7 +133,7 @@ impl Routine {
         module.define_function(id, &mut context)?;
         let bytes = context.compiled_code().map_or(0, |code| code.code_info().total_size as usize);
         let memory = Memory::finish(module)?;
-        let is_input = |reg: &Reg| inputs.iter().any(|(input, _)| input == reg);
+        let is_input = |reg: &Reg| inputs.iter().any(|input| input.reg == *reg);
         let writes_node = written.iter().any(|reg| matches!(reg, Reg::Node(_)));
         let overwritten = written.into_iter().filter(|reg| !is_input(reg)).collect();
         // SAFETY: it was written with this signature.

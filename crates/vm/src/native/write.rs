@@ -9,7 +9,7 @@
 use super::entries::Found;
 use super::flow::Flow;
 use super::kinds::{Kind, Made, Reg, is_counted};
-use super::routine::{Call, Exit};
+use super::routine::{Call, Exit, Input};
 use super::typed::{Number, Typed};
 use super::words;
 use crate::code::{Function, FunctionId, Operand, Place, Program};
@@ -93,6 +93,8 @@ pub(super) struct Writer<'p, 'v, 'b> {
     began_with: BTreeSet<Reg>,
     pub(super) constants: Vec<(FunctionId, u16)>,
     pub(super) written: BTreeSet<Reg>,
+    /// Registers that some instruction reads.
+    pub(super) read: BTreeSet<Reg>,
     pub(super) names: Vec<Box<str>>,
     pub(super) words: usize,
     exchange: Value,
@@ -125,6 +127,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             began_with: BTreeSet::new(),
             constants: vec![],
             written: BTreeSet::new(),
+            read: BTreeSet::new(),
             names: vec![],
             words: 0,
             exchange: Value::from_u32(0),
@@ -145,12 +148,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
     }
 
     /// The code that reads all inputs, and the first piece. Gives the inputs.
-    pub(super) fn begin(
-        &mut self,
-        id: FunctionId,
-        pc: usize,
-        found: Found<'_, 'v>,
-    ) -> Written<Vec<(Reg, Kind)>> {
+    pub(super) fn begin(&mut self, id: FunctionId, pc: usize, found: Found<'_, 'v>) -> Written<Vec<Input>> {
         let f = self.program.function(id);
         let block = self.b.create_block();
         self.b.switch_to_block(block);
@@ -214,7 +212,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             };
             self.define(reg, typed);
             now.kinds.insert(reg, kind);
-            known.push((reg, kind));
+            known.push(Input { reg, kind, word: at });
             at += kind.words();
         }
         if known.len() > REGISTERS {
@@ -324,8 +322,8 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                 continue;
             }
             let (id, at, o) = match *reg {
-                Reg::Outer(_) => continue,
-                Reg::Node(i) => (places[0].0, places[0].2, Operand::new(Place::Node, i.into())),
+                // What the activation holds may be read by a slice.
+                Reg::Outer(_) | Reg::Node(_) => continue,
                 Reg::Scratch(i) if i >= innermost_end => {
                     dead.push(*reg);
                     continue;
@@ -352,6 +350,8 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let block = self.b.create_block();
         self.b.set_cold_block(block);
         let mut values = vec![];
+        let mut now = now.clone();
+        self.forget_dead(&mut now, pc);
         for (reg, kind) in &now.kinds {
             // A register that is only read stays as it is.
             if !matches!(reg, Reg::Outer(_)) && *kind != Kind::Opaque {
