@@ -102,7 +102,11 @@ impl<S: Scalar> Machine<'_, S> {
             }
         }
         let is_free = |reg: &Reg| self.held_by(state, r, *reg).is_none_or(|value| !is_counted(*reg, value));
-        if !routine.overwritten.iter().all(is_free) {
+        let end = self.scratch.len().min(r.scratch + routine.scratch_end);
+        let (nodes, others) = routine.overwritten.split_at(routine.overwritten_nodes);
+        // Nearly always all registers of the machine are free, which is seen sooner of a whole row.
+        let are_free = self.scratch[r.scratch..end].iter().all(Value::is_plain) || others.iter().all(is_free);
+        if !(are_free && nodes.iter().all(is_free)) {
             return false;
         }
         for (k, (id, i)) in routine.constants.iter().enumerate() {

@@ -21,6 +21,10 @@ pub(crate) struct Routine {
     pub constants: Vec<(FunctionId, u16)>,
     /// Other registers that it may write: they must hold nothing shared.
     pub overwritten: Vec<Reg>,
+    /// How many of these are of the activation: they come first.
+    pub overwritten_nodes: usize,
+    /// One past the last of these that is of the machine.
+    pub scratch_end: usize,
     /// Where it may leave.
     pub exits: Vec<Exit>,
     /// Whether it writes registers of the activation.
@@ -135,7 +139,12 @@ impl Routine {
         let memory = Memory::finish(module)?;
         let is_input = |reg: &Reg| inputs.iter().any(|input| input.reg == *reg);
         let writes_node = written.iter().any(|reg| matches!(reg, Reg::Node(_)));
-        let overwritten = written.into_iter().filter(|reg| !is_input(reg)).collect();
+        let overwritten: Vec<Reg> = written.into_iter().filter(|reg| !is_input(reg)).collect();
+        let overwritten_nodes = overwritten.iter().filter(|reg| matches!(reg, Reg::Node(_))).count();
+        let scratch_end = match overwritten.last() {
+            Some(Reg::Scratch(last)) => *last as usize + 1,
+            _ => 0,
+        };
         // SAFETY: it was written with this signature.
         #[allow(unsafe_code)]
         let code = unsafe { std::mem::transmute::<*const u8, Code>(memory.address(id)) };
@@ -143,6 +152,8 @@ impl Routine {
             inputs,
             constants,
             overwritten,
+            overwritten_nodes,
+            scratch_end,
             exits,
             writes_node,
             words,
