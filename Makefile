@@ -216,9 +216,9 @@ fuzz: $(STAMPS)/engine $(STAMPS)/test
 	cargo clippy $(CARGO_FLAGS) $(FUZZERS) -- -D warnings
 	$(PY) tests/fuzz/fuzzers.py --minutes $(MINUTES) --jobs $(JOBS) $(if $(ONLY),--only $(ONLY))
 
-# Machine code and slices of one memory are in `grad`; the unsafe code of `infer` and `vm` only calls instructions of the
-# processor. A folder of its own, because the flags of the compiler differ.
-SANITIZED := -p niwaki-grad
+# Machine code is in `grad` and `vm`, slices of one memory in `grad`; the unsafe code of `infer` only calls instructions of
+# the processor. A folder of its own, because the flags of the compiler differ.
+SANITIZED := -p niwaki-grad -p niwaki-vm
 HOST := $(shell rustc -vV 2>/dev/null | sed -n 's/host: //p')
 sanitize: $(STAMPS)/venv
 	@if cargo +nightly --version >/dev/null 2>&1; then \

@@ -15,25 +15,29 @@ from pathlib import Path
 
 import pytest
 
-SEARCHES = Path(__file__).with_name("searches_in_lanes.py")
+SEARCHES = Path(__file__).with_name("searches.py")
 
 
-def said(lanes: bool, first: int, count: int) -> dict[str, str]:
-    """What each search prints, by the seed of its program."""
+def said(first: int, count: int, kind: str = "populations", **switches: str) -> dict[str, str]:
+    """What each search prints, by the seed of its program, under these variables of the environment."""
     # Names of files are hashes of texts, which messages repeat.
-    settings = dict(os.environ, NIWAKI_LANES="1" if lanes else "0", PYTHONHASHSEED="0")
-    command = [sys.executable, str(SEARCHES), str(first), str(count)]
+    settings = dict(os.environ, PYTHONHASHSEED="0", **switches)
+    command = [sys.executable, str(SEARCHES), str(first), str(count), kind]
     done = subprocess.run(command, env=settings, capture_output=True, text=True, check=True)
     answers: dict[str, str] = json.loads(done.stdout)
     return answers
 
 
+def compare(one: dict[str, str], other: dict[str, str], count: int) -> None:
+    """Hold what so many searches print against each other."""
+    assert len(one) == count
+    different = [seed for seed in one if one[seed] != other[seed]]
+    assert not different, (different[0], one[different[0]], other[different[0]])
+
+
 def agree(first: int, count: int) -> None:
     """Compare the searches of so many programs."""
-    together, alone = said(True, first, count), said(False, first, count)
-    assert len(together) == count
-    different = [seed for seed in together if together[seed] != alone[seed]]
-    assert not different, (different[0], together[different[0]], alone[different[0]])
+    compare(said(first, count, NIWAKI_LANES="1"), said(first, count, NIWAKI_LANES="0"), count)
 
 
 def test_lanes_agree_on_random_programs() -> None:

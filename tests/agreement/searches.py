@@ -1,6 +1,6 @@
-"""Searches of random programs by populations; prints all that they say, as JSON by seed.
+"""Searches of random programs by populations or chains; prints all that they say, as JSON by seed.
 
-    python searches_in_lanes.py FIRST COUNT
+    python searches.py FIRST COUNT [populations | chains]
 
 A program is that of `programs` as a function, called from a loop with choices of all kinds, observations and factors.
 Some have jumps that depend on choices, so that particles part and meet.
@@ -15,6 +15,7 @@ import sys
 
 import niwaki as nw
 from niwaki.errors import NiwakiError
+from niwaki.methods.chains import STRATEGIES
 from programs import program
 from test_engine import load
 
@@ -74,15 +75,25 @@ def text(seed: int) -> str:
     )
 
 
-def said(seed: int) -> str:
-    """What a search of that program says, as a hash; of a failure its words."""
-    pick = random.Random(seed + 1)
-    method = nw.smc(
+def population(pick: random.Random) -> nw.smc:
+    """Some population."""
+    return nw.smc(
         particles=pick.choice([16, 40, 100]),
         order=pick.choice(["depth-first", "stochastic"]),
         resampling=pick.choice(["systematic", "residual", "stratified", "multinomial", "tempered"]),
         ess=pick.choice([None, 0.5]),
     )
+
+
+def chain(pick: random.Random) -> nw.mh:
+    """Some chain."""
+    return nw.mh(steps=pick.choice([50, 300]), strategy=pick.choice(STRATEGIES))
+
+
+def said(seed: int, kind: str) -> str:
+    """What a search of that program says, as a hash; of a failure its words."""
+    pick = random.Random(seed + 1)
+    method = population(pick) if kind == "populations" else chain(pick)
     try:
         result = nw.run(
             load(text(seed)), method=method, seed=seed, max_steps=STEPS, threads=pick.choice([1, 2])
@@ -102,5 +113,6 @@ def said(seed: int) -> str:
 
 
 if __name__ == "__main__":
-    first, count = map(int, sys.argv[1:])
-    print(json.dumps({str(seed): said(seed) for seed in range(first, first + count)}))
+    first, count = map(int, sys.argv[1:3])
+    kind = sys.argv[3] if len(sys.argv) > 3 else "populations"
+    print(json.dumps({str(seed): said(seed, kind) for seed in range(first, first + count)}))
