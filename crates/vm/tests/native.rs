@@ -135,6 +135,21 @@ fn elements_of_what_is_shared() {
     assert_eq!(agree(&text, 40), "30.0");
 }
 
+#[test]
+fn fields_of_records_and_parts_that_stay() {
+    let text = "(module (class 0 \"P\" (\"x\" \"y\") namedtuple) (fn \"m\" (params)
+        (set $ps (list (record 0 1.5 2) (record 0 2.5 (list 7)))) (set $s 0) (set $v (vec 1.0 2.0)) (set $w $v) (set $kept none)
+        (for $k (range 6) (body (set $p (index $ps (mod $k 2))) (set $s (add $s (field $p \"x\")))
+            (set $v (mul $v 0.5)) (set $w $v) (set $kept (tuple $s $k))
+            (set $y (field $p \"y\"))))
+        (return (tuple $s $v $w $kept $y $p))) (entry \"m\"))";
+    let found = agree(text, 30);
+    assert!(
+        found.starts_with("(12.0, vec(0.015625, 0.03125), vec(0.015625, 0.03125), (12.0, 5), [7]"),
+        "{found}"
+    );
+}
+
 /// A program at random: numbers, loops, branches, calls, elements; sometimes a fault.
 struct Writer {
     dice: u64,
