@@ -1,12 +1,11 @@
-//! The first random bits at one address in many streams, made together.
+//! The first random bits of many streams, made together: at one address, or each at its own.
 //!
 //! Particles at the same place draw at the same address, each from its own stream. Philox takes the address as its counter and
 //! the stream as its key, so the blocks of many streams are one loop over keys, which the processor carries out several at once.
+//! The proposals of a Markov chain that come next have addresses of their own.
 #![allow(unsafe_code)] // Code for processors with AVX2, called where the processor has it.
 
-use crate::streams::{MULTIPLIER, RngCore, Stream, StreamKey, WEYL, fill, mix};
-use rand_core::TryRng;
-use std::convert::Infallible;
+use crate::streams::{MULTIPLIER, Stream, StreamKey, WEYL, mix};
 
 /// The random bits of one address in many streams: their first blocks are made together, several at once.
 ///
@@ -39,8 +38,8 @@ impl FirstBlocks {
 
     /// The bits of the `lane`-th stream.
     #[inline(always)]
-    pub fn stream(&self, keys: &[StreamKey], lane: usize) -> Begun {
-        Begun { words: self.words[lane], used: 0, rest: keys[lane].behind_first(self.address) }
+    pub fn stream(&self, keys: &[StreamKey], lane: usize) -> Stream {
+        keys[lane].begun(self.address, self.words[lane])
     }
 }
 
@@ -50,7 +49,7 @@ fn make<const N: usize>(address: u128, keys: &[StreamKey], words: &mut Vec<[u64;
     for keys in keys.chunks(N) {
         let mut mixed = [0; N];
         keys.iter().zip(&mut mixed).for_each(|(key, to)| *to = mix(key.0));
-        words.extend(&wide_philox(address, &mixed)[..keys.len()]);
+        words.extend(&wide_philox(&[address; N], &mixed)[..keys.len()]);
     }
 }
 
@@ -60,64 +59,89 @@ fn make_avx2(address: u128, keys: &[StreamKey], words: &mut Vec<[u64; 2]>) {
     make::<8>(address, keys, words);
 }
 
-/// A stream whose first block is there.
-#[derive(Clone, Debug)]
+/// How many streams are made together by [`eight`].
+pub const EIGHT: usize = 8;
+
+/// A stream key, and the first block of its stream at one address.
+#[derive(Clone, Copy, Debug)]
 pub struct Begun {
+    key: StreamKey,
+    address: u128,
     words: [u64; 2],
-    used: usize,
-    rest: Stream,
 }
 
-impl TryRng for Begun {
-    type Error = Infallible;
-
+impl Begun {
+    /// The first word at its own address.
     #[inline(always)]
-    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
-        self.try_next_u64().map(|bits| (bits >> 32) as u32)
+    pub fn first(&self) -> u64 {
+        self.words[0]
     }
 
+    /// The bits of an address: quickest at its own.
     #[inline(always)]
-    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
-        match self.words.get(self.used) {
-            Some(word) => {
-                self.used += 1;
-                Ok(*word)
-            }
-            None => self.rest.try_next_u64(),
-        }
-    }
-
-    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
-        fill(bytes, || self.next_u64());
-        Ok(())
+    pub fn at(&self, address: u128) -> Stream {
+        if self.address == address { self.key.begun(address, self.words) } else { self.key.at(address) }
     }
 }
 
-/// [`philox`](crate::streams::philox) of one counter with many keys. Numbers of 32 bits are held in 64, so that a product is one instruction of the
-/// processor for several of them.
+/// The streams with these keys, each begun at an address of its own.
+///
+/// ```
+/// use niwaki_math::first_blocks::eight;
+/// use niwaki_math::{RngCore, StreamKey};
+/// let keys: [StreamKey; 8] = std::array::from_fn(|visit| StreamKey::new(1, 0, visit as u64));
+/// let begun = eight(keys, [4, 7, 4, 1, 0, 9, 2, 3]);
+/// assert_eq!(begun[1].at(7).next_u64(), keys[1].at(7).next_u64());
+/// assert_eq!(begun[2].at(5).next_u64(), keys[2].at(5).next_u64());
+/// ```
+#[inline(always)]
+pub fn eight(keys: [StreamKey; EIGHT], addresses: [u128; EIGHT]) -> [Begun; EIGHT] {
+    let words = eight_words(&addresses, &keys.map(|key| mix(key.0)));
+    std::array::from_fn(|lane| Begun { key: keys[lane], address: addresses[lane], words: words[lane] })
+}
+
+#[inline(always)]
+fn eight_words(addresses: &[u128; EIGHT], mixed: &[u64; EIGHT]) -> [[u64; 2]; EIGHT] {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        // SAFETY: the processor has AVX2.
+        return unsafe { eight_avx2(addresses, mixed) };
+    }
+    wide_philox(addresses, mixed)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn eight_avx2(addresses: &[u128; EIGHT], mixed: &[u64; EIGHT]) -> [[u64; 2]; EIGHT] {
+    wide_philox(addresses, mixed)
+}
+
+/// [`philox`](crate::streams::philox) of many counters and keys. Numbers of 32 bits are held in 64, so that a product is one
+/// instruction of the processor for several of them; what is above their 32 bits means nothing.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the four quarters of an address")]
-fn wide_philox<const N: usize>(counter: u128, keys: &[u64; N]) -> [[u64; 2]; N] {
+fn wide_philox<const N: usize>(counters: &[u128; N], keys: &[u64; N]) -> [[u64; 2]; N] {
     const LOW: u64 = u32::MAX as u64;
-    let quarter = |i: u32| [(counter >> (32 * i)) as u64 & LOW; N];
+    let quarter = |i: u32| counters.map(|counter| (counter >> (32 * i)) as u64);
     let ([mut a, mut b], [mut c, mut d]) = ([quarter(0), quarter(1)], [quarter(2), quarter(3)]);
-    let (mut k, mut l) = (keys.map(|key| key & LOW), keys.map(|key| key >> 32));
+    let (mut k, mut l) = (*keys, keys.map(|key| key >> 32));
     for _ in 0..10 {
         for i in 0..N {
             let left = u64::from(MULTIPLIER[0]) * (a[i] & LOW);
             let right = u64::from(MULTIPLIER[1]) * (c[i] & LOW);
-            (a[i], b[i]) = ((right >> 32) ^ b[i] ^ k[i], right & LOW);
-            (c[i], d[i]) = ((left >> 32) ^ d[i] ^ l[i], left & LOW);
-            k[i] = (k[i] + u64::from(WEYL[0])) & LOW;
-            l[i] = (l[i] + u64::from(WEYL[1])) & LOW;
+            (a[i], b[i]) = ((right >> 32) ^ b[i] ^ k[i], right);
+            (c[i], d[i]) = ((left >> 32) ^ d[i] ^ l[i], left);
+            k[i] = k[i].wrapping_add(u64::from(WEYL[0]));
+            l[i] = l[i].wrapping_add(u64::from(WEYL[1]));
         }
     }
-    std::array::from_fn(|i| [b[i] << 32 | a[i], d[i] << 32 | c[i]])
+    std::array::from_fn(|i| [b[i] << 32 | a[i] & LOW, d[i] << 32 | c[i] & LOW])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::streams::RngCore;
 
     #[test]
     fn first_blocks_are_those_of_the_streams() {
@@ -130,12 +154,28 @@ mod tests {
                     let (mut begun, mut plain) = (blocks.stream(&keys, lane), key.at(address));
                     let mut narrow = Vec::new();
                     make::<4>(address, &keys, &mut narrow);
-                    assert_eq!(narrow[lane], begun.words);
+                    assert_eq!(narrow[lane], blocks.words[lane]);
                     for _ in 0..7 {
                         assert_eq!(begun.next_u64(), plain.next_u64());
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn eight_streams_have_addresses_of_their_own() {
+        let keys = std::array::from_fn(|n| StreamKey::new(3, n as u64, 5));
+        let addresses =
+            std::array::from_fn(|n| (n as u128 * 0x0123_4567_89AB_CDEF_0011_2233).rotate_left(40));
+        let (begun, plain) = (eight(keys, addresses), wide_philox(&addresses, &keys.map(|key| mix(key.0))));
+        for lane in 0..EIGHT {
+            assert_eq!(begun[lane].words, plain[lane]);
+            for address in addresses {
+                let (mut one, mut other) = (begun[lane].at(address), keys[lane].at(address));
+                (0..5).for_each(|_| assert_eq!(one.next_u64(), other.next_u64()));
+            }
+            assert_eq!(begun[lane].first(), keys[lane].at(addresses[lane]).next_u64());
         }
     }
 }

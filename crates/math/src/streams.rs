@@ -59,8 +59,9 @@ pub struct Stream {
     base: u64,
     /// Number of the next block.
     block: u64,
-    /// The second half of the last block, until it is used.
-    spare: Option<u64>,
+    /// The last block, and how much of it is not used.
+    words: [u64; 2],
+    left: u32,
 }
 
 /// The part of the key that all choices of a stream share: it is mixed once for many draws.
@@ -93,13 +94,13 @@ impl StreamKey {
     pub fn at(self, address: u128) -> Stream {
         let counter =
             [address as u32, (address >> 32) as u32, (address >> 64) as u32, (address >> 96) as u32];
-        Stream { counter, base: self.0, block: 0, spare: None }
+        Stream { counter, base: self.0, block: 0, words: [0; 2], left: 0 }
     }
 
-    /// The bits of the choice at `address` behind those of the first block.
-    #[inline]
-    pub(crate) fn behind_first(self, address: u128) -> Stream {
-        Stream { block: 1, ..self.at(address) }
+    /// The bits of the choice at `address`, of which the first block is there.
+    #[inline(always)]
+    pub(crate) fn begun(self, address: u128, words: [u64; 2]) -> Stream {
+        Stream { block: 1, words, left: 2, ..self.at(address) }
     }
 }
 
@@ -108,6 +109,17 @@ impl Stream {
     #[inline]
     pub fn new(seed: u64, stream: u64, address: u128, visit: u64) -> Stream {
         StreamKey::new(seed, stream, visit).at(address)
+    }
+
+    /// Makes the next block.
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "the two halves of a key")]
+    fn make_block(&mut self) {
+        let key = mix(self.base.wrapping_add(self.block.wrapping_mul(GOLDEN)));
+        let [a, b, c, d] = philox(self.counter, [key as u32, (key >> 32) as u32]);
+        self.block += 1;
+        self.words = [u64::from(b) << 32 | u64::from(a), u64::from(d) << 32 | u64::from(c)];
+        self.left = 2;
     }
 
     /// A number in the open interval (0, 1): 52 bits and a half, so that neither end is ever reached.
@@ -131,17 +143,13 @@ impl TryRng for Stream {
         self.try_next_u64().map(|bits| (bits >> 32) as u32)
     }
 
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "the two halves of a key")]
+    #[inline(always)]
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
-        if let Some(bits) = self.spare.take() {
-            return Ok(bits);
+        if self.left == 0 {
+            self.make_block();
         }
-        let key = mix(self.base.wrapping_add(self.block.wrapping_mul(GOLDEN)));
-        let [a, b, c, d] = philox(self.counter, [key as u32, (key >> 32) as u32]);
-        self.block += 1;
-        self.spare = Some(u64::from(d) << 32 | u64::from(c));
-        Ok(u64::from(b) << 32 | u64::from(a))
+        self.left -= 1;
+        Ok(if self.left == 1 { self.words[0] } else { self.words[1] })
     }
 
     fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {

@@ -20,6 +20,7 @@ use super::Chain;
 use super::accept::{Rules, Terms, accepts, selected};
 use super::proposal::{Move, MoveProposal};
 use super::state::Fresh;
+use super::streams::scaled;
 use crate::{Failure, Task};
 use niwaki_math::RngCore;
 use niwaki_vm::code::Program;
@@ -52,36 +53,30 @@ impl<R: Rules> Chain<R> {
     ) -> Result<(), Failure> {
         let visit = self.visit;
         self.visit += 1;
-        let now = self.ahead.of(&self.streams, visit);
-        let coming = self.ahead.of(&self.streams, visit + 1);
-
         let total = table.map_or(self.state.trace.len() as u64, |t| self.tables[t].total());
         if total == 0 {
             return Ok(());
         }
+        let (trace, program) = (&self.state.trace, &*task.program);
+        let guess = |first: u64| match table {
+            None => trace.approach(program, scaled(first, total) as usize),
+            Some(_) => 0,
+        };
+        let now = *self.ahead.of(&self.streams, visit, guess);
         let at = now.below(total);
         let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
-        let next = coming.below(total) as usize;
-        if table.is_none() {
-            self.state.trace.approach(next);
-        }
 
         let site = self.counts.number(self.state.trace.site_of(choice));
         proposer.look(&self.state, &task.program, choice);
         let noting = self.best.is_noting();
-        let mut proposal = MoveProposal { proposer, site, key: self.streams.moves(visit), noting, old: None };
+        let mut proposal = MoveProposal { proposer, site, moves: now.moves, noting, old: None };
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
         let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
         let change = match machine.propose(trace, choice, strategy, &mut proposal, &mut answers) {
             Ok(change) => change,
             Err(met) => self.give_up(task, met)?,
         };
-        let trace = &mut self.state.trace;
-        if table.is_none() {
-            trace.approach_closer(&task.program, next);
-        }
-
-        let (old, outside) = (proposal.old.take(), trace.left_support());
+        let (old, outside) = (proposal.old.take(), self.state.trace.left_support());
         if change == Change::Done
             && let Some(backward) = proposer.look_back(&self.state, &task.program, choice)
         {
@@ -93,7 +88,7 @@ impl<R: Rules> Chain<R> {
                 table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, &task.program));
             selected(total, after)
         };
-        let mut rng = now.rest;
+        let mut rng = now.rest();
         let decision = self.decide(task, change, beta, &mut rng, selection, old)?;
         let count = &mut self.counts.sites[site];
         count.proposed += 1;

@@ -2,7 +2,8 @@
 
 use super::metropolis::Decision;
 use super::state::State;
-use niwaki_math::{Dist, Stream, StreamKey, grid};
+use niwaki_math::first_blocks::Begun;
+use niwaki_math::{Dist, Stream, grid};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -67,7 +68,8 @@ impl Move for FromPrior {
 pub(super) struct MoveProposal<'a, M> {
     pub proposer: &'a mut M,
     pub site: usize,
-    pub key: StreamKey,
+    /// The random bits of its new value.
+    pub moves: Begun,
     /// Whether to keep the old value in `old`.
     pub noting: bool,
     pub old: Option<(u128, Value)>,
@@ -88,6 +90,6 @@ impl<M: Move> Propose<f64> for MoveProposal<'_, M> {
         if self.noting {
             self.old = Some((address, old.clone()));
         }
-        self.proposer.propose(at, self.site, dist, old, log_density, &mut self.key.at(address))
+        self.proposer.propose(at, self.site, dist, old, log_density, &mut self.moves.at(address))
     }
 }

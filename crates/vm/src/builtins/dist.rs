@@ -126,8 +126,17 @@ fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
 }
 
 /// A draw as a value; a vector becomes a tuple.
-#[inline]
+#[inline(always)]
 pub fn draw_to_value<S: Scalar>(draw: Draw<S>) -> Value<S> {
+    match draw {
+        Draw::Int(n) => Value::Int(n),
+        Draw::Real(x) => Value::Real(x),
+        other => other_draw(other),
+    }
+}
+
+#[inline(never)]
+fn other_draw<S: Scalar>(draw: Draw<S>) -> Value<S> {
     match draw {
         Draw::Bool(b) => Value::Bool(b),
         Draw::Int(n) => Value::Int(n),

@@ -48,7 +48,7 @@ pub fn iter_get<S: Scalar>(value: &Value<S>, at: usize) -> Value<S> {
 }
 
 /// `value[at]` without a copy, for a list or tuple and a whole number within it.
-#[inline]
+#[inline(always)]
 pub fn index_ref<'a, S: Scalar>(value: &'a Value<S>, at: &Value<S>) -> Option<&'a Value<S>> {
     let Value::Int(at) = *at else { return None };
     let at = usize::try_from(at).ok()?;

@@ -16,8 +16,17 @@ use super::{Dist, Draw, List, Param, Scalar, Value};
 pub const BUDGET: usize = 4096;
 
 /// True when the two values have the same bits.
-#[inline]
+#[inline(always)]
 pub fn same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
+    match (a, b) {
+        (Value::Int(a), Value::Int(b)) => a == b,
+        (Value::Real(a), Value::Real(b)) => same_scalar(*a, *b),
+        _ => same_other(a, b),
+    }
+}
+
+#[inline(never)]
+fn same_other<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
     match glance(a, b) {
         Glance::Same => true,
         Glance::Different => false,

@@ -1,7 +1,8 @@
-//! Prefetches the memory that the next proposal will need, while this one runs. In a long chain the activation of a
+//! Prefetches the memory that the next proposals will need, while this one runs. In a long chain the activation of a
 //! choice is in no cache, and each access that leads to it would wait for the one before.
 #![allow(unsafe_code)] // The processor's prefetch, which reads nothing and accepts any address.
 
+use super::super::address::join;
 use super::{ChoiceAt, Trace};
 use crate::code::{Mode, Program};
 use niwaki_math::Scalar;
@@ -10,34 +11,28 @@ use niwaki_math::Scalar;
 #[inline(always)]
 fn fetch<T>(items: &[T], at: usize) {
     #[cfg(target_arch = "x86_64")]
-    if let Some(item) = items.get(at) {
+    {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         // SAFETY: a hint, which changes nothing and cannot fail; it is part of every x86-64.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(item).cast()) }
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(items.as_ptr().wrapping_add(at).cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = (items, at);
 }
 
 impl<S: Scalar> Trace<S> {
-    /// A proposal to that choice comes soon: prefetches the node of its activation.
+    /// A proposal to that choice comes soon: prefetches what its activation, and the iteration after it, hold. Gives the
+    /// address of the choice.
     #[inline]
-    pub fn approach(&self, choice: usize) {
-        if let Some(ChoiceAt { node, .. }) = self.kept.choices.get(choice) {
-            fetch(&self.state.nodes, node.0 as usize);
-        }
-    }
-
-    /// A proposal to that choice comes next: prefetches what its activation, and the iteration after it, hold.
-    #[inline]
-    pub fn approach_closer(&self, program: &Program<S>, choice: usize) {
-        let Some(ChoiceAt { node, .. }) = self.kept.choices.get(choice) else { return };
+    pub fn approach(&self, program: &Program<S>, choice: usize) -> u128 {
+        let ChoiceAt { node, site } = self.kept.choices[choice];
         let n = &self.state.nodes[node.0 as usize];
         let (registers, slots) = (n.registers as usize, n.slots as usize);
         fetch(&self.state.registers, registers);
         fetch(&self.state.registers, registers + 4);
         fetch(&self.kept.slots, slots);
-        if program.function(n.function).mode == Mode::Iteration {
+        let f = program.function(n.function);
+        if f.mode == Mode::Iteration {
             let header = &self.state.nodes[n.parent.0 as usize];
             fetch(&self.kept.loops[header.slots as usize], n.iteration as usize + 1);
             // Iterations that were created one after the other are adjacent in memory.
@@ -45,5 +40,6 @@ impl<S: Scalar> Trace<S> {
             fetch(&self.state.registers, registers + 8);
             fetch(&self.kept.slots, slots + 4);
         }
+        join(n.path, f.sites[site as usize].key)
     }
 }

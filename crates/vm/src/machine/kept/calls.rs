@@ -224,17 +224,17 @@ impl<S: Scalar> Kept<S> {
     /// Removes an activation with all below it. Its nodes stay as they are until the commit.
     pub(super) fn remove(&mut self, program: &Program<S>, state: &State<S>, node: NodeId) {
         self.leaves_its_activation();
-        let from = self.journal.removed.len();
-        self.journal.removed.push(node);
+        let from = self.journal.more.removed.len();
+        self.journal.more().removed.push(node);
         let mut next = from;
-        while let Some(id) = self.journal.removed.get(next).copied() {
+        while let Some(id) = self.journal.more.removed.get(next).copied() {
             next += 1;
             self.note(Step::Removed(id));
             let n = &state.nodes[id.0 as usize];
             let f = program.function(n.function);
             if f.mode == Mode::Loop {
                 let children = &self.loops[n.slots as usize];
-                self.journal.removed.extend_from_slice(children);
+                self.journal.more().removed.extend_from_slice(children);
                 continue;
             }
             for (i, site) in f.sites.iter().enumerate() {
@@ -246,7 +246,7 @@ impl<S: Scalar> Kept<S> {
                 if site.kind.makes_activation() {
                     match self.shared(state, slot) {
                         Some(number) => self.memos.leave(number, (id.0, i as u16)),
-                        None => self.journal.removed.push(NodeId(slot.held)),
+                        None => self.journal.more().removed.push(NodeId(slot.held)),
                     }
                 } else {
                     self.withdraw(&site.kind, at, id, i as u16);

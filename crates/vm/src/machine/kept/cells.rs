@@ -129,7 +129,7 @@ impl<S: Scalar> Kept<S> {
             }
         };
         state.charged += size_of::<Readers>() + size_of::<u32>();
-        self.journal.cells.push(id);
+        self.journal.more().cells.push(id);
         self.write_slot(self.quiet, at, Slot { held: id, mark: 0, log });
         Some(Cell { register, readers: id })
     }

@@ -14,17 +14,17 @@ use niwaki_math::{Family, Scalar};
 impl<S: Scalar> Trace<S> {
     /// The places of the choices that the open transaction added.
     pub fn births<'a>(&'a self, program: &'a Program<S>) -> impl ExactSizeIterator<Item = Place<'a, S>> {
-        self.kept.journal.births.iter().map(|birth| self.place_at(program, birth.node, birth.site))
+        self.kept.journal.more.births.iter().map(|birth| self.place_at(program, birth.node, birth.site))
     }
 
     /// Numbers of the choices that a commit will remove, in no order. What they hold can still be read.
     pub fn deaths(&self) -> &[u32] {
-        &self.kept.journal.deaths
+        &self.kept.journal.more.deaths
     }
 
     /// Choices that the open transaction drew again in place: address, and the value before.
     pub fn drawn_anew(&self) -> &[(u128, Value<S>)] {
-        &self.kept.journal.anew
+        &self.kept.journal.more.anew
     }
 
     /// The family that a choice was drawn from.

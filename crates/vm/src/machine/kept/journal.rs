@@ -14,6 +14,19 @@ use niwaki_math::Scalar;
 pub(crate) struct Journal<S: Scalar> {
     pub registers: Vec<(u32, Value<S>)>,
     pub slots: Vec<(u32, Slot)>,
+    /// Reads that moved to another list of readers, and their places before.
+    pub reads: Vec<(Reader, u32)>,
+    /// Reads of another element than before, and the list that still contains them.
+    pub moves: Vec<(Reader, u32)>,
+    /// What most transactions do not do.
+    pub more: More<S>,
+    /// Whether there may be some of that.
+    has_more: bool,
+}
+
+/// What changes the activations, the choices that there are, or the scene.
+#[derive(Debug)]
+pub(crate) struct More<S: Scalar> {
     /// How an iteration had ended.
     pub ends: Vec<(NodeId, u32)>,
     /// Number of a loop, and how many iterations it had before some were removed or added.
@@ -25,10 +38,6 @@ pub(crate) struct Journal<S: Scalar> {
     pub retracted: Vec<u32>,
     pub births: Vec<Birth>,
     pub deaths: Vec<u32>,
-    /// Reads that moved to another list of readers, and their places before.
-    pub reads: Vec<(Reader, u32)>,
-    /// Reads of another element than before, and the list that still contains them.
-    pub moves: Vec<(Reader, u32)>,
     /// Lists of readers of cells that were created, and of those removed.
     pub cells: Vec<u32>,
     pub dead_cells: Vec<u32>,
@@ -57,9 +66,7 @@ pub(crate) struct Birth {
 
 impl<S: Scalar> Default for Journal<S> {
     fn default() -> Self {
-        Journal {
-            registers: vec![],
-            slots: vec![],
+        let more = More {
             ends: vec![],
             loops: vec![],
             created: vec![],
@@ -68,13 +75,12 @@ impl<S: Scalar> Default for Journal<S> {
             retracted: vec![],
             births: vec![],
             deaths: vec![],
-            reads: vec![],
-            moves: vec![],
             cells: vec![],
             dead_cells: vec![],
             met: vec![],
             anew: vec![],
-        }
+        };
+        Journal { registers: vec![], slots: vec![], reads: vec![], moves: vec![], more, has_more: false }
     }
 }
 
@@ -82,49 +88,78 @@ impl<S: Scalar> Default for Journal<S> {
 pub(crate) const MOVING: usize = 32;
 
 impl<S: Scalar> Journal<S> {
+    /// What most transactions do not do, to note some of it.
+    #[inline]
+    pub fn more(&mut self) -> &mut More<S> {
+        self.has_more = true;
+        &mut self.more
+    }
+
+    /// Whether something of that may have been noted.
+    #[inline(always)]
+    pub fn has_more(&self) -> bool {
+        self.has_more
+    }
+
     /// Bytes of its entries, without what values hold.
     pub fn bytes(&self) -> usize {
         fn of<T>(entries: &[T]) -> usize {
             size_of_val(entries)
         }
+        let more = &self.more;
         of(&self.registers)
             + of(&self.slots)
-            + of(&self.ends)
-            + of(&self.loops)
-            + self.loops.iter().map(|cut| of(&cut.removed)).sum::<usize>()
-            + of(&self.created)
-            // Vectors that grow with the nodes are in memory twice while they move.
-            + self.created.len() * MOVING
-            + of(&self.removed)
-            + of(&self.emitted)
-            + of(&self.retracted)
-            + of(&self.births)
-            + of(&self.deaths)
             + of(&self.reads)
             + of(&self.moves)
-            + of(&self.cells)
-            + of(&self.dead_cells)
-            + of(&self.met)
-            + of(&self.anew)
+            + of(&more.ends)
+            + of(&more.loops)
+            + more.loops.iter().map(|cut| of(&cut.removed)).sum::<usize>()
+            + of(&more.created)
+            // Vectors that grow with the nodes are in memory twice while they move.
+            + more.created.len() * MOVING
+            + of(&more.removed)
+            + of(&more.emitted)
+            + of(&more.retracted)
+            + of(&more.births)
+            + of(&more.deaths)
+            + of(&more.cells)
+            + of(&more.dead_cells)
+            + of(&more.met)
+            + of(&more.anew)
     }
 
     /// Forgets everything.
+    #[inline(always)]
     pub fn clear(&mut self) {
-        self.registers.clear();
+        // Most values are numbers: there is nothing to drop, but the compiler does not know that.
+        while let Some((_, value)) = self.registers.pop() {
+            if value.is_plain() {
+                std::mem::forget(value);
+            }
+        }
         self.slots.clear();
-        self.ends.clear();
-        self.loops.clear();
-        self.created.clear();
-        self.removed.clear();
-        self.emitted.clear();
-        self.retracted.clear();
-        self.births.clear();
-        self.deaths.clear();
         self.reads.clear();
         self.moves.clear();
-        self.cells.clear();
-        self.dead_cells.clear();
-        self.met.clear();
-        self.anew.clear();
+        if self.has_more {
+            self.clear_more();
+        }
+    }
+
+    #[inline(never)]
+    fn clear_more(&mut self) {
+        self.has_more = false;
+        let more = &mut self.more;
+        more.ends.clear();
+        more.loops.clear();
+        more.created.clear();
+        more.removed.clear();
+        more.emitted.clear();
+        more.retracted.clear();
+        more.births.clear();
+        more.deaths.clear();
+        more.cells.clear();
+        more.dead_cells.clear();
+        more.met.clear();
+        more.anew.clear();
     }
 }

@@ -149,7 +149,11 @@ impl<S: Scalar> Kept<S> {
                 node.iteration = i as u32;
                 let to = node.registers as usize;
                 if !self.is_new(state, header) {
-                    self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed: vec![] });
+                    self.journal.more().loops.push(Cut {
+                        number: list as u32,
+                        len: i as u32,
+                        removed: vec![],
+                    });
                 }
                 self.loops[list].push(created);
                 for (k, value) in element.into_iter().chain(machine.buffer.drain(..)).enumerate() {
@@ -266,7 +270,7 @@ impl<S: Scalar> Kept<S> {
         }
         if i64::from(n.pc) != kind {
             if !is_new {
-                self.journal.ends.push((node, n.pc));
+                self.journal.more().ends.push((node, n.pc));
             }
             state.nodes[node.0 as usize].pc = kind as u32;
         }
@@ -344,7 +348,7 @@ impl<S: Scalar> Kept<S> {
             for child in &removed {
                 self.remove(machine.program, state, *child);
             }
-            self.journal.loops.push(Cut { number: list as u32, len: i as u32, removed });
+            self.journal.more().loops.push(Cut { number: list as u32, len: i as u32, removed });
         } else if carried == Carried::Unchanged {
             return Next::Ended { changed: false };
         }

@@ -130,6 +130,12 @@ impl<S: Scalar> Memos<S> {
         self.journal.push(Event::Left(number, reader));
     }
 
+    /// Whether the open transaction may have changed a call, or who reads it.
+    #[inline(always)]
+    pub fn has_changed(&self) -> bool {
+        !self.journal.is_empty() || !self.left.is_empty()
+    }
+
     /// The transaction is committed.
     pub fn commit(&mut self) {
         for event in std::mem::take(&mut self.journal) {

@@ -354,7 +354,7 @@ impl<S: Scalar> Kept<S> {
             state.charged += (f.sites.len() + 1) * size_of::<Slot>();
         }
         state.charged += size_of::<NodeId>() + MOVING;
-        self.journal.created.push(created);
+        self.journal.more().created.push(created);
         self.note(Step::Created(created));
         created
     }
@@ -411,7 +411,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         census.add(&self.result);
         self.result_before.iter().for_each(|value| census.add(value));
         journal.registers.iter().for_each(|(_, value)| census.add(value));
-        journal.anew.iter().for_each(|(_, value)| census.add(value));
+        journal.more.anew.iter().for_each(|(_, value)| census.add(value));
         self.memos.values().for_each(|value| census.add(value));
         let primitives = self.emits.iter().flatten();
         primitives.flat_map(|primitive| primitive.shapes()).for_each(|shape| census.add_shape(shape));

@@ -39,12 +39,16 @@ pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
 }
 
 /// A log density or factor must be a number below plus infinity (a density may be infinite at a point).
+#[inline(always)]
 fn check(log: f64, what: &str) -> Result<f64, Fault> {
-    if log.is_nan() || log == f64::INFINITY {
-        return Err(Fault::new("non-finite-score", format!("{what} of {log} nats"))
-            .with_help("a log factor is a finite number, or minus infinity for what is impossible"));
-    }
-    Ok(grid(log))
+    if log < f64::INFINITY { Ok(grid(log)) } else { Err(no_score(log, what)) }
+}
+
+#[cold]
+#[inline(never)]
+fn no_score(log: f64, what: &str) -> Fault {
+    Fault::new("non-finite-score", format!("{what} of {log} nats"))
+        .with_help("a log factor is a finite number, or minus infinity for what is impossible")
 }
 
 /// The log density of a number, of a family and its two parameters, without making the distribution; `None` where they
@@ -85,7 +89,7 @@ const CHOICE_BYTES: usize = 2 * size_of::<ChoiceAt>() + size_of::<Birth>();
 
 impl<S: Scalar> Kept<S> {
     /// Sets the log of a filled slot and brings the sums up to date.
-    #[inline]
+    #[inline(always)]
     pub(super) fn set_log(&mut self, node_is_new: bool, at: usize, log: f64, prior: bool) {
         let old = self.slots[at];
         if !node_is_new {
@@ -217,7 +221,7 @@ impl<S: Scalar> Kept<S> {
             let log = check(log_density(dist, value)?.value(), "a log density")?;
             let is_new = !slot.is_filled();
             if is_new {
-                self.journal.met.push((number, 1));
+                self.journal.more().met.push((number, 1));
                 self.count_held(number, 1);
                 self.change.factors += 1;
                 self.change.log_factors.add(log);
@@ -246,12 +250,12 @@ impl<S: Scalar> Kept<S> {
             self.stale.add(slot.log);
             self.forget_change(at);
             self.change.log_prior.remove(slot.log);
-            self.journal.anew.push((address, state.registers[place].clone()));
+            self.journal.more().anew.push((address, state.registers[place].clone()));
             slot.held
         } else {
-            make_room(&mut self.journal.births, 1, || state.ceiling.saturating_sub(state.bytes()));
-            self.journal.births.push(Birth { address, node, site: number.0 });
-            Slot::BORN | (self.journal.births.len() as u32 - 1)
+            make_room(&mut self.journal.more().births, 1, || state.ceiling.saturating_sub(state.bytes()));
+            self.journal.more().births.push(Birth { address, node, site: number.0 });
+            Slot::BORN | (self.journal.more.births.len() as u32 - 1)
         };
         let is_plain = value.is_plain();
         state.charged += CHOICE_BYTES + budget::of_result(&value);
@@ -332,7 +336,7 @@ impl<S: Scalar> Kept<S> {
             if unchanged {
                 return;
             }
-            self.journal.retracted.push(slot.held);
+            self.journal.more().retracted.push(slot.held);
         }
         let primitive = Some(Primitive::new(shapes));
         let number = match self.free_emits.pop() {
@@ -345,7 +349,7 @@ impl<S: Scalar> Kept<S> {
                 self.emits.len() as u32 - 1
             }
         };
-        self.journal.emitted.push(number);
+        self.journal.more().emitted.push(number);
         self.write_slot(self.quiet, at, Slot { held: number, mark: 0, log: 0.0 });
     }
 
@@ -364,7 +368,7 @@ impl<S: Scalar> Kept<S> {
         self.leaves_its_activation();
         match kind {
             SiteKind::Sample(_) if slot.is_held() => {
-                self.journal.met.push((slot.held, -1));
+                self.journal.more().met.push((slot.held, -1));
                 self.count_held(slot.held, -1);
                 self.change.factors -= 1;
                 self.change.log_factors.remove(slot.log);
@@ -374,14 +378,14 @@ impl<S: Scalar> Kept<S> {
                 self.stale.add(slot.log);
                 self.forget_change(at);
                 self.change.log_prior.remove(slot.log);
-                self.journal.deaths.push(slot.held);
+                self.journal.more().deaths.push(slot.held);
             }
             SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
                 self.change.factors -= 1;
                 self.change.log_factors.remove(slot.log);
             }
-            SiteKind::Emit => self.journal.retracted.push(slot.held),
-            SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.dead_cells.push(slot.held),
+            SiteKind::Emit => self.journal.more().retracted.push(slot.held),
+            SiteKind::Cell { .. } | SiteKind::Append { .. } => self.journal.more().dead_cells.push(slot.held),
             SiteKind::Read => {
                 self.move_readers();
                 let reader = Reader { node, site, slot: at as u32 };

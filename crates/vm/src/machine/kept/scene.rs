@@ -70,6 +70,6 @@ impl<S: Scalar> Trace<S> {
 
     /// Numbers of the primitives that the open transaction removed from the scene, and of those that it added.
     pub fn exchanged(&self) -> (&[u32], &[u32]) {
-        (&self.kept.journal.retracted, &self.kept.journal.emitted)
+        (&self.kept.journal.more.retracted, &self.kept.journal.more.emitted)
     }
 }

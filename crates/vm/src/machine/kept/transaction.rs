@@ -100,13 +100,22 @@ impl<S: Scalar> Kept<S> {
         self.stale.clear();
     }
 
+    /// Whether the open transaction may have changed the activations, the choices that there are, or the scene.
+    #[inline(always)]
+    fn has_more(&self) -> bool {
+        self.journal.has_more() || self.memos.has_changed()
+    }
+
     /// The transaction ends, committed or undone.
+    #[inline(always)]
     fn close(&mut self) {
         for (at, ..) in self.changed.drain(..) {
             self.slots[at as usize].mark &= !Slot::CHANGED;
         }
         self.journal.clear();
-        self.result_before = None;
+        if self.result_before.is_some() {
+            self.result_before = None;
+        }
         self.open = false;
     }
 }
@@ -120,8 +129,8 @@ impl<S: Scalar> Trace<S> {
 
     /// The number of choices with the open transaction.
     pub fn len_after(&self) -> usize {
-        let journal = &self.kept.journal;
-        self.kept.choices.len() + journal.births.len() - journal.deaths.len()
+        let more = &self.kept.journal.more;
+        self.kept.choices.len() + more.births.len() - more.deaths.len()
     }
 
     /// Log densities of the choices that the open transaction drew, and of those that it removed, nats.
@@ -149,49 +158,65 @@ impl<S: Scalar> Trace<S> {
 
     /// Primitives that the open transaction added to the scene.
     pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
-        self.kept.journal.emitted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
+        self.kept.journal.more.emitted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
     /// Primitives that the open transaction removed from the scene.
     pub fn retracted(&self) -> impl Iterator<Item = &Primitive> + Clone {
-        self.kept.journal.retracted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
+        self.kept
+            .journal
+            .more
+            .retracted
+            .iter()
+            .filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
     /// Commits the open transaction. Removed choices leave the table last first, added ones enter it in the
     /// order of their addresses, so that it does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
-        let (state, kept) = (&mut self.state, &mut self.kept);
+        let kept = &mut self.kept;
         kept.totals.add(&kept.change);
         kept.clear_sums();
-        kept.move_readers();
-        kept.journal.deaths.sort_unstable();
-        while let Some(dead) = kept.journal.deaths.pop() {
+        if !kept.journal.moves.is_empty() {
+            kept.move_readers();
+        }
+        if kept.has_more() {
+            self.commit_more(program);
+        }
+        self.kept.close();
+    }
+
+    /// Commits what changes the activations, the choices that there are, or the scene.
+    #[inline(never)]
+    fn commit_more(&mut self, program: &Program<S>) {
+        let (state, kept) = (&mut self.state, &mut self.kept);
+        kept.journal.more.deaths.sort_unstable();
+        while let Some(dead) = kept.journal.more.deaths.pop() {
             kept.choices.swap_remove(dead as usize);
             if let Some(moved) = kept.choices.get(dead as usize).copied() {
                 let at = Kept::slot_at(state, moved.node, moved.site as usize);
                 kept.slots[at].held = dead;
             }
         }
-        kept.journal.births.sort_unstable_by_key(|birth| birth.address);
-        for i in 0..kept.journal.births.len() {
-            let birth = kept.journal.births[i];
+        kept.journal.more.births.sort_unstable_by_key(|birth| birth.address);
+        for i in 0..kept.journal.more.births.len() {
+            let birth = kept.journal.more.births[i];
             let at = Kept::slot_at(state, birth.node, birth.site as usize);
             kept.slots[at].held = kept.choices.len() as u32;
             kept.choices.push(ChoiceAt { node: birth.node, site: birth.site });
         }
-        while let Some(id) = kept.journal.removed.pop() {
+        while let Some(id) = kept.journal.more.removed.pop() {
             kept.release(program, state, id);
         }
         kept.memos.commit();
-        while let Some(number) = kept.journal.retracted.pop() {
+        while let Some(number) = kept.journal.more.retracted.pop() {
             kept.emits[number as usize] = None;
             kept.free_emits.push(number);
         }
-        while let Some(id) = kept.journal.dead_cells.pop() {
+        while let Some(id) = kept.journal.more.dead_cells.pop() {
             debug_assert!(kept.readers[id as usize].all.is_empty(), "a cell is read by those who can see it");
             kept.free_readers.push(id);
         }
-        kept.close();
     }
 
     /// Undoes what the open transaction did: the trace is as before, bit for bit.
@@ -211,38 +236,48 @@ impl<S: Scalar> Trace<S> {
             kept.subscribe(reader, held);
         }
         while let Some((place, old)) = kept.journal.registers.pop() {
-            state.registers[place as usize] = old;
+            state.registers[place as usize].store(old);
         }
         while let Some((at, old)) = kept.journal.slots.pop() {
             kept.slots[at as usize] = old;
         }
-        while let Some((id, end)) = kept.journal.ends.pop() {
-            state.nodes[id.0 as usize].pc = end;
+        if kept.has_more() {
+            self.undo_more(program);
         }
-        while let Some(cut) = kept.journal.loops.pop() {
-            let children = &mut kept.loops[cut.number as usize];
-            children.truncate(cut.len as usize);
-            children.extend(cut.removed);
-        }
-        kept.memos.undo(state);
-        while let Some(id) = kept.journal.created.pop() {
-            kept.release(program, state, id);
-        }
-        while let Some(number) = kept.journal.emitted.pop() {
-            kept.emits[number as usize] = None;
-            kept.free_emits.push(number);
-        }
-        while let Some(id) = kept.journal.cells.pop() {
-            kept.free_readers.push(id);
-        }
-        while let Some((number, change)) = kept.journal.met.pop() {
-            kept.count_held(number, -change);
-        }
+        let kept = &mut self.kept;
         kept.clear_sums();
         if let Some(result) = kept.result_before.take() {
             kept.result = result;
         }
         kept.journal.clear();
+    }
+
+    /// Undoes what changes the activations, the choices that there are, or the scene.
+    #[inline(never)]
+    fn undo_more(&mut self, program: &Program<S>) {
+        let (state, kept) = (&mut self.state, &mut self.kept);
+        while let Some((id, end)) = kept.journal.more.ends.pop() {
+            state.nodes[id.0 as usize].pc = end;
+        }
+        while let Some(cut) = kept.journal.more.loops.pop() {
+            let children = &mut kept.loops[cut.number as usize];
+            children.truncate(cut.len as usize);
+            children.extend(cut.removed);
+        }
+        kept.memos.undo(state);
+        while let Some(id) = kept.journal.more.created.pop() {
+            kept.release(program, state, id);
+        }
+        while let Some(number) = kept.journal.more.emitted.pop() {
+            kept.emits[number as usize] = None;
+            kept.free_emits.push(number);
+        }
+        while let Some(id) = kept.journal.more.cells.pop() {
+            kept.free_readers.push(id);
+        }
+        while let Some((number, change)) = kept.journal.more.met.pop() {
+            kept.count_held(number, -change);
+        }
     }
 }
 
