@@ -109,7 +109,8 @@ def said(seed: int, kind: str) -> str:
         for s in result
     ]
     evidence = None if result.log_evidence is None else float(result.log_evidence).hex()
-    return f"{evidence} {result.info.steps} " + hashlib.sha256(repr(facts).encode()).hexdigest()
+    effort = result.info.steps if kind == "populations" else (result.info.acceptance, result.info.counters)
+    return f"{evidence} {effort} " + hashlib.sha256(repr(facts).encode()).hexdigest()
 
 
 if __name__ == "__main__":
