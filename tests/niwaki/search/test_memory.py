@@ -2,8 +2,8 @@
 
 Each kind of value runs in a child process, whose largest resident set is compared with the limit: what the model
 took may be at most 1.3 times as much, and the fault must name the limit. The child may not have more than 3 GB at all,
-so that one that is not bounded fails and does no harm. Its allocator takes no huge pages: of those, each vector that grows
-holds one that is partly empty, 16 MB together, whatever the limit.
+so that one that is not bounded fails and does no harm. Its allocator takes no huge pages: of those, each vector that
+grows holds one that is partly empty, 16 MB together, whatever the limit.
 """
 
 import json
