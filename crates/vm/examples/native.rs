@@ -2,36 +2,16 @@
 //!
 //! `cargo run --release -p niwaki-vm --example native`
 
-use niwaki_geom::Shape;
-use niwaki_math::Dist;
+#[path = "../tests/support/halves.rs"]
+mod halves;
+
+use halves::Halves;
 use niwaki_vm::code::Program;
 use niwaki_vm::core::parse::parse;
-use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
-use niwaki_vm::value::{Value, repr};
+use niwaki_vm::value::repr;
 use std::time::Instant;
-
-struct Nobody;
-
-impl Answers<f64> for Nobody {
-    fn choice(&mut self, _: &At<'_, f64>, _: &Dist) -> Result<Answer<Value>, Fault> {
-        Ok(Answer::Go(Value::real(0.5)))
-    }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
-    }
-    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
-        Ok(args[0].clone())
-    }
-}
 
 const ROUNDS: u32 = 1_000_000;
 
@@ -83,7 +63,7 @@ fn run(program: &Program) -> (String, f64) {
         let mut machine = Machine::new(program, Limits { steps: u64::MAX, ..Limits::default() });
         let mut state = machine.start(&[], true).expect("no arguments");
         let begun = Instant::now();
-        machine.finish(&mut state, &mut Nobody).expect("no fault");
+        machine.finish(&mut state, &mut Halves).expect("no fault");
         best = best.min(begun.elapsed().as_secs_f64());
         answer = repr(&state.result()).expect("a number").to_string();
     }

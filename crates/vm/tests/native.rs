@@ -2,36 +2,15 @@
 //! steps as the interpreter.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
-use niwaki_geom::Shape;
-use niwaki_math::Dist;
+#[path = "support/halves.rs"]
+mod halves;
+
+use halves::Halves;
 use niwaki_vm::code::Program;
 use niwaki_vm::core::parse::parse;
-use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
-use niwaki_vm::value::{Value, repr};
-
-/// Every choice is a half.
-struct Halves;
-
-impl Answers<f64> for Halves {
-    fn choice(&mut self, _: &At<'_, f64>, _: &Dist) -> Result<Answer<Value>, Fault> {
-        Ok(Answer::Go(Value::real(0.5)))
-    }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
-    }
-    fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
-        Ok(args[0].clone())
-    }
-}
+use niwaki_vm::value::repr;
 
 /// What a run gives, or the fault with its stack; and its steps.
 fn outcome(program: &Program, limits: Limits) -> (String, u64) {
@@ -312,7 +291,7 @@ impl Writer {
         writer.text += "(fn \"g\" (params $a $v) (set $b (sample (dist uniform 0.0 1.0))) (set $c 2) (set $d $a) (set $l (list 1 2 3 4.5)) (set $p (tuple $b 2)) (set $w $v) ";
         writer.statements(1);
         writer.text += "(do (factor 0.0)) (return (add $a $c))) ";
-        writer.chooses = seed % 2 == 0;
+        writer.chooses = seed.is_multiple_of(2);
         writer.text += "(fn \"m\" (params) (set $a 1) (set $b 2.5) (set $c 0) (set $d -1.5) (set $l (list 0.5 1.5 2.5 3.5)) (set $p (tuple 1 2)) (set $v (vec 0.5 1.5 2.5)) (set $w (vec 1.0 0.0 $a)) ";
         let rounds = 2 + writer.roll(6);
         writer.text += &format!("(for $again (range {rounds}) (body ");
