@@ -12,13 +12,13 @@ use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::repr;
 
-/// What a run gives, or the fault with its stack; and its steps.
-fn outcome(program: &Program, limits: Limits) -> (String, u64) {
+/// What a run gives, or the fault with its stack; its steps, and the bytes that it is charged.
+fn outcome(program: &Program, limits: Limits) -> (String, u64, usize) {
     let mut machine = Machine::new(program, limits);
     let mut state = machine.start(&[], true).unwrap();
     match machine.finish(&mut state, &mut Halves) {
-        Ok(()) => (repr(&state.result()).unwrap().to_string(), state.steps()),
-        Err(fault) => (format!("{fault:?}"), state.steps()),
+        Ok(()) => (repr(&state.result()).unwrap().to_string(), state.steps(), state.bytes()),
+        Err(fault) => (format!("{fault:?}"), state.steps(), state.bytes()),
     }
 }
 
@@ -62,6 +62,17 @@ fn a_whole_number_beyond_the_reals() {
 }
 
 #[test]
+fn whole_numbers_are_divided_as_python_does() {
+    let text = entry(
+        "(set $all 0) (for $i (range -9 9) (body (set $all (add (mul 3 $all) (add (floordiv $i 4) (mul 2 (mod $i 5))))) (set $all (mod $all 1000003)))) (return $all)",
+    );
+    agree(&text, 40);
+    let text =
+        entry("(set $x 0.0) (for $i (range -9 9) (body (set $x (add (mul 0.5 $x) (div $i 7))))) (return $x)");
+    agree(&text, 40);
+}
+
+#[test]
 fn faults_are_those_of_the_interpreter() {
     let cases = [
         (
@@ -69,6 +80,8 @@ fn faults_are_those_of_the_interpreter() {
             "division-by-zero",
         ),
         ("(set $x 1) (while true (body (set $x (mul $x 3)))) (return 0)", "integer-overflow"),
+        ("(set $x 1) (while true (body (set $x (add $x $x)))) (return 0)", "integer-overflow"),
+        ("(set $x -1) (while true (body (set $x (sub $x (mul -1 $x))))) (return 0)", "integer-overflow"),
         (
             "(set $x 1.0) (while true (body (set $x (sub $x 0.25)) (set $y (sqrt $x)))) (return 0)",
             "math-domain",

@@ -27,8 +27,8 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             return self.length_of_operand(now, pc, to, *one);
         } else if let Some(typed) = self.quick(now, pc, name, &given) {
             typed
-        } else if let ("range", Some(typed)) = (name, self.range(now, pc, &given)) {
-            typed
+        } else if name == "range" {
+            self.range(now, pc, &given)?
         } else if let Some(typed) = self.vector_function(now, pc, name, &given) {
             typed
         } else {
