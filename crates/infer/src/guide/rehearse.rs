@@ -1,5 +1,5 @@
 //! Teaching a guide to look ahead (dissertation 7.2.3): its line ([`AheadForm`]) is fitted to what short searches from paused
-//! particles gain ([`rises`](crate::particles::rises)).
+//! particles gain (`particles::rises`).
 //!
 //! Searches by the guide take targets in turn. In each a few paused particles are kept, and a short search from each gives its
 //! rise. Ridge regression finds the line; rises of the targets that judge decide its strength. A rise of minus infinity

@@ -5,7 +5,7 @@
 //! | --- | --- |
 //! | function, parent, site | whose activation this is, who called it and where |
 //! | registers | first of its registers in the state's register file |
-//! | iteration | of an iteration: which one; of a memoised call: its number, with a mark ([`Node::memo`]) |
+//! | iteration | of an iteration: which one; of a memoised call: its number, with a mark (`Node::memo`) |
 //! | pc | where a suspended activation continues |
 //! | slots | first of its slots, where activations are kept (`kept`) |
 //! | path | hash of the path of sites from the root |
