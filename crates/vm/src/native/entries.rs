@@ -46,7 +46,9 @@ impl Entries {
 
     /// Those of a function, whose code is made after so many visits; none for zero.
     pub fn after<S: Scalar>(f: &Function<S>, visits: u32) -> Entries {
-        let places = if visits == 0 { vec![] } else { entries(f) };
+        // The code writes a truth value as a whole word, whose first byte the machine reads.
+        let is_off = visits == 0 || cfg!(target_endian = "big");
+        let places = if is_off { vec![] } else { entries(f) };
         let mut numbers = vec![0; if places.is_empty() { 0 } else { f.code.len() }];
         for (k, pc) in places.iter().enumerate() {
             numbers[*pc as usize] = k as u16 + 1;
