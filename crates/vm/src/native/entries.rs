@@ -9,8 +9,8 @@ use niwaki_math::Scalar;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, OnceLock};
 
-/// Visits before code is made: to make it takes as long as the interpreter takes for some thousand short rounds.
-const VISITS: u32 = 2000;
+/// Visits before code is made: the interpreter has then spent about as much time there as the code takes to be made.
+const VISITS: u32 = 20_000;
 
 /// Most combinations of kinds that have code of their own.
 const ROUTINES: usize = 3;

@@ -6,7 +6,7 @@
 //! and it goes as far as it can:
 //!
 //! ```text
-//! interpreter --- a loop goes back, for the 2000th time ---> compile for the kinds found
+//! interpreter --- a loop goes back, for the 20,000th time -> compile for the kinds found
 //!     ^                                                            |
 //!     |            registers, steps, place                         v
 //!     +------------------------------------------------------ machine code
