@@ -4,9 +4,8 @@
 //! What the functions compute is the business of the crates that write them: densities (`grad`), models (`vm`).
 
 use cranelift_codegen::settings::{self, Configurable};
-use cranelift_codegen::verify_function;
 use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{FuncId, Module as _, default_libcall_names};
+use cranelift_module::{FuncId, default_libcall_names};
 
 pub use cranelift_codegen as codegen;
 pub use cranelift_frontend as frontend;
@@ -45,14 +44,6 @@ pub fn module(effort: Effort) -> Written<JITModule> {
     }
     let isa = cranelift_native::builder()?.finish(settings::Flags::new(flags))?;
     Ok(JITModule::new(JITBuilder::with_isa(isa, default_libcall_names())))
-}
-
-/// Whether a function keeps the rules of Cranelift's language. For tests: a release build does not look.
-///
-/// # Errors
-/// The rules that it breaks.
-pub fn check(module: &JITModule, function: &codegen::ir::Function) -> Written<()> {
-    Ok(verify_function(function, module.isa())?)
 }
 
 /// Finished machine code, freed with its last owner.

@@ -89,23 +89,19 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 self.put(now, to, typed, None);
             }
             Op::Field { to, a, name } => {
-                let typed = self.get(now, a)?.typed;
-                let name_of = &self.f(now).names[name as usize];
-                if let Some(at) = ["x", "y", "z", "w"].iter().position(|own| *own == &**name_of)
+                let Got { typed, sample } = self.get(now, a)?;
+                let name = &self.f(now).names[name as usize];
+                if let Some(at) = ["x", "y", "z", "w"].iter().position(|own| *own == &**name)
                     && !matches!(typed, Typed::Fresh { made: Made::Tuple, .. })
                     && let Some(part) = self.part(typed, at)
                 {
                     self.put(now, to, part, None);
                     return Some(Then::Next);
                 }
-                let Got { typed: Typed::Object(object, _), sample: Some(sample) } = self.get(now, a)? else {
+                let (Typed::Object(object, _), Some(Model::Record(record))) = (typed, sample) else {
                     return None;
                 };
-                let name = &self.f(now).names[name as usize];
-                let like = match sample {
-                    Model::Record(record) => Like::of(record.field(name)?),
-                    _ => return None,
-                };
+                let like = Like::of(record.field(name)?);
                 let [name, length] = self.keep_name(name);
                 let typed = self.ask(now, pc, calls::field as *const u8, &[object, name, length], like)?;
                 self.put(now, to, typed, like.sample);

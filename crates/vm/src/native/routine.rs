@@ -131,9 +131,6 @@ impl Routine {
         inputs.retain(|input| read.contains(&input.reg) || written.contains(&input.reg));
         b.seal_all_blocks();
         b.finalize(module.target_config());
-        if cfg!(debug_assertions) || cfg!(test) {
-            niwaki_native::check(&module, &context.func)?;
-        }
         module.define_function(id, &mut context)?;
         let bytes = context.compiled_code().map_or(0, |code| code.code_info().total_size as usize);
         let memory = Memory::finish(module)?;
