@@ -33,6 +33,25 @@ fn agree(text: &str, most: u64) -> String {
     outcome(&quick, Limits::default()).0
 }
 
+/// Runs go on while their code is written; when it comes, it changes nothing in them.
+#[test]
+fn a_run_does_not_wait_for_its_code() {
+    if std::env::var_os("NIWAKI_JIT").is_some() {
+        return;
+    }
+    let text = entry(
+        "(set $l (list 1.5 2 (vec 1.0 2.0))) (set $s 0) (for $i (range 1000) (body (set $s (add $s (mul $i (index $l (mod $i 2))))))) (return $s)",
+    );
+    let program = compile::<f64>(&parse(&text).unwrap(), vec![]).unwrap();
+    let expected = outcome(&program.clone().with_machine_code_after(0), Limits::default());
+    let begun = std::time::Instant::now();
+    while program.machine_code() == 0 {
+        assert!(begun.elapsed().as_secs() < 120, "no code was made");
+        assert_eq!(outcome(&program, Limits::default()), expected);
+    }
+    assert_eq!(outcome(&program, Limits::default()), expected);
+}
+
 fn entry(body: &str) -> String {
     format!("(module (fn \"m\" (params) {body}) (entry \"m\"))")
 }

@@ -524,6 +524,11 @@ impl<S: Scalar> Program<S> {
         self
     }
 
+    /// Bytes of the machine code that there is by now.
+    pub fn machine_code(&self) -> usize {
+        self.functions.iter().map(|f| f.native.bytes()).sum()
+    }
+
     /// A function by its number.
     #[inline]
     pub fn function(&self, id: FunctionId) -> &Function<S> {

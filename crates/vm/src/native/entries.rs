@@ -1,13 +1,15 @@
 //! Where machine code may begin, and the code that was made for it.
 
-use super::flow::entries;
+use super::flow::{entries, registers};
 use super::kinds::Reg;
 use super::routine::Routine;
 use crate::code::{Function, FunctionId, Program};
 use crate::value::Value;
 use niwaki_math::Scalar;
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, LazyLock, Mutex, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
+use std::thread;
 
 /// Visits before code is made: the interpreter has then spent about as much time there as the code takes to be made.
 const VISITS: u32 = 20_000;
@@ -39,13 +41,20 @@ pub(crate) struct Entries {
 }
 
 impl Entries {
-    /// Those of a function, whose code is made after the usual number of visits.
+    /// Those of a function, whose code is made after the usual number of visits, while the run goes on.
     pub fn of<S: Scalar>(f: &Function<S>) -> Entries {
-        Entries::after(f, SAID.unwrap_or(VISITS))
+        match *SAID {
+            Some(visits) => Entries::after(f, visits),
+            None => Entries::new(f, VISITS, true),
+        }
     }
 
-    /// Those of a function, whose code is made after so many visits; none for zero.
+    /// Those of a function, whose code is made after so many visits, and then the run waits for it; none for zero.
     pub fn after<S: Scalar>(f: &Function<S>, visits: u32) -> Entries {
+        Entries::new(f, visits, false)
+    }
+
+    fn new<S: Scalar>(f: &Function<S>, visits: u32, is_apart: bool) -> Entries {
         // The code writes a truth value as a whole word, whose first byte the machine reads.
         let is_off = visits == 0 || cfg!(target_endian = "big");
         let places = if is_off { vec![] } else { entries(f) };
@@ -53,8 +62,13 @@ impl Entries {
         for (k, pc) in places.iter().enumerate() {
             numbers[*pc as usize] = k as u16 + 1;
         }
-        let all = places.into_iter().map(|pc| Entry::new(pc, visits));
+        let all = places.into_iter().map(|pc| Entry::new(pc, visits, is_apart));
         Entries { numbers: numbers.into(), all: all.collect() }
+    }
+
+    /// Bytes of their code.
+    pub fn bytes(&self) -> usize {
+        self.all.iter().map(Entry::bytes).sum()
     }
 
     /// The one at an instruction.
@@ -73,26 +87,29 @@ pub(crate) struct Entry {
     pc: u32,
     /// How many visits there are before code is made.
     after: u32,
+    /// Whether a thread of its own makes it, while the run goes on.
+    is_apart: bool,
     /// Whether it is not worth while to look here.
     is_closed: AtomicBool,
     visits: AtomicU32,
     uses: AtomicU32,
     done: AtomicU64,
     routines: [OnceLock<Routine>; ROUTINES],
-    writing: Mutex<()>,
+    is_written: AtomicBool,
 }
 
 impl Entry {
-    fn new(pc: u32, after: u32) -> Entry {
+    fn new(pc: u32, after: u32, is_apart: bool) -> Entry {
         Entry {
             pc,
             after,
+            is_apart,
             is_closed: AtomicBool::new(false),
             visits: AtomicU32::new(0),
             uses: AtomicU32::new(0),
             done: AtomicU64::new(0),
             routines: Default::default(),
-            writing: Mutex::new(()),
+            is_written: AtomicBool::new(false),
         }
     }
 
@@ -112,6 +129,10 @@ impl Entry {
         self.routines.iter().map_while(OnceLock::get)
     }
 
+    fn bytes(&self) -> usize {
+        self.routines().map(Routine::bytes).sum()
+    }
+
     /// Counts a visit that found no code for its kinds; whether to write it now.
     #[inline]
     pub fn is_due(&self) -> bool {
@@ -119,27 +140,46 @@ impl Entry {
         visits.is_multiple_of(self.after)
     }
 
-    /// Writes code for the kinds that registers hold now. Where there is none to be had, nobody looks here again.
+    /// Has code written for the kinds that registers hold now. Where there is none to be had, nobody looks here again.
     pub fn write<'v>(&self, program: &'v Program, function: FunctionId, found: Found<'_, 'v>) {
-        // Another thread that writes here writes the same.
-        let Ok(_one) = self.writing.try_lock() else { return };
-        let Some(free) = self.routines.iter().find(|routine| routine.get().is_none()) else {
+        if !self.routines.iter().any(|routine| routine.get().is_none()) {
             // As many kinds come here as nobody expects of a loop.
             if self.uses.load(Ordering::Relaxed) < TRIAL {
                 self.close();
             }
             return;
-        };
-        if BYTES.load(Ordering::Relaxed) > MOST_BYTES {
-            return self.close();
         }
-        match Routine::write(program, function, self.pc as usize, found) {
-            Ok(routine) => {
-                BYTES.fetch_add(routine.bytes(), Ordering::Relaxed);
-                let _ = free.set(routine);
+        // Somebody else who writes here writes the same.
+        if self.is_written.swap(true, Ordering::Acquire) {
+            return;
+        }
+        if !self.is_apart {
+            return self.write_now(program, function, found);
+        }
+        let own = registers(program.function(function)).into_iter();
+        let values: HashMap<Reg, Value> = own.filter_map(|reg| Some((reg, found(reg)?.clone()))).collect();
+        let (program, pc) = (program.clone(), self.pc as usize);
+        let write = move || {
+            if let Some(entry) = program.function(function).native.at(pc) {
+                entry.write_now(&program, function, &|reg| values.get(&reg));
             }
-            Err(_) => self.close(),
+        };
+        if thread::Builder::new().name("machine code".into()).spawn(write).is_err() {
+            self.close();
         }
+    }
+
+    fn write_now<'v>(&self, program: &'v Program, function: FunctionId, found: Found<'_, 'v>) {
+        let is_full = BYTES.load(Ordering::Relaxed) > MOST_BYTES;
+        let routine = (!is_full).then(|| Routine::write(program, function, self.pc as usize, found));
+        let free = self.routines.iter().find(|routine| routine.get().is_none());
+        if let (Some(Ok(routine)), Some(free)) = (routine, free) {
+            BYTES.fetch_add(routine.bytes(), Ordering::Relaxed);
+            let _ = free.set(routine);
+        } else {
+            self.close();
+        }
+        self.is_written.store(false, Ordering::Release);
     }
 
     /// Notes how many instructions a use carried out, while that is of interest.
@@ -157,8 +197,7 @@ impl Entry {
 
 impl Drop for Entry {
     fn drop(&mut self) {
-        let bytes = self.routines().map(Routine::bytes).sum();
-        BYTES.fetch_sub(bytes, Ordering::Relaxed);
+        BYTES.fetch_sub(self.bytes(), Ordering::Relaxed);
     }
 }
 

@@ -1,10 +1,12 @@
 //! What the code of a function needs to know of it: which registers are live where, and where jumps lead.
 
 use super::functions::is_known;
+use super::kinds::Reg;
 use crate::builtins::builtin;
 use crate::code::{Function, Mode, Op, Operand, Place};
-use crate::passes::place::{Bits, live_before, successors};
+use crate::passes::place::{Bits, live_before, reads_and_writes, successors};
 use niwaki_math::Scalar;
+use std::collections::BTreeSet;
 
 /// Instructions that a straight piece must have to be worth machine code.
 const LINE: usize = 5;
@@ -46,6 +48,15 @@ impl Flow {
     pub(super) fn is_target(&self, at: usize) -> bool {
         self.is_target[at]
     }
+}
+
+/// The registers that code of a function may use: all of its own, and those that it reads of the loop node above.
+pub(super) fn registers(f: &Function) -> Vec<Reg> {
+    let own = (0..f.node_registers).map(Reg::Node);
+    let scratch = (0..f.scratch_registers).map(|i| Reg::Scratch(i.into()));
+    let read = f.code.iter().flat_map(|op| reads_and_writes(f, op).0);
+    let outer: BTreeSet<usize> = read.filter(|o| o.place() == Place::Outer).map(Operand::index).collect();
+    own.chain(scratch).chain(outer.into_iter().map(|i| Reg::Outer(i as u16))).collect()
 }
 
 /// Instructions where machine code may begin: where a pure function does, where a loop goes back to, and where a function that

@@ -7,7 +7,7 @@
 //! instruction tests a kind that is known.
 
 use super::entries::Found;
-use super::flow::Flow;
+use super::flow::{Flow, registers};
 use super::kinds::{Kind, Made, Reg, is_counted};
 use super::routine::{Call, Exit, Input};
 use super::typed::{Number, Typed};
@@ -164,18 +164,15 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         // Registers that hold something shared are inputs even where they are dead: when one is written, what it held
         // goes.
         let flow = self.flow(id);
-        let mut inputs: Vec<Reg> = vec![];
-        let own = (0..f.node_registers).map(|i| (Reg::Node(i), Operand::new(Place::Node, i.into())));
-        let scratch = (0..f.scratch_registers)
-            .map(|i| (Reg::Scratch(i.into()), Operand::new(Place::Scratch, i.into())));
-        for (reg, o) in own.chain(scratch) {
-            if flow.is_live(pc, o) || found(reg).is_some_and(|value| is_counted(reg, value)) {
-                inputs.push(reg);
-            }
-        }
-        let outers = f.code.iter().flat_map(|op| crate::passes::place::reads_and_writes(f, op).0);
-        let outers: BTreeSet<Operand> = outers.filter(|o| o.place() == Place::Outer).collect();
-        inputs.extend(outers.into_iter().map(|o| Reg::Outer(o.index() as u16)));
+        let mut inputs = registers(f);
+        inputs.retain(|reg| {
+            let o = match *reg {
+                Reg::Node(i) => Operand::new(Place::Node, i.into()),
+                Reg::Scratch(i) => Operand::new(Place::Scratch, i as usize),
+                Reg::Outer(_) => return true,
+            };
+            flow.is_live(pc, o) || found(*reg).is_some_and(|value| is_counted(*reg, value))
+        });
 
         let mut now = Now {
             calls: vec![],
