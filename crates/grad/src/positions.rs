@@ -19,7 +19,7 @@ use niwaki_math::{Dist, Draw, Scalar, Support};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::{Limits, Machine};
@@ -179,18 +179,10 @@ impl Answers<Var> for Placer<'_> {
         Ok(Answer::Go(draw_to_value(draw.convert(&Var::from_f64))))
     }
 
-    fn score(&mut self, _: &At<'_, Var>, _: Factor, _: Var) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-
     fn emit(&mut self, at: &At<'_, Var>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {
         let noted = shapes.iter().map(|shape| Var::noted(shape.address())).collect();
         self.parts.push((at.path(), noted));
         Ok(Answer::Go(()))
-    }
-
-    fn query(&mut self, _: &At<'_, Var>, _: &Value<Var>, _: &Value<Var>) -> Result<(), Fault> {
-        Ok(())
     }
 
     /// What a host function gives does not vary: its derivative is not known.

@@ -245,10 +245,6 @@ impl Answers<Var> for Recorder<'_> {
         self.unmet = Some(path.to_string());
     }
 
-    fn query(&mut self, _: &At<'_, Var>, _: &Value<Var>, _: &Value<Var>) -> Result<(), Fault> {
-        Ok(())
-    }
-
     fn host(&mut self, constant: u16, args: &[Value<Var>], steps: &mut u64) -> Result<Value<Var>, Fault> {
         (self.run.host)(constant, args, steps)
     }

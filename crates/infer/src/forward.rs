@@ -134,10 +134,6 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
         self.record.factor(f64::NEG_INFINITY, || unmet_name(path));
     }
 
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
-    }
-
     fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
         self.hosts.call(constant, args, steps)
     }

@@ -4,12 +4,11 @@
 //!
 //! With `PROPOSALS=N` it makes N proposals instead of running for `SECONDS`, so that instructions can be counted.
 
-use niwaki_geom::Shape;
 use niwaki_math::{Dist, Stream, grid};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::machine::kept::{Change, Propose, Proposed, Strategy};
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
@@ -20,15 +19,6 @@ struct Draws(u64);
 impl Answers<f64> for Draws {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         Ok(Answer::Go(draw_to_value(dist.sample(&mut Stream::new(1, 0, at.address(), self.0)))))
-    }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())

@@ -3,12 +3,11 @@
 #[path = "kept/programs.rs"]
 mod programs;
 
-use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::{Value, repr};
@@ -154,15 +153,6 @@ impl Answers<f64> for First {
             _ => Draw::Real(0.5),
         };
         Ok(Answer::Go(draw_to_value(draw)))
-    }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args.first().cloned().unwrap_or_default())

@@ -6,7 +6,7 @@ use niwaki_math::Dist;
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::machine::kept::part::{Part, Piece};
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Stop};
@@ -56,14 +56,8 @@ impl Answers<f64> for Noted {
         assert!(self.parts.insert(at.address(), (label, part)).is_none());
         Ok(Answer::Go(draw_to_value(dist.enumerate().expect("a finite choice")[0].clone())))
     }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
     fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
         Ok(Answer::Pause)
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())

@@ -2,7 +2,6 @@
 //! and stops at its budgets with the model's own call stack.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
-use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::{Function, Program, SiteKind};
@@ -42,12 +41,6 @@ impl Answers<f64> for Script {
     fn score(&mut self, _: &At<'_, f64>, _: Factor, log: f64) -> Result<Answer<()>, Fault> {
         self.score += log;
         Ok(if self.pause { Answer::Pause } else { Answer::Go(()) })
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
@@ -421,15 +414,6 @@ impl Answers<f64> for Scopes {
         self.count += 1;
         let values = dist.enumerate().expect("a finite choice");
         Ok(Answer::Go(draw_to_value(values[self.count as usize % values.len()].clone())))
-    }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())

@@ -8,7 +8,6 @@ use crate::record::{AllInvalid, score_of};
 use crate::run::Run;
 use crate::task::{Hosts, Task};
 use crate::{Failure, forward};
-use niwaki_geom::Shape;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, StreamKey, Total};
 use niwaki_vm::code::{Program, SiteKind};
@@ -42,6 +41,7 @@ impl<'a> Fresh<'a> {
     }
 }
 
+// A kept run holds its own scores, scene and queries.
 impl Answers<f64> for Fresh<'_> {
     #[inline]
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
@@ -49,19 +49,6 @@ impl Answers<f64> for Fresh<'_> {
             spreads.entry(at.site.key).or_insert_with(|| plain_spread(dist));
         }
         Ok(self.chooser.draw(at, dist)?.map_or(Answer::Pause, Answer::Go))
-    }
-
-    // A kept run holds its own scores, scene and queries.
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
 
     fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {

@@ -21,7 +21,6 @@ use crate::enumeration::{not_enumerable, too_many};
 use crate::forward::named;
 use crate::nested::{fault_of, limits_inside, too_long};
 use crate::record::{AllInvalid, check_factor};
-use niwaki_geom::Shape;
 use niwaki_grad::Var;
 use niwaki_math::log_sums::{log_sum_exp, log_sum_exp_of};
 use niwaki_math::{Dist, Scalar, Total, grid};
@@ -113,14 +112,6 @@ impl Answers<Var> for Branching<'_> {
         }
         self.joint.add(log, plain);
         Ok(Answer::Go(()))
-    }
-
-    fn emit(&mut self, _: &At<'_, Var>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-
-    fn query(&mut self, _: &At<'_, Var>, _: &Value<Var>, _: &Value<Var>) -> Result<(), Fault> {
-        Ok(())
     }
 
     fn host(&mut self, constant: u16, args: &[Value<Var>], steps: &mut u64) -> Result<Value<Var>, Fault> {

@@ -202,10 +202,6 @@ impl Answers<f64> for Looking<'_, '_> {
         Ok(Answer::Pause)
     }
 
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
-    }
-
     fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
         let hosts: &dyn Hosts = &*self.run.task.hosts;
         hosts.call(constant, args, steps)

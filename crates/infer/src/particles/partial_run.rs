@@ -323,10 +323,6 @@ impl<C: Chooser> Answers<f64> for Recorder<'_, C> {
         self.lost = true;
     }
 
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
-    }
-
     fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
         self.with.task.hosts.call(constant, args, steps)
     }

@@ -126,7 +126,7 @@ impl<S: Scalar> At<'_, S> {
     }
 }
 
-/// Answers the machine's questions.
+/// Answers the machine's questions. What they say nothing to does not stop a run: factors, primitives and queries.
 pub trait Answers<S: Scalar> {
     /// Whether they remember the choices of a run: a run that makes choices without end takes memory then.
     const LOGS: bool = false;
@@ -147,7 +147,10 @@ pub trait Answers<S: Scalar> {
     ///
     /// # Errors
     /// As for [`Answers::choice`].
-    fn score(&mut self, at: &At<'_, S>, factor: Factor, log: S) -> Result<Answer<()>, Fault>;
+    #[inline]
+    fn score(&mut self, _: &At<'_, S>, _: Factor, _: S) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
 
     /// A held choice has its value, which scores this log density, nats.
     ///
@@ -166,13 +169,19 @@ pub trait Answers<S: Scalar> {
     ///
     /// # Errors
     /// As for [`Answers::choice`].
-    fn emit(&mut self, at: &At<'_, S>, shapes: &[Shape]) -> Result<Answer<()>, Fault>;
+    #[inline]
+    fn emit(&mut self, _: &At<'_, S>, _: &[Shape]) -> Result<Answer<()>, Fault> {
+        Ok(Answer::Go(()))
+    }
 
     /// A write to the query table.
     ///
     /// # Errors
     /// As for [`Answers::choice`].
-    fn query(&mut self, at: &At<'_, S>, key: &Value<S>, value: &Value<S>) -> Result<(), Fault>;
+    #[inline]
+    fn query(&mut self, _: &At<'_, S>, _: &Value<S>, _: &Value<S>) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// A call of a pure host function. `steps` are those of the run so far; the function may add its own.
     ///

@@ -1,5 +1,6 @@
 //! Where machine code may begin, and the code that was made for it.
 
+use super::apart::later;
 use super::flow::{entries, registers};
 use super::kinds::Reg;
 use super::routine::Routine;
@@ -9,7 +10,6 @@ use niwaki_math::Scalar;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, OnceLock};
-use std::thread;
 
 /// Visits before code is made: the interpreter has then spent about as much time there as the code takes to be made.
 const VISITS: u32 = 20_000;
@@ -164,8 +164,8 @@ impl Entry {
                 entry.write_now(&program, function, &|reg| values.get(&reg));
             }
         };
-        if thread::Builder::new().name("machine code".into()).spawn(write).is_err() {
-            self.close();
+        if !later(Box::new(write)) {
+            self.is_written.store(false, Ordering::Release);
         }
     }
 

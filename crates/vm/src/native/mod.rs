@@ -6,8 +6,8 @@
 //! and it goes as far as it can:
 //!
 //! ```text
-//! interpreter --- a loop goes back, for the 20,000th time -> compile for the kinds found
-//!     ^                                                            |
+//! interpreter --- a loop goes back, for the 20,000th time -> compile for the kinds found,
+//!     ^                                                            | while the run goes on
 //!     |            registers, steps, place                         v
 //!     +------------------------------------------------------ machine code
 //!        an instruction that it has no code for, a fault, a number that does not fit, the limits
@@ -17,8 +17,8 @@
 //! with every register as the interpreter would have it there. So values are the same to the last bit, a fault is raised by
 //! the interpreter at its place, and limits of steps and memory are met at the same instruction.
 //!
-//! * `entries`: where code may begin, and the code that was made for it; `routine`: such code and its exits. How it is run
-//!   is in `machine/enter`;
+//! * `entries`: where code may begin, and the code that was made for it; `apart`: the thread that writes it; `routine`: such code
+//!   and its exits. How it is run is in `machine/enter`;
 //! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `registers`: the model's
 //!   registers while it is written; `flow`: which of them are live;
 //! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in functions;
@@ -27,6 +27,7 @@
 //! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block Versioning"
 //! (ECOOP 2015), with all versions made at once.
 
+mod apart;
 mod calls;
 mod entries;
 mod flow;

@@ -1,9 +1,8 @@
 //! Answers for runs whose choices do not matter.
 
-use niwaki_geom::Shape;
 use niwaki_math::Dist;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::value::Value;
 
 /// Every choice is a half.
@@ -12,15 +11,6 @@ pub struct Halves;
 impl Answers<f64> for Halves {
     fn choice(&mut self, _: &At<'_, f64>, _: &Dist) -> Result<Answer<Value>, Fault> {
         Ok(Answer::Go(Value::real(0.5)))
-    }
-    fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
-        Ok(Answer::Go(()))
-    }
-    fn query(&mut self, _: &At<'_, f64>, _: &Value, _: &Value) -> Result<(), Fault> {
-        Ok(())
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
