@@ -10,7 +10,7 @@ use crate::bounds::Aabb;
 use std::sync::Arc;
 
 /// Most items in one leaf: a longer list makes a lower tree, of which less is copied, but more of its items are looked at.
-const MOST: usize = 8;
+const MOST: usize = 12;
 
 /// Something with a box around it.
 pub trait Boxed {
@@ -235,21 +235,28 @@ fn cut<T: Clone + Boxed>(list: &List<T>, item: &T) -> Node<T> {
     branch(Part::of(list_of(low)), Part::of(list_of(high)))
 }
 
-/// A branch over two parts whose heights may differ by two: the taller one's taller part moves up.
+/// A branch over two parts whose heights may differ by two.
+#[inline(always)]
 fn joined<T: Clone + Boxed>(a: Part<T>, b: Part<T>) -> Node<T> {
-    let (tall, low) = if a.node.height() >= b.node.height() { (a, b) } else { (b, a) };
-    match &tall.node {
-        Node::Branch(branches) if branches.height > low.node.height() + 1 => {
-            let [p, q] = &branches.parts;
-            let (up, down) = if p.node.height() >= q.node.height() { (p, q) } else { (q, p) };
-            let aabb = down.aabb.union(&low.aabb);
-            branch(up.clone(), Part { aabb, node: joined(down.clone(), low) })
-        }
-        _ => branch(tall, low),
+    match a.node.height().abs_diff(b.node.height()) {
+        0 | 1 => branch(a, b),
+        _ => level(a, b),
     }
 }
 
-#[inline]
+/// The same where they do differ: the taller one's taller part moves up.
+#[cold]
+#[inline(never)]
+fn level<T: Clone + Boxed>(a: Part<T>, b: Part<T>) -> Node<T> {
+    let (tall, low) = if a.node.height() > b.node.height() { (a, b) } else { (b, a) };
+    let Node::Branch(branches) = &tall.node else { return branch(tall, low) };
+    let [p, q] = &branches.parts;
+    let (up, down) = if p.node.height() >= q.node.height() { (p, q) } else { (q, p) };
+    let aabb = down.aabb.union(&low.aabb);
+    branch(up.clone(), Part { aabb, node: joined(down.clone(), low) })
+}
+
+#[inline(always)]
 fn branch<T>(a: Part<T>, b: Part<T>) -> Node<T> {
     let height = 1 + a.node.height().max(b.node.height());
     Node::Branch(Arc::new(Branch { height, parts: [a, b] }))
