@@ -351,6 +351,16 @@ mod tests {
     }
 
     #[test]
+    fn many_items_may_have_one_box() {
+        let mut tree = BoxTree::default();
+        (0..100).for_each(|k| tree.insert(Item(cube(1), k)));
+        let whole = tree.clone();
+        assert_eq!(tree.remove(&cube(1), |item| item.1 == 99).map(|item| item.1), Some(99));
+        assert_eq!((near_items(&tree, &cube(1)).len(), near_items(&whole, &cube(1)).len()), (99, 100));
+        assert!(tree.all.node.height() <= 6);
+    }
+
+    #[test]
     fn a_row_of_items_stays_balanced() {
         let mut tree = BoxTree::default();
         for k in 0..1024 {

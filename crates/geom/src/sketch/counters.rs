@@ -236,13 +236,41 @@ fn counted(
     rows: Rows,
     mut change: impl FnMut(usize, &Slab) -> Slab,
 ) -> [i64; 2] {
-    let mut all = [0; 2];
+    let mut all = [Ones::default(); 2];
     rows.any_slab(voxels, |slab, cells| {
         let changed = change(slab, cells);
-        all = [all[0] + ones(&changed), all[1] + ones(&both(&changed, target, slab))];
+        all[0].add(&changed);
+        all[1].add(&both(&changed, target, slab));
         false
     });
-    all
+    all.map(Ones::sum)
+}
+
+/// Numbers of set bits of slabs, eight at most: each byte counts sixteen bits of a slab.
+#[derive(Clone, Copy, Default)]
+struct Ones([u64; 4]);
+
+impl Ones {
+    #[inline]
+    fn add(&mut self, words: &Slab) {
+        let twos = |word: u64| word.wrapping_sub(word >> 1 & 0x5555_5555_5555_5555);
+        let fours = |word: u64| {
+            let twos = twos(word);
+            (twos & 0x3333_3333_3333_3333).wrapping_add(twos >> 2 & 0x3333_3333_3333_3333)
+        };
+        self.0 = std::array::from_fn(|k| {
+            let sum = fours(words[k]).wrapping_add(fours(words[k + 4]));
+            let bytes = (sum & 0x0f0f_0f0f_0f0f_0f0f).wrapping_add(sum >> 4 & 0x0f0f_0f0f_0f0f_0f0f);
+            self.0[k].wrapping_add(bytes)
+        });
+    }
+
+    #[inline]
+    fn sum(self) -> i64 {
+        const HALVES: u64 = 0x00ff_00ff_00ff_00ff;
+        let pairs = self.0.iter().map(|word| (word & HALVES).wrapping_add(word >> 8 & HALVES));
+        (pairs.fold(0, u64::wrapping_add).wrapping_mul(0x0001_0001_0001_0001) >> 48) as i64
+    }
 }
 
 /// Those of `cells` that slab `slab` of the target has, too.
@@ -270,4 +298,21 @@ pub fn planes_of(voxels: &Voxels, dims: [usize; 3]) -> Vec<Plane> {
         })
     });
     planes
+}
+
+#[cfg(test)]
+mod tests {
+    //! Slabs are counted right up to a full brick.
+    use super::{Ones, ones};
+
+    #[test]
+    fn a_full_brick_has_4096_cells() {
+        let mut all = Ones::default();
+        (0..8).for_each(|_| all.add(&[u64::MAX; 8]));
+        assert_eq!(all.sum(), 4096);
+        let words = std::array::from_fn(|k| 0x9e37_79b9_7f4a_7c15_u64.rotate_left(7 * k as u32) << k);
+        let mut some = Ones::default();
+        some.add(&words);
+        assert_eq!(some.sum(), ones(&words));
+    }
 }
