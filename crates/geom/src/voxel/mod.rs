@@ -48,11 +48,12 @@ enum Kind {
 impl Voxels {
     /// Cells of `grid` that `shape` fills; `None` when it fills none.
     pub fn of(shape: &Shape, grid: &Grid) -> Option<Voxels> {
+        if shape.is_aligned_box() {
+            return grid.cells_of(shape.aabb()).map(Voxels::block);
+        }
         let Some(convex) = shape.convex() else { return Voxels::of_mesh(&shape.world_mesh(), grid) };
         let cells = grid.cells_of(shape.aabb())?;
-        let kind =
-            if shape.is_aligned_box() { Kind::Block } else { Kind::Rows(slabs::rows(&convex, grid, &cells)) };
-        Some(Voxels { cells, kind })
+        Some(Voxels { cells, kind: Kind::Rows(slabs::rows(&convex, grid, &cells)) })
     }
 
     /// Every cell of a box.
