@@ -1,12 +1,16 @@
 //! A bag of boxed items as a persistent, balanced tree of boxes: finds near items, and the extent of all.
 //!
-//! Cloning is one reference count. Changing copies only the path from the root (and not even that when it is not
-//! shared), so particles share what they have in common. The root's box is the extent of the whole bag: an order
-//! statistic that removal keeps. A new item goes where boxes grow least; heights of siblings are kept within one of
-//! each other, so that a long chain of shapes costs no more than a compact scene.
+//! Leaves are short lists of items, from the newest to the oldest, whose tails copies share. Cloning is one reference count.
+//! Changing copies only the path from the root (and not even that when it is not shared), so particles share what they have
+//! in common. The box of all is the extent of the whole bag: an order statistic that removal keeps. A new item goes where boxes
+//! grow least; a list that is full is cut in two. Heights of siblings are kept within one of each other, so that a long chain
+//! of shapes costs no more than a compact scene.
 
 use crate::bounds::Aabb;
 use std::sync::Arc;
+
+/// Most items in one leaf: a longer list makes a lower tree, of which less is copied, but more of its items are looked at.
+const MOST: usize = 12;
 
 /// Something with a box around it.
 pub trait Boxed {
@@ -17,39 +21,62 @@ pub trait Boxed {
 /// A bag of items, each with a box.
 #[derive(Clone, Debug)]
 pub struct BoxTree<T> {
-    root: Node<T>,
+    all: Part<T>,
     len: usize,
 }
 
-#[derive(Clone, Debug, Default)]
+/// Items, and the smallest box around them.
+#[derive(Debug)]
+struct Part<T> {
+    aabb: Aabb,
+    node: Node<T>,
+}
+
+/// It goes through registers: functions that change a tree take and return it by value.
+#[derive(Debug)]
 enum Node<T> {
-    #[default]
-    Nothing,
-    Leaf(T),
+    Leaf(List<T>),
     Branch(Arc<Branch<T>>),
+}
+
+type List<T> = Option<Arc<Entry<T>>>;
+
+#[derive(Debug)]
+struct Entry<T> {
+    item: T,
+    /// From here to the oldest.
+    count: usize,
+    older: List<T>,
 }
 
 #[derive(Debug)]
 struct Branch<T> {
-    aabb: Aabb,
     height: u32,
-    children: [Node<T>; 2],
+    parts: [Part<T>; 2],
 }
 
-impl<T: Boxed> Node<T> {
+impl<T> Clone for Node<T> {
     #[inline]
-    fn aabb(&self) -> &Aabb {
+    fn clone(&self) -> Node<T> {
         match self {
-            Node::Nothing => &Aabb::EMPTY,
-            Node::Leaf(item) => item.aabb(),
-            Node::Branch(branch) => &branch.aabb,
+            Node::Leaf(list) => Node::Leaf(list.clone()),
+            Node::Branch(branch) => Node::Branch(branch.clone()),
         }
     }
+}
 
+impl<T> Clone for Part<T> {
+    #[inline]
+    fn clone(&self) -> Part<T> {
+        Part { aabb: self.aabb, node: self.node.clone() }
+    }
+}
+
+impl<T> Node<T> {
     #[inline]
     fn height(&self) -> u32 {
         match self {
-            Node::Nothing | Node::Leaf(_) => 0,
+            Node::Leaf(_) => 0,
             Node::Branch(branch) => branch.height,
         }
     }
@@ -57,7 +84,7 @@ impl<T: Boxed> Node<T> {
 
 impl<T> Default for BoxTree<T> {
     fn default() -> BoxTree<T> {
-        BoxTree { root: Node::Nothing, len: 0 }
+        BoxTree { all: Part { aabb: Aabb::EMPTY, node: Node::Leaf(None) }, len: 0 }
     }
 }
 
@@ -74,26 +101,26 @@ impl<T: Clone + Boxed> BoxTree<T> {
 
     /// The smallest box around all items.
     pub fn bounds(&self) -> Aabb {
-        *self.root.aabb()
+        self.all.aabb
     }
 
     /// Adds an item to the bag.
     pub fn insert(&mut self, item: T) {
         self.len += 1;
-        self.root = inserted(std::mem::take(&mut self.root), Node::Leaf(item));
+        self.all.insert(item);
     }
 
     /// Removes one item for which `is` holds and whose box is `aabb`; `None` when there is no such item.
     pub fn remove(&mut self, aabb: &Aabb, is: impl Fn(&T) -> bool) -> Option<T> {
-        let (rest, item) = removed(&self.root, aabb, &is)?;
-        self.root = rest;
+        let (rest, item) = without(&self.all.node, aabb, &is)?;
+        self.all = rest;
         self.len -= 1;
         Some(item)
     }
 
     /// Calls `f` with every item whose box meets `aabb`, borders included.
     pub fn visit(&self, aabb: &Aabb, mut f: impl FnMut(&T)) {
-        visit(&self.root, aabb, &mut f);
+        visit(&self.all.node, aabb, &mut f);
     }
 
     /// Calls `f` with every item.
@@ -103,78 +130,152 @@ impl<T: Clone + Boxed> BoxTree<T> {
     }
 }
 
-// The tree's height is logarithmic, so these recursions are shallow.
+// The tree's height is logarithmic and lists are short, so these recursions are shallow.
 
 fn visit<T: Boxed>(node: &Node<T>, near: &Aabb, f: &mut impl FnMut(&T)) {
-    if !node.aabb().meets(near) {
-        return;
-    }
     match node {
-        Node::Nothing => {}
-        Node::Leaf(item) => f(item),
-        Node::Branch(branch) => branch.children.iter().for_each(|c| visit(c, near, f)),
-    }
-}
-
-/// A branch over two trees whose heights may differ by two: the taller one's taller child moves up. `old` is a branch
-/// that is needed no more.
-fn joined<T: Clone + Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>) -> Node<T> {
-    let (tall, low) = if a.height() >= b.height() { (a, b) } else { (b, a) };
-    match tall {
-        Node::Branch(tall) if tall.height > low.height() + 1 => {
-            let [p, q] = &tall.children;
-            let (up, down) = if p.height() >= q.height() { (p, q) } else { (q, p) };
-            branch(up.clone(), joined(down.clone(), low, None), old)
-        }
-        tall => branch(tall, low, old),
-    }
-}
-
-fn branch<T: Boxed>(a: Node<T>, b: Node<T>, old: Option<Arc<Branch<T>>>) -> Node<T> {
-    let aabb = a.aabb().union(b.aabb());
-    let branch = Branch { aabb, height: 1 + a.height().max(b.height()), children: [a, b] };
-    if let Some(mut old) = old
-        && let Some(place) = Arc::get_mut(&mut old)
-    {
-        *place = branch;
-        return Node::Branch(old);
-    }
-    Node::Branch(Arc::new(branch))
-}
-
-fn inserted<T: Clone + Boxed>(node: Node<T>, leaf: Node<T>) -> Node<T> {
-    match node {
-        Node::Nothing => leaf,
-        Node::Leaf(_) => branch(node, leaf, None),
-        Node::Branch(mut at) => {
-            let growth = |c: &Node<T>| c.aabb().union(leaf.aabb()).half_area() - c.aabb().half_area();
-            let near = usize::from(growth(&at.children[0]) > growth(&at.children[1]));
-            // Unshared nodes are changed in place.
-            let (near, far) = match Arc::get_mut(&mut at) {
-                Some(own) => {
-                    (std::mem::take(&mut own.children[near]), std::mem::take(&mut own.children[1 - near]))
-                }
-                None => (at.children[near].clone(), at.children[1 - near].clone()),
-            };
-            joined(inserted(near, leaf), far, Some(at))
-        }
-    }
-}
-
-fn removed<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(Node<T>, T)> {
-    match node {
-        Node::Nothing => None,
-        Node::Leaf(item) => (item.aabb() == aabb && is(item)).then(|| (Node::Nothing, item.clone())),
+        Node::Leaf(list) => each(list).filter(|item| item.aabb().meets(near)).for_each(f),
         Node::Branch(branch) => {
-            if !branch.aabb.contains(aabb) {
-                return None;
+            for part in branch.parts.iter().filter(|part| part.aabb.meets(near)) {
+                visit(&part.node, near, f);
             }
-            let [a, b] = &branch.children;
+        }
+    }
+}
+
+/// The items of a list, from the newest.
+fn each<T>(list: &List<T>) -> impl Iterator<Item = &T> {
+    std::iter::successors(list.as_deref(), |entry| entry.older.as_deref()).map(|entry| &entry.item)
+}
+
+impl<T: Clone + Boxed> Part<T> {
+    /// Of a list.
+    fn of(list: List<T>) -> Part<T> {
+        let aabb = each(&list).fold(Aabb::EMPTY, |all, item| all.union(item.aabb()));
+        Part { aabb, node: Node::Leaf(list) }
+    }
+
+    /// Adds an item; what nobody shares is changed in place.
+    fn insert(&mut self, item: T) {
+        self.aabb = self.aabb.union(item.aabb());
+        match &mut self.node {
+            Node::Leaf(list) => self.node = longer(list.take(), item),
+            Node::Branch(branch) => match own(branch) {
+                None => self.node = with(&self.node, item),
+                Some(own) => {
+                    let near = own.nearer(item.aabb());
+                    own.parts[near].insert(item);
+                    let [a, b] = own.parts.each_ref().map(|part| part.node.height());
+                    if a.abs_diff(b) > 1 {
+                        let [a, b] = own.parts.clone();
+                        self.node = joined(a, b);
+                    } else {
+                        own.height = 1 + a.max(b);
+                    }
+                }
+            },
+        }
+    }
+}
+
+impl<T: Boxed> Branch<T> {
+    /// Which part a box makes grow least.
+    #[inline]
+    fn nearer(&self, aabb: &Aabb) -> usize {
+        let [a, b] = &self.parts;
+        let growth = |part: &Part<T>| part.aabb.union(aabb).half_area() - part.aabb.half_area();
+        usize::from(growth(a) > growth(b))
+    }
+}
+
+/// A branch that nobody shares.
+#[inline]
+fn own<T>(branch: &mut Arc<Branch<T>>) -> Option<&mut Branch<T>> {
+    // Counting first is cheaper than asking: mostly somebody shares it.
+    if Arc::strong_count(branch) == 1 { Arc::get_mut(branch) } else { None }
+}
+
+/// A node with one item more; all but the path to the item is shared.
+fn with<T: Clone + Boxed>(node: &Node<T>, item: T) -> Node<T> {
+    match node {
+        Node::Leaf(list) => longer(list.clone(), item),
+        Node::Branch(branch) => {
+            let near = branch.nearer(item.aabb());
+            let (far, near) = (&branch.parts[1 - near], &branch.parts[near]);
+            let aabb = near.aabb.union(item.aabb());
+            joined(Part { aabb, node: with(&near.node, item) }, far.clone())
+        }
+    }
+}
+
+/// A list with one item more: of two lists when it would be too long.
+fn longer<T: Clone + Boxed>(list: List<T>, item: T) -> Node<T> {
+    let count = list.as_ref().map_or(0, |entry| entry.count);
+    if count == MOST {
+        return cut(&list, &item);
+    }
+    Node::Leaf(Some(Arc::new(Entry { item, count: count + 1, older: list })))
+}
+
+/// The items of a list, and one more, as two lists: in half along the axis on which their middles are farthest apart.
+fn cut<T: Clone + Boxed>(list: &List<T>, item: &T) -> Node<T> {
+    let mut items: Vec<&T> = each(list).chain([item]).collect();
+    // Twice the middle.
+    let middle = |item: &T| item.aabb().low + item.aabb().high;
+    let reach = Aabb::around(items.iter().map(|item| middle(item))).extent().to_array();
+    let axis = (0..3).fold(0, |most, axis| if reach[axis] > reach[most] { axis } else { most });
+    let half = items.len() / 2;
+    items.select_nth_unstable_by(half, |a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
+    let list_of = |items: &[&T]| {
+        items.iter().enumerate().fold(None, |older, (count, item)| {
+            Some(Arc::new(Entry { item: (*item).clone(), count: count + 1, older }))
+        })
+    };
+    let (low, high) = items.split_at(half);
+    branch(Part::of(list_of(low)), Part::of(list_of(high)))
+}
+
+/// A branch over two parts whose heights may differ by two.
+#[inline(always)]
+fn joined<T: Clone + Boxed>(a: Part<T>, b: Part<T>) -> Node<T> {
+    match a.node.height().abs_diff(b.node.height()) {
+        0 | 1 => branch(a, b),
+        _ => level(a, b),
+    }
+}
+
+/// The same where they do differ: the taller one's taller part moves up.
+#[cold]
+#[inline(never)]
+fn level<T: Clone + Boxed>(a: Part<T>, b: Part<T>) -> Node<T> {
+    let (tall, low) = if a.node.height() > b.node.height() { (a, b) } else { (b, a) };
+    let Node::Branch(branches) = &tall.node else { return branch(tall, low) };
+    let [p, q] = &branches.parts;
+    let (up, down) = if p.node.height() >= q.node.height() { (p, q) } else { (q, p) };
+    let aabb = down.aabb.union(&low.aabb);
+    branch(up.clone(), Part { aabb, node: joined(down.clone(), low) })
+}
+
+#[inline(always)]
+fn branch<T>(a: Part<T>, b: Part<T>) -> Node<T> {
+    let height = 1 + a.node.height().max(b.node.height());
+    Node::Branch(Arc::new(Branch { height, parts: [a, b] }))
+}
+
+/// A node without one item, and the item; `None` when it is not there.
+fn without<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(Part<T>, T)> {
+    match node {
+        Node::Leaf(list) => shorter(list, aabb, is).map(|(rest, item)| (Part::of(rest), item)),
+        Node::Branch(branch) => {
+            let [a, b] = &branch.parts;
             for (in_here, other) in [(a, b), (b, a)] {
-                if let Some((rest, item)) = removed(in_here, aabb, is) {
-                    let rest = match rest {
-                        Node::Nothing => other.clone(),
-                        rest => joined(rest, other.clone(), None),
+                if !in_here.aabb.contains(aabb) {
+                    continue;
+                }
+                if let Some((rest, item)) = without(&in_here.node, aabb, is) {
+                    let rest = match rest.node {
+                        Node::Leaf(None) => other.clone(),
+                        _ => Part { aabb: rest.aabb.union(&other.aabb), node: joined(rest, other.clone()) },
                     };
                     return Some((rest, item));
                 }
@@ -182,6 +283,16 @@ fn removed<T: Clone + Boxed>(node: &Node<T>, aabb: &Aabb, is: &impl Fn(&T) -> bo
             None
         }
     }
+}
+
+/// A list without one item, and the item; `None` when it is not there.
+fn shorter<T: Clone + Boxed>(list: &List<T>, aabb: &Aabb, is: &impl Fn(&T) -> bool) -> Option<(List<T>, T)> {
+    let Entry { item, count, older } = &**list.as_ref()?;
+    if item.aabb() == aabb && is(item) {
+        return Some((older.clone(), item.clone()));
+    }
+    let (older, found) = shorter(older, aabb, is)?;
+    Some((Some(Arc::new(Entry { item: item.clone(), count: count - 1, older })), found))
 }
 
 #[cfg(test)]
@@ -240,6 +351,16 @@ mod tests {
     }
 
     #[test]
+    fn many_items_may_have_one_box() {
+        let mut tree = BoxTree::default();
+        (0..100).for_each(|k| tree.insert(Item(cube(1), k)));
+        let whole = tree.clone();
+        assert_eq!(tree.remove(&cube(1), |item| item.1 == 99).map(|item| item.1), Some(99));
+        assert_eq!((near_items(&tree, &cube(1)).len(), near_items(&whole, &cube(1)).len()), (99, 100));
+        assert!(tree.all.node.height() <= 6);
+    }
+
+    #[test]
     fn a_row_of_items_stays_balanced() {
         let mut tree = BoxTree::default();
         for k in 0..1024 {
@@ -247,6 +368,6 @@ mod tests {
             tree.insert(Item(Aabb { low, high: low + vec3(1.0, 1.0, 1.0) }, k));
         }
         // An AVL tree of n leaves is at most 1.44 log2(n) high.
-        assert!(tree.root.height() <= 15);
+        assert!(tree.all.node.height() <= 15);
     }
 }

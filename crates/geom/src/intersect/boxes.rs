@@ -74,9 +74,13 @@ impl<'a> Turned<'a> {
         for (i, p) in a.directions.iter().enumerate() {
             for (j, q) in b.directions.iter().enumerate() {
                 let n = p.cross(*q);
+                let overlap = a.reach_across(i, n) + b.reach_across(j, n) - apart.dot(n).abs();
+                // A product of unit vectors is not longer than one, so most need no length.
+                if overlap > 2.0 * tolerance {
+                    continue;
+                }
                 let length = n.norm();
-                let reach = a.reach_across(i, n) + b.reach_across(j, n);
-                if length > PARALLEL && reach - apart.dot(n).abs() <= tolerance * length {
+                if length > PARALLEL && overlap <= tolerance * length {
                     return false;
                 }
             }

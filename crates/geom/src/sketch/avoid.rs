@@ -123,7 +123,7 @@ impl Sketch for Avoid {
     fn add(&mut self, primitive: &Primitive) {
         let touches = touches(&self.obstacle, primitive);
         self.touching += u64::from(touches);
-        self.bag.add(primitive, touches);
+        self.bag.add(primitive, || touches);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

@@ -68,8 +68,13 @@ impl<M: Clone> Bag<M> {
         self.bounds
     }
 
-    /// Adds a primitive.
-    pub fn add(&mut self, primitive: &Primitive, mark: M) {
+    /// True when marks of new primitives are kept.
+    pub fn keeps_marks(&self) -> bool {
+        matches!(self.held, Held::Tree(_))
+    }
+
+    /// Adds a primitive; `mark` gives its mark, where marks are kept.
+    pub fn add(&mut self, primitive: &Primitive, mark: impl FnOnce() -> M) {
         self.bounds = self.bounds.union(primitive.aabb());
         match &mut self.held {
             Held::List(newest) => {
@@ -77,7 +82,7 @@ impl<M: Clone> Bag<M> {
                 *newest = Some(Arc::new(Entry { primitive: primitive.clone(), older }));
             }
             Held::Tree(tree) => {
-                let mark = Arc::new(OnceLock::from(mark));
+                let mark = Arc::new(OnceLock::from(mark()));
                 tree.insert(Marked { primitive: primitive.clone(), mark });
             }
         }
@@ -145,14 +150,14 @@ mod tests {
     #[test]
     fn lists_and_trees_are_the_same_bag() {
         let (mut list, mut tree) = (Bag::default(), Bag::default());
-        tree.add(&cube(9.0), 'a');
+        tree.add(&cube(9.0), || 'a');
         assert_eq!((tree.remove(&cube(9.0), || 'b'), tree.remove(&cube(9.0), || 'c')), (Some('b'), None));
         assert!(tree == list && tree.bounds().is_empty());
         for x in [0.0, 3.0, 3.0, -2.0] {
-            list.add(&cube(x), 'l');
+            list.add(&cube(x), || 'l');
         }
         for x in [-2.0, 3.0, 0.0, 3.0] {
-            tree.add(&cube(x), 't');
+            tree.add(&cube(x), || 't');
         }
         assert!(list == tree && list.bounds() == tree.bounds());
         let whole = list.clone();
@@ -172,7 +177,7 @@ mod tests {
     fn a_long_list_goes_without_overflowing_the_stack() {
         let one = cube(0.0);
         let mut bag = Bag::default();
-        (0..300_000).for_each(|_| bag.add(&one, ()));
+        (0..300_000).for_each(|_| bag.add(&one, || ()));
         let copy = bag.clone();
         drop(bag);
         assert_eq!(copy.bounds(), *one.aabb());

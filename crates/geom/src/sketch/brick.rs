@@ -26,45 +26,69 @@ impl Default for Brick {
     }
 }
 
+/// The rows of a brick at one z.
+pub type Slab = [u64; 8];
+
+/// `f` of two, word by word.
+#[inline]
+fn each<const N: usize>(a: &[u64; N], b: &[u64; N], f: impl Fn(u64, u64) -> u64) -> [u64; N] {
+    std::array::from_fn(|k| f(a[k], b[k]))
+}
+
+/// True when a bit is set.
+#[inline]
+pub fn any<const N: usize>(words: &[u64; N]) -> bool {
+    words.iter().fold(0, |all, word| all | word) != 0
+}
+
 impl Brick {
-    /// Adds one to `cells` of a word; returns those that had none.
+    /// Adds one to `cells`, words from `N * at` on; returns those that had none.
     #[inline]
-    pub fn raise(&mut self, word: usize, cells: u64) -> u64 {
-        let mut before = self.lowest[word];
-        let mut carry = cells & before;
-        self.lowest[word] ^= cells;
-        for plane in &mut self.higher {
-            let old = plane[word];
-            before |= old;
-            plane[word] = old ^ carry;
-            carry &= old;
+    pub fn raise<const N: usize>(&mut self, at: usize, cells: &[u64; N]) -> [u64; N] {
+        let lowest = part(&mut self.lowest, at);
+        let (new, carry) = (each(cells, lowest, |c, old| c & !old), each(cells, lowest, |c, old| c & old));
+        *lowest = each(cells, lowest, |c, old| c ^ old);
+        // Mostly it ends here: no cell has two.
+        if self.higher.is_empty() && !any(&carry) {
+            return new;
         }
-        if carry != 0 {
-            let mut top = [0; 64];
-            top[word] = carry;
-            self.higher.push(top);
-        }
-        cells & !before
+        self.carry(at, carry, new)
     }
 
-    /// Subtracts one from `cells` of a word, all of which must have one; returns those that have none now.
-    #[inline]
-    pub fn lower(&mut self, word: usize, cells: u64) -> u64 {
-        let (mut borrow, mut after) = (cells, 0);
-        for plane in std::iter::once(&mut self.lowest).chain(&mut self.higher) {
-            let old = plane[word];
-            plane[word] = old ^ borrow;
-            borrow &= !old;
-            after |= plane[word];
+    /// Adds `carry` to the planes above the lowest; returns those of `new` that these do not have.
+    fn carry<const N: usize>(&mut self, at: usize, mut carry: [u64; N], mut new: [u64; N]) -> [u64; N] {
+        for plane in &mut self.higher {
+            let words = part(plane, at);
+            new = each(&new, words, |n, old| n & !old);
+            (*words, carry) = (each(&carry, words, |c, old| c ^ old), each(&carry, words, |c, old| c & old));
         }
-        debug_assert_eq!(borrow, 0, "a cell was emptied that nothing filled");
-        cells & !after
+        if any(&carry) {
+            let mut top = [0; 64];
+            *part(&mut top, at) = carry;
+            self.higher.push(top);
+        }
+        new
+    }
+
+    /// Subtracts one from `cells`, words from `N * at` on, all of which must have one; returns those that have none now.
+    #[inline]
+    pub fn lower<const N: usize>(&mut self, at: usize, cells: &[u64; N]) -> [u64; N] {
+        let (mut borrow, mut gone) = (*cells, *cells);
+        for plane in std::iter::once(&mut self.lowest).chain(&mut self.higher) {
+            let words = part(plane, at);
+            let old = *words;
+            *words = each(&borrow, &old, |b, old| b ^ old);
+            borrow = each(&borrow, &old, |b, old| b & !old);
+            gone = each(&gone, words, |g, after| g & !after);
+        }
+        debug_assert!(!any(&borrow), "a cell was emptied that nothing filled");
+        gone
     }
 
     /// Drops planes that hold nothing; true when no count is left.
     #[inline]
     pub fn trim(&mut self) -> bool {
-        while self.higher.last().is_some_and(|top| top.iter().all(|w| *w == 0)) {
+        while self.higher.last().is_some_and(|top| !any(top)) {
             self.higher.pop();
         }
         self.is_empty()
@@ -73,7 +97,7 @@ impl Brick {
     /// True when there is no count.
     #[inline]
     pub fn is_empty(&self) -> bool {
-        self.higher.is_empty() && self.lowest.iter().all(|w| *w == 0)
+        self.higher.is_empty() && !any(&self.lowest)
     }
 
     fn planes(&self) -> impl Iterator<Item = &Plane> {
@@ -90,4 +114,10 @@ impl Brick {
     pub fn get(&self, word: usize, bit: usize) -> u32 {
         self.planes().enumerate().map(|(k, plane)| ((plane[word] >> bit & 1) as u32) << k).sum()
     }
+}
+
+/// Words of a plane from `N * at` on.
+#[inline]
+fn part<const N: usize>(plane: &mut Plane, at: usize) -> &mut [u64; N] {
+    &mut plane.as_chunks_mut().0[at]
 }

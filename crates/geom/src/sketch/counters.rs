@@ -3,7 +3,7 @@
 //! A brick is 64 by 8 by 8 cells: 64 words, one bit for each cell. A brick without counts is not stored, so that
 //! equal counts are equal data.
 
-use super::brick::{Brick, Plane};
+use super::brick::{Brick, Plane, Slab};
 use crate::voxel::{CellBox, Voxels};
 use crate::window::solid::Sums;
 use std::sync::Arc;
@@ -40,12 +40,12 @@ fn split(cells: u64, target: u64) -> [u64; 2] {
 }
 
 /// Bricks of one layer of z. Copies share layers too, so that a change copies references to few bricks.
-type Layer = Arc<Vec<Option<Arc<Cells>>>>;
+type Layer = Arc<[Option<Arc<Cells>>]>;
 
 /// A count for every cell of a grid. Cloning shares all bricks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counters {
-    layers: Arc<Vec<Layer>>,
+    layers: Arc<[Layer]>,
     across: [usize; 3],
     /// Bricks keep sums.
     windows: bool,
@@ -55,33 +55,31 @@ impl Counters {
     /// All zero.
     pub fn new(dims: [usize; 3]) -> Counters {
         let across = bricks_of(dims);
-        let layer: Layer = Arc::new(vec![None; across[0] * across[1]]);
-        Counters { layers: Arc::new(vec![layer; across[2]]), across, windows: false }
+        let layer: Layer = vec![None; across[0] * across[1]].into();
+        Counters { layers: vec![layer; across[2]].into(), across, windows: false }
     }
 
     /// Adds one to every cell of `voxels`; `target` gives the wanted cells.
     pub fn add(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
-        let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let windows = self.windows;
         let mut change = Change::default();
-        visit(&voxels.cells, self.across, |index, column, words| {
-            let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
+        self.visit_mut(&voxels.cells, target, |place, target, rows| {
             let is_new = place.is_none();
             let cells = Arc::make_mut(place.get_or_insert_with(Arc::default));
             if is_new && windows {
                 cells.sums = Some(Box::default());
             }
             let (brick, sums) = (&mut cells.counts, &mut cells.sums);
-            for (word, y, z) in words {
-                let cells = voxels.word(column, y, z);
-                let new = brick.raise(word, cells);
-                change.filled += i64::from(new.count_ones());
-                change.inside += i64::from((new & target[index][word]).count_ones());
+            let [filled, inside] = counted(voxels, target, rows, |slab, cells| {
+                let new = brick.raise(slab, cells);
                 if let Some(sums) = sums {
-                    sums.add(word, split(new, target[index][word]));
+                    (0..8).for_each(|y| sums.add(8 * slab + y, split(new[y], target[8 * slab + y])));
                 }
-            }
-            if is_new && brick.is_empty() {
+                new
+            });
+            change.filled += filled;
+            change.inside += inside;
+            if is_new && filled == 0 {
                 *place = None;
             } else if let Some(sums) = sums {
                 sums.settle();
@@ -92,22 +90,20 @@ impl Counters {
 
     /// Subtracts one from every cell of `voxels`, all of which must have one.
     pub fn remove(&mut self, voxels: &Voxels, target: &[Plane]) -> Change {
-        let (layers, size) = (Arc::make_mut(&mut self.layers), self.across[0] * self.across[1]);
         let mut change = Change::default();
-        visit(&voxels.cells, self.across, |index, column, words| {
-            let place = &mut Arc::make_mut(&mut layers[index / size])[index % size];
+        self.visit_mut(&voxels.cells, target, |place, target, rows| {
             let Some(cells) = place else { return };
             let cells = Arc::make_mut(cells);
             let (brick, sums) = (&mut cells.counts, &mut cells.sums);
-            for (word, y, z) in words {
-                let cells = voxels.word(column, y, z);
-                let gone = brick.lower(word, cells);
-                change.filled -= i64::from(gone.count_ones());
-                change.inside -= i64::from((gone & target[index][word]).count_ones());
+            let [filled, inside] = counted(voxels, target, rows, |slab, cells| {
+                let gone = brick.lower(slab, cells);
                 if let Some(sums) = sums {
-                    sums.remove(word, split(gone, target[index][word]));
+                    (0..8).for_each(|y| sums.remove(8 * slab + y, split(gone[y], target[8 * slab + y])));
                 }
-            }
+                gone
+            });
+            change.filled -= filled;
+            change.inside -= inside;
             if brick.trim() {
                 *place = None;
             } else if let Some(sums) = sums {
@@ -115,6 +111,27 @@ impl Counters {
             }
         });
         change
+    }
+
+    /// Visits the bricks that `cells` touch: its place in a layer that nobody shares, its cells of the target, and its rows.
+    fn visit_mut(
+        &mut self,
+        cells: &CellBox,
+        target: &[Plane],
+        mut f: impl FnMut(&mut Option<Arc<Cells>>, &Plane, Rows),
+    ) {
+        let [nx, ny, _] = self.across;
+        let layers = Arc::make_mut(&mut self.layers);
+        let cells = *cells;
+        for (layer, z) in parts(cells, 2) {
+            let (bricks, target) = (Arc::make_mut(&mut layers[layer]), &target[layer * nx * ny..][..nx * ny]);
+            for (row, y) in parts(cells, 1) {
+                for (column, _) in parts(cells, 0) {
+                    let at = row * nx + column;
+                    f(&mut bricks[at], &target[at], Rows { column, y, z });
+                }
+            }
+        }
     }
 
     /// True once bricks keep what windows need.
@@ -163,61 +180,139 @@ impl Counters {
     }
 }
 
-/// The bricks that `cells` touch: index of the brick, its place along x, and its words with their rows (y, z).
-#[inline]
-pub(super) fn bricks_at(cells: &CellBox, across: [usize; 3]) -> impl Iterator<Item = (usize, usize, Words)> {
-    let CellBox { low, high } = *cells;
-    let range = move |a: usize| low[a] / BRICK[a]..=high[a] / BRICK[a];
-    let within =
-        move |a: usize, b: usize| (low[a].max(b * BRICK[a]), high[a].min(b * BRICK[a] + BRICK[a] - 1));
-    let rows = range(2).flat_map(move |bz| range(1).map(move |by| (by, bz)));
-    rows.flat_map(move |(by, bz)| {
-        let (y, z) = (within(1, by), within(2, bz));
-        range(0).map(move |bx| {
-            let words = Words { first_y: y.0, last_y: y.1, y: y.0, z: z.0, last_z: z.1 };
-            ((bz * across[1] + by) * across[0] + bx, bx, words)
-        })
-    })
+/// What of a box of cells lies in a brick: the column of words, and the first and last y and z.
+#[derive(Clone, Copy)]
+pub(super) struct Rows {
+    column: usize,
+    y: [usize; 2],
+    z: [usize; 2],
 }
 
-/// Visits the bricks that `cells` touch, as [`bricks_at`] has them.
-pub(super) fn visit(cells: &CellBox, across: [usize; 3], mut f: impl FnMut(usize, usize, Words)) {
-    bricks_at(cells, across).for_each(|(index, column, words)| f(index, column, words));
-}
-
-pub(super) struct Words {
-    first_y: usize,
-    last_y: usize,
-    last_z: usize,
-    y: usize,
-    z: usize,
-}
-
-impl Iterator for Words {
-    type Item = (usize, usize, usize);
+impl Rows {
+    /// Calls `f` with the slabs of the brick that lie there, and the cells of `voxels` in them, until it says true; whether it did.
     #[inline]
-    fn next(&mut self) -> Option<(usize, usize, usize)> {
-        if self.z > self.last_z {
-            return None;
+    pub fn any_slab(self, voxels: &Voxels, mut f: impl FnMut(usize, &Slab) -> bool) -> bool {
+        let Rows { column, y, z: [first, last] } = self;
+        let mut cells = voxels.slab(column, y, first);
+        for z in first..=last {
+            if z > first && !voxels.is_block() {
+                cells = voxels.slab(column, y, z);
+            }
+            if f(z % 8, &cells) {
+                return true;
+            }
         }
-        let row = (self.z % 8 * 8 + self.y % 8, self.y, self.z);
-        if self.y == self.last_y {
-            (self.y, self.z) = (self.first_y, self.z + 1);
-        } else {
-            self.y += 1;
-        }
-        Some(row)
+        false
     }
+}
+
+/// The bricks along one axis that `cells` touch, and the first and last cell in each.
+#[inline]
+fn parts(cells: CellBox, axis: usize) -> impl Iterator<Item = (usize, [usize; 2])> {
+    let (low, high, size) = (cells.low[axis], cells.high[axis], BRICK[axis]);
+    (low / size..=high / size).map(move |b| (b, [low.max(b * size), high.min(b * size + size - 1)]))
+}
+
+/// Calls `f` with the bricks that `cells` touch, the index of each and its rows, until it says true; whether it did.
+#[inline]
+pub(super) fn any_brick(cells: CellBox, across: [usize; 3], mut f: impl FnMut(usize, Rows) -> bool) -> bool {
+    for (layer, z) in parts(cells, 2) {
+        for (row, y) in parts(cells, 1) {
+            for (column, _) in parts(cells, 0) {
+                if f((layer * across[1] + row) * across[0] + column, Rows { column, y, z }) {
+                    return true;
+                }
+            }
+        }
+    }
+    false
+}
+
+/// Changes a brick slab by slab, and counts the cells that `change` returns, and those of them that the target wants.
+#[inline]
+fn counted(
+    voxels: &Voxels,
+    target: &Plane,
+    rows: Rows,
+    mut change: impl FnMut(usize, &Slab) -> Slab,
+) -> [i64; 2] {
+    let mut all = [Ones::default(); 2];
+    rows.any_slab(voxels, |slab, cells| {
+        let changed = change(slab, cells);
+        all[0].add(&changed);
+        all[1].add(&both(&changed, target, slab));
+        false
+    });
+    all.map(Ones::sum)
+}
+
+/// Numbers of set bits of slabs, eight at most: each byte counts sixteen bits of a slab.
+#[derive(Clone, Copy, Default)]
+struct Ones([u64; 4]);
+
+impl Ones {
+    #[inline]
+    fn add(&mut self, words: &Slab) {
+        let twos = |word: u64| word.wrapping_sub(word >> 1 & 0x5555_5555_5555_5555);
+        let fours = |word: u64| {
+            let twos = twos(word);
+            (twos & 0x3333_3333_3333_3333).wrapping_add(twos >> 2 & 0x3333_3333_3333_3333)
+        };
+        self.0 = std::array::from_fn(|k| {
+            let sum = fours(words[k]).wrapping_add(fours(words[k + 4]));
+            let bytes = (sum & 0x0f0f_0f0f_0f0f_0f0f).wrapping_add(sum >> 4 & 0x0f0f_0f0f_0f0f_0f0f);
+            self.0[k].wrapping_add(bytes)
+        });
+    }
+
+    #[inline]
+    fn sum(self) -> i64 {
+        const HALVES: u64 = 0x00ff_00ff_00ff_00ff;
+        let pairs = self.0.iter().map(|word| (word & HALVES).wrapping_add(word >> 8 & HALVES));
+        (pairs.fold(0, u64::wrapping_add).wrapping_mul(0x0001_0001_0001_0001) >> 48) as i64
+    }
+}
+
+/// Those of `cells` that slab `slab` of the target has, too.
+#[inline]
+pub(super) fn both(cells: &Slab, target: &Plane, slab: usize) -> Slab {
+    let target = &target.as_chunks::<8>().0[slab];
+    std::array::from_fn(|y| cells[y] & target[y])
+}
+
+/// Number of set bits.
+#[inline]
+pub(super) fn ones(words: &Slab) -> i64 {
+    // At most 512: without a check at each word the loop is four instructions wide.
+    words.iter().fold(0u64, |sum, word| sum.wrapping_add(u64::from(word.count_ones()))) as i64
 }
 
 /// The cells of `voxels` as planes, brick by brick.
 pub fn planes_of(voxels: &Voxels, dims: [usize; 3]) -> Vec<Plane> {
     let across = bricks_of(dims);
     let mut planes = vec![[0; 64]; across.iter().product()];
-    visit(&voxels.cells, across, |index, column, words| {
-        for (word, y, z) in words {
-            planes[index][word] = voxels.word(column, y, z);
-        }
+    any_brick(voxels.cells, across, |index, rows| {
+        rows.any_slab(voxels, |slab, cells| {
+            planes[index].as_chunks_mut().0[slab] = *cells;
+            false
+        })
     });
     planes
+}
+
+#[cfg(test)]
+mod tests {
+    //! Slabs are counted right up to a full brick.
+    use super::{Ones, ones};
+
+    #[test]
+    fn a_full_brick_has_4096_cells() {
+        let mut all = Ones::default();
+        (0..8).for_each(|_| all.add(&[u64::MAX; 8]));
+        assert_eq!(all.sum(), 4096);
+        let words = std::array::from_fn(|k| 0x9e37_79b9_7f4a_7c15_u64.rotate_left(7 * k as u32) << k);
+        let mut some = Ones::default();
+        some.add(&words);
+        assert_eq!(some.sum(), ones(&words));
+    }
 }

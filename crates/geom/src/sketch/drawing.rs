@@ -272,7 +272,7 @@ impl Sketch for DrawingMatch {
             });
             self.outside.add(shape, &drawing.page);
         }
-        self.bag.add(primitive, covers);
+        self.bag.add(primitive, || covers);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

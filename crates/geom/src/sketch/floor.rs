@@ -64,7 +64,7 @@ impl Sketch for Floor {
 
     fn add(&mut self, primitive: &Primitive) {
         self.below += self.below(primitive);
-        self.bag.add(primitive, ());
+        self.bag.add(primitive, || ());
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

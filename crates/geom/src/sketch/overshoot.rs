@@ -80,7 +80,7 @@ impl Sketch for Overshoot {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        self.bag.add(primitive, ());
+        self.bag.add(primitive, || ());
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

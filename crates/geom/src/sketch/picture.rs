@@ -345,7 +345,7 @@ impl Sketch for PictureMatch {
                 *right += picture.amount(word, new & picture.on[word]);
             });
         }
-        self.bag.add(primitive, covers);
+        self.bag.add(primitive, || covers);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

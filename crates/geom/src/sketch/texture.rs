@@ -296,7 +296,7 @@ impl Sketch for TextureMatch {
                 own.outside.add(shape, &own.texture.page);
             }
         });
-        self.bag.add(primitive, covers);
+        self.bag.add(primitive, || covers);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

@@ -22,13 +22,13 @@ impl Tiles {
 
     /// Adds one to every ray of `cover`; `each` gets the rays of each word that met nothing before.
     pub fn add(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
-        self.visit(cover, |brick, word, rays| each(word, brick.raise(word % TILE, rays)));
+        self.visit(cover, |brick, word, rays| each(word, brick.raise(word % TILE, &[rays])[0]));
     }
 
     /// Subtracts one from every ray of `cover`, all of which must have one; `each` gets the rays of each word that
     /// meet nothing now.
     pub fn remove(&mut self, cover: &Cover, mut each: impl FnMut(usize, u64)) {
-        self.visit(cover, |brick, word, rays| each(word, brick.lower(word % TILE, rays)));
+        self.visit(cover, |brick, word, rays| each(word, brick.lower(word % TILE, &[rays])[0]));
         let tiles = Arc::make_mut(&mut self.0);
         for words in cover.words().chunk_by(|a, b| a.0 as usize / TILE == b.0 as usize / TILE) {
             let tile = &mut tiles[words[0].0 as usize / TILE];

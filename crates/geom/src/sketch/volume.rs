@@ -10,8 +10,8 @@
 //! overshoot is a sum over the sides, as in the original's code; its text has the maximum.
 
 use super::bag::Bag;
-use super::brick::Plane;
-use super::counters::{Counters, bricks_at, bricks_of, planes_of, visit};
+use super::brick::{Plane, any};
+use super::counters::{Counters, any_brick, both, bricks_of, ones, planes_of};
 use super::overshoot::overshoot;
 use super::{Sketch, SketchSpec, log_normal, share};
 use crate::bounds::Aabb;
@@ -83,22 +83,21 @@ impl Target {
     /// Number of cells that the target and `voxels`, of the same grid, both fill.
     pub fn shared_with(&self, voxels: &Voxels) -> u64 {
         let mut shared = 0;
-        visit(&voxels.cells, bricks_of(self.grid.dims()), |index, column, words| {
-            let plane = &self.planes[index];
-            let both = words.map(|(word, y, z)| (plane[word], y, z)).filter(|(cells, ..)| *cells != 0);
-            shared += both
-                .map(|(cells, y, z)| u64::from((cells & voxels.word(column, y, z)).count_ones()))
-                .sum::<u64>();
+        any_brick(voxels.cells, bricks_of(self.grid.dims()), |index, rows| {
+            let target = &self.planes[index];
+            rows.any_slab(voxels, |slab, cells| {
+                shared += ones(&both(cells, target, slab));
+                false
+            })
         });
-        shared
+        shared as u64
     }
 
     /// True when the target and `voxels`, of the same grid, both fill some cell.
     pub fn meets(&self, voxels: &Voxels) -> bool {
-        let mut bricks = bricks_at(&voxels.cells, bricks_of(self.grid.dims()));
-        bricks.any(|(index, column, mut words)| {
-            let plane = &self.planes[index];
-            words.any(|(word, y, z)| plane[word] != 0 && plane[word] & voxels.word(column, y, z) != 0)
+        any_brick(voxels.cells, bricks_of(self.grid.dims()), |index, rows| {
+            let target = &self.planes[index];
+            rows.any_slab(voxels, |slab, cells| any(&both(cells, target, slab)))
         })
     }
 
@@ -210,8 +209,13 @@ impl VolumeMatch {
 }
 
 /// The cells that each shape fills, but for those that fill none.
+fn voxels_of(primitive: &Primitive, grid: &Grid) -> impl Iterator<Item = Voxels> {
+    primitive.shapes().iter().filter_map(|shape| Voxels::of(shape, grid))
+}
+
+/// The same, all of them.
 fn filled_by(primitive: &Primitive, grid: &Grid) -> Arc<[Voxels]> {
-    primitive.shapes().iter().filter_map(|shape| Voxels::of(shape, grid)).collect()
+    voxels_of(primitive, grid).collect()
 }
 
 impl Clone for VolumeMatch {
@@ -252,13 +256,20 @@ impl Sketch for VolumeMatch {
     }
 
     fn add(&mut self, primitive: &Primitive) {
-        let filled = filled_by(primitive, &self.target.grid);
-        for voxels in &*filled {
-            let change = self.counters.add(voxels, &self.target.planes);
+        let VolumeMatch { target, counters, bag, .. } = self;
+        let mut fill = |voxels: &Voxels| {
+            let change = counters.add(voxels, &target.planes);
             self.filled += change.filled;
             self.inside += change.inside;
+        };
+        if bag.keeps_marks() {
+            let filled = filled_by(primitive, &target.grid);
+            filled.iter().for_each(fill);
+            bag.add(primitive, || filled);
+        } else {
+            voxels_of(primitive, &target.grid).for_each(|voxels| fill(&voxels));
+            bag.add(primitive, || filled_by(primitive, &target.grid));
         }
-        self.bag.add(primitive, filled);
     }
 
     fn remove(&mut self, primitive: &Primitive) -> bool {

@@ -48,11 +48,12 @@ enum Kind {
 impl Voxels {
     /// Cells of `grid` that `shape` fills; `None` when it fills none.
     pub fn of(shape: &Shape, grid: &Grid) -> Option<Voxels> {
+        if shape.is_aligned_box() {
+            return grid.cells_of(shape.aabb()).map(Voxels::block);
+        }
         let Some(convex) = shape.convex() else { return Voxels::of_mesh(&shape.world_mesh(), grid) };
         let cells = grid.cells_of(shape.aabb())?;
-        let kind =
-            if shape.is_aligned_box() { Kind::Block } else { Kind::Rows(slabs::rows(&convex, grid, &cells)) };
-        Some(Voxels { cells, kind })
+        Some(Voxels { cells, kind: Kind::Rows(slabs::rows(&convex, grid, &cells)) })
     }
 
     /// Every cell of a box.
@@ -83,6 +84,25 @@ impl Voxels {
             }
         };
         run(column, first, last)
+    }
+
+    /// Cells `64 * column ..` of the rows from `first` to `last` at `z`: that of row `y` is word `y % 8`, others are zero. The rows must lie in
+    /// the box, and among eight that begin at a multiple of eight.
+    #[inline(always)]
+    pub fn slab(&self, column: usize, [first, last]: [usize; 2], z: usize) -> [u64; 8] {
+        let mut words = [0; 8];
+        let rows = &mut words[first % 8..=last % 8];
+        match &self.kind {
+            Kind::Block => rows.fill(run(column, self.cells.low[0], self.cells.high[0])),
+            _ => rows.iter_mut().zip(first..).for_each(|(word, y)| *word = self.word(column, y, z)),
+        }
+        words
+    }
+
+    /// True when every cell of the box is filled.
+    #[inline]
+    pub fn is_block(&self) -> bool {
+        matches!(self.kind, Kind::Block)
     }
 
     /// True when the cell is filled.
