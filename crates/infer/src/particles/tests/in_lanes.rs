@@ -72,7 +72,7 @@ const TOGETHER: [(&str, &str); 6] = [
 ];
 
 /// Programs whose particles part: at a jump, by a fault of some, by a score of minus infinity, at what lanes do not do.
-const APART: [(&str, &str); 5] = [
+const APART: [(&str, &str); 6] = [
     (
         "a jump between barriers that some take",
         r#"(module (fn "m" (params) (set $x 0.0)
@@ -89,6 +89,14 @@ const APART: [(&str, &str); 5] = [
                 (set $x (sample (dist gaussian $x 1.0)))
                 (do (factor (mul -0.1 (abs $x))))
                 (do (condition (or (lt (mod $i 7) 5) (gt $x -1.0))))))
+              (return $x)) (entry "m"))"#,
+    ),
+    (
+        "an observation that is impossible for some",
+        r#"(module (fn "m" (params) (set $x 0.0)
+              (for $i (range 15) (body
+                (set $x (sample (dist gaussian $x 0.4)))
+                (do (observe (dist uniform -1.5 1.5) $x))))
               (return $x)) (entry "m"))"#,
     ),
     (
