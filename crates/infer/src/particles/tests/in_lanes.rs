@@ -6,7 +6,7 @@ use super::*;
 use crate::Failure;
 
 /// Programs in which all particles stay together, and what lanes do in them.
-const TOGETHER: [(&str, &str); 6] = [
+const TOGETHER: [(&str, &str); 7] = [
     (
         "numbers of all kinds, and functions of them",
         r#"(module (fn "bent" (params $x $k) (return (add (mul $k (sin $x)) (sqrt (add 1 (mul $x $x))))))
@@ -64,6 +64,14 @@ const TOGETHER: [(&str, &str); 6] = [
             (entry "m"))"#,
     ),
     (
+        "a list that grows, of what differs",
+        r#"(module (fn "m" (params) (set $xs (list)) (set $x 0.0)
+              (for $i (range 400) (body
+                (set $x (sample (dist gaussian $x 1.0))) (set $xs (append $xs $x))
+                (do (factor (mul -0.01 (abs $x))))))
+              (return $x)) (entry "m"))"#,
+    ),
+    (
         "a result that all share",
         r#"(module (fn "m" (params)
               (for $i (range 3) (body (set $x (sample (dist gaussian 0.0 1.0))) (do (factor (neg (abs $x))))))
@@ -72,7 +80,7 @@ const TOGETHER: [(&str, &str); 6] = [
 ];
 
 /// Programs whose particles part: at a jump, by a fault of some, by a score of minus infinity, at what lanes do not do.
-const APART: [(&str, &str); 6] = [
+const APART: [(&str, &str); 8] = [
     (
         "a jump between barriers that some take",
         r#"(module (fn "m" (params) (set $x 0.0)
@@ -89,6 +97,16 @@ const APART: [(&str, &str); 6] = [
                 (set $x (sample (dist gaussian $x 1.0)))
                 (do (factor (mul -0.1 (abs $x))))
                 (do (condition (or (lt (mod $i 7) 5) (gt $x -1.0))))))
+              (return $x)) (entry "m"))"#,
+    ),
+    (
+        "barriers at two places",
+        r#"(module (fn "m" (params) (set $x 0.0)
+              (for $i (range 40) (body
+                (set $b (sample (dist bernoulli 0.5)))
+                (if (and (gt $i 5) $b)
+                  (then (do (factor (mul -0.01 (abs $x)))) (set $x (add $x 1)))
+                  (else (do (factor (mul -0.02 (abs $x)))) (set $x (sub $x 2))))))
               (return $x)) (entry "m"))"#,
     ),
     (
@@ -116,6 +134,14 @@ const APART: [(&str, &str); 6] = [
                 (do (observe (dist gaussian $x 1.0) 1.0))
                 (if (eq (mod $i 4) 3) (then (do (emit (box (vec $x 0 0) (vec 1 1 1))))))))
               (return $x)) (entry "m"))"#,
+    ),
+    (
+        "a division by zero of some, whose result is bounded",
+        r#"(module (fn "m" (params) (set $n 4)
+              (for $i (range 12) (body
+                (set $n (add $n (sample (dist discrete_uniform -1 1))))
+                (do (factor (min 0.5 (div 1.0 $n))))))
+              (return $n)) (entry "m"))"#,
     ),
     (
         "a fault of some",
@@ -190,7 +216,9 @@ fn lanes_say_what_particles_say() {
 #[test]
 fn limits_stop_lanes_as_they_stop_particles() {
     for (name, text) in TOGETHER {
-        for (steps, bytes) in [(7, 1 << 30), (20, 1 << 30), (100_000, 40 << 10), (100_000, 200 << 10)] {
+        for (steps, bytes) in
+            [(7, 1 << 30), (20, 1 << 30), (100_000, 40 << 10), (100_000, 200 << 10), (100_000, 300 << 10)]
+        {
             let mut own = task(text);
             (own.limits.steps, own.limits.bytes) = (steps, bytes);
             agree(name, &own);
