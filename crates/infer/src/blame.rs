@@ -6,6 +6,7 @@ use crate::replay::{Missing, Part, Source, by_address, replay};
 use niwaki_geom::Primitive;
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -64,27 +65,30 @@ impl Emitted {
 /// else made impossible have none.
 pub(crate) fn blame(task: &Task, runs: &[Dead]) -> (Vec<Blame>, usize) {
     let mut counts: BTreeMap<_, Blame> = BTreeMap::new();
-    for Dead { cause, entries } in runs {
-        // Of the scores only the constraint is computed.
-        let sketches: Vec<_> = task.sketches.iter().filter(|own| own.name() == cause).cloned().collect();
-        if sketches.is_empty() {
-            continue;
-        }
-        let own = Task { sketches, ..task.uncounted() };
-        let Ok(trace) = replay(&own, Source::Addresses(by_address(entries)), Missing::Stop) else {
-            continue;
-        };
-        let Some((part, other)) = first_forbidden(&own.sketches, &trace.parts) else { continue };
-        let (part, other) = (Emitted::of(part), other.map(Emitted::of));
+    let all: Vec<Option<Blame>> = runs.par_iter().map(|run| blame_in(task, run)).collect();
+    for blame in all.into_iter().flatten() {
         // A pair is the same pair in either order.
-        let mut key = [Some(part.place()), other.as_ref().map(Emitted::place)];
-        key.sort();
-        let blame = Blame { constraint: cause.clone(), part, other, runs: 0 };
-        counts.entry((cause, key)).or_insert(blame).runs += 1;
+        let mut places = [Some(blame.part.place()), blame.other.as_ref().map(Emitted::place)];
+        places.sort();
+        counts.entry((blame.constraint.clone(), places)).or_insert(blame).runs += 1;
     }
     let mut found: Vec<Blame> = counts.into_values().collect();
     found.sort_by_key(|one| std::cmp::Reverse(one.runs));
     (found, runs.len())
+}
+
+/// That of one run, not counted yet.
+fn blame_in(task: &Task, Dead { cause, entries }: &Dead) -> Option<Blame> {
+    // Of the scores only the constraint is computed.
+    let sketches: Vec<_> = task.sketches.iter().filter(|own| own.name() == cause).cloned().collect();
+    if sketches.is_empty() {
+        return None;
+    }
+    let own = Task { sketches, ..task.uncounted() };
+    let trace = replay(&own, Source::Addresses(by_address(entries)), Missing::Stop).ok()?;
+    let (part, other) = first_forbidden(&own.sketches, &trace.parts)?;
+    let (part, other) = (Emitted::of(part), other.map(Emitted::of));
+    Some(Blame { constraint: cause.clone(), part, other, runs: 0 })
 }
 
 /// The first part, in the order of the program, with which the scene is forbidden; and where that part alone is not, a part
