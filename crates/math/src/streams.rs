@@ -61,7 +61,7 @@ pub struct Stream {
     block: u64,
     /// The last block, and how much of it is not used.
     words: [u64; 2],
-    left: u32,
+    left: u64,
 }
 
 /// The part of the key that all choices of a stream share: it is mixed once for many draws.

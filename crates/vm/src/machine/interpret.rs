@@ -12,6 +12,7 @@ use crate::builtins;
 use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
 use crate::core::readable;
 use crate::fault::Fault;
+use crate::value::index::index_ref;
 use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
@@ -247,7 +248,12 @@ impl<S: Scalar> Machine<'_, S> {
                     {
                         slot!(to, store_int, Value::Int, z);
                     } else if op == Binary::Index {
-                        put!(to, check!(operate::values(op, x, y)));
+                        // Most elements are numbers, which are not moved through memory.
+                        match index_ref(x, y) {
+                            Some(&Value::Real(x)) => slot!(to, store_real, Value::Real, x),
+                            Some(&Value::Int(n)) => slot!(to, store_int, Value::Int, n),
+                            _ => put!(to, check!(operate::values(op, x, y))),
+                        }
                     } else {
                         put!(to, check!(self.operate(state, keep, r!(), op, (a, b))));
                     }
@@ -284,20 +290,39 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Site { site: number } if K::KEEPS => {
                     keep.at(pc);
-                    match keep.site(self, state, answers, r!(), node, number) {
-                        Ok(After::Next) => {}
-                        Ok(After::Enter(inner, at)) => {
-                            step!();
-                            enter!(inner, at);
+                    let site = &f.sites[number.0 as usize];
+                    match site.kind {
+                        SiteKind::Sample(_) => match keep.choose(self, state, answers, r!(), node, number) {
+                            Ok(next) if next == pc + 1 => {}
+                            Ok(next) => {
+                                pc = next;
+                                continue;
+                            }
+                            Err(halt) => stop!(halt, site),
+                        },
+                        SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
+                            match keep.factor(self, state, r!(), node, number) {
+                                Ok(()) => {}
+                                Err(halt) => stop!(halt, site),
+                            }
                         }
-                        Ok(After::Goto(next)) => {
-                            pc = next as usize;
-                            continue;
-                        }
-                        Ok(After::Pure { function, to, as_future }) => call_pure!(function, to, as_future),
-                        Ok(After::Stop(stop)) => return Ok(stop),
-                        Ok(After::Entered) => unreachable!("only lanes enter a function by themselves"),
-                        Err(halt) => stop!(halt, f.sites[number.0 as usize]),
+                        _ => match keep.suspend(self, state, r!(), node, number) {
+                            Ok(After::Next) => {}
+                            Ok(After::Enter(inner, at)) => {
+                                step!();
+                                enter!(inner, at);
+                            }
+                            Ok(After::Goto(next)) => {
+                                pc = next as usize;
+                                continue;
+                            }
+                            Ok(After::Pure { function, to, as_future }) => {
+                                call_pure!(function, to, as_future)
+                            }
+                            Ok(After::Stop(stop)) => return Ok(stop),
+                            Ok(After::Entered) => unreachable!("only lanes enter a function by themselves"),
+                            Err(halt) => stop!(halt, site),
+                        },
                     }
                     if native!(pc + 1) {
                         continue;

@@ -52,13 +52,33 @@ pub(super) trait Keep<S: Scalar>: Sized {
     /// The current instruction.
     fn at(&mut self, pc: usize);
 
-    /// Carries out a site.
+    /// Carries out a choice: the instruction at which to continue.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
-    fn site<A: Answers<S>>(
+    fn choose<A: Answers<S>>(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         answers: &mut A,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+    ) -> Result<usize, Halt>;
+
+    /// Carries out a factor.
+    fn factor(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+    ) -> Result<(), Halt>;
+
+    /// Carries out a site that is neither.
+    fn suspend(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
         r: Registers<'_, S>,
         node: NodeId,
         number: SiteId,
@@ -146,11 +166,33 @@ impl<S: Scalar> Keep<S> for Dropped {
 
     fn at(&mut self, _: usize) {}
 
-    fn site<A: Answers<S>>(
+    fn choose<A: Answers<S>>(
         &mut self,
         _: &mut Machine<'_, S>,
         _: &mut State<S>,
         _: &mut A,
+        _: Registers<'_, S>,
+        _: NodeId,
+        _: SiteId,
+    ) -> Result<usize, Halt> {
+        Ok(0)
+    }
+
+    fn factor(
+        &mut self,
+        _: &mut Machine<'_, S>,
+        _: &mut State<S>,
+        _: Registers<'_, S>,
+        _: NodeId,
+        _: SiteId,
+    ) -> Result<(), Halt> {
+        Ok(())
+    }
+
+    fn suspend(
+        &mut self,
+        _: &mut Machine<'_, S>,
+        _: &mut State<S>,
         _: Registers<'_, S>,
         _: NodeId,
         _: SiteId,

@@ -269,7 +269,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
         let (own, outer) = self.bases(state, f, node);
         kept.enter(state, node);
-        if kept.factor(self, state, Registers { f, own, outer, scratch: 0 }, node, number, site).is_err() {
+        if kept.factor(self, state, Registers { f, own, outer, scratch: 0 }, node, number).is_err() {
             return false;
         }
         kept.counters.entered += 1;

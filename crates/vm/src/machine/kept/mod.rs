@@ -452,7 +452,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
     }
 
     #[inline(never)]
-    fn site<A: Answers<S>>(
+    fn choose<A: Answers<S>>(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
@@ -460,8 +460,38 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         r: Registers<'_, S>,
         node: NodeId,
         number: SiteId,
+    ) -> Result<usize, Halt> {
+        let site = &r.f.sites[number.0 as usize];
+        let drawn = self.choose_again(machine, state, answers, r, node, number, site)?;
+        match self.after(r.f, site, drawn) {
+            _ if self.tangled => Err(Halt::Impossible),
+            After::Goto(next) => Ok(next as usize),
+            _ => Ok(self.pc as usize + 1),
+        }
+    }
+
+    #[inline(never)]
+    fn factor(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
+    ) -> Result<(), Halt> {
+        self.score_again(machine, state, r, node, number, &r.f.sites[number.0 as usize])
+    }
+
+    #[inline(never)]
+    fn suspend(
+        &mut self,
+        machine: &mut Machine<'_, S>,
+        state: &mut State<S>,
+        r: Registers<'_, S>,
+        node: NodeId,
+        number: SiteId,
     ) -> Result<After, Halt> {
-        let after = self.carry_out(machine, state, answers, r, node, number)?;
+        let after = self.carry_out(machine, state, r, node, number)?;
         if self.tangled { Err(Halt::Impossible) } else { Ok(after) }
     }
 

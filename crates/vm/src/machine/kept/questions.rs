@@ -100,27 +100,18 @@ impl<S: Scalar> Kept<S> {
         total.replace(old.log, log);
     }
 
-    /// Carries out a site.
+    /// Carries out a site that is neither a choice nor a factor.
     #[inline(always)]
-    pub(super) fn carry_out<A: Answers<S>>(
+    pub(super) fn carry_out(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
-        answers: &mut A,
         r: Registers<'_, S>,
         node: NodeId,
         number: SiteId,
     ) -> Result<After, Halt> {
         let site = &r.f.sites[number.0 as usize];
         match &site.kind {
-            SiteKind::Sample(_) => {
-                let drawn = self.choose(machine, state, answers, r, node, number, site)?;
-                Ok(self.after(r.f, site, drawn))
-            }
-            SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
-                self.factor(machine, state, r, node, number, site)?;
-                Ok(After::Next)
-            }
             SiteKind::Call { function } | SiteKind::Future { function, .. } => {
                 self.call_known(machine, state, r, node, number, site, *function)
             }
@@ -173,13 +164,17 @@ impl<S: Scalar> Kept<S> {
                 self.emit(at, &machine.shapes);
                 Ok(After::Next)
             }
+            SiteKind::Sample(_) | SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
+                unreachable!("choices and factors are carried out apart")
+            }
         }
     }
 
     /// A choice keeps its value when family and dimension are unchanged, and is scored again; else it is drawn, and
     /// the answer is true.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
-    fn choose<A: Answers<S>>(
+    #[inline(always)]
+    pub(super) fn choose_again<A: Answers<S>>(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
@@ -269,8 +264,9 @@ impl<S: Scalar> Kept<S> {
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
     }
 
+    /// Reaches a factor.
     #[inline(always)]
-    pub(super) fn factor(
+    pub(super) fn score_again(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
