@@ -50,8 +50,7 @@ impl<S: Scalar> Kept<S> {
         if !self.sites.is_on(state.nodes[node.0 as usize].function, u32::from(number.0)) {
             for (i, o) in operands.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o).clone();
-                let old = std::mem::replace(&mut state.registers[to + i], value);
-                self.journal.registers.push(((to + i) as u32, old));
+                self.journal.set(&mut state.registers[to + i], to + i, value);
             }
             return Ok(self.enter_call(child, 0));
         }
@@ -60,8 +59,7 @@ impl<S: Scalar> Kept<S> {
             let value = r.get(state, &machine.scratch, *o);
             if !same(value, &state.registers[to + i]) {
                 let value = value.clone();
-                let old = std::mem::replace(&mut state.registers[to + i], value);
-                self.journal.registers.push(((to + i) as u32, old));
+                self.journal.set(&mut state.registers[to + i], to + i, value);
                 changed.add(inputs[i]);
             }
         }

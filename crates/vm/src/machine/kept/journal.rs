@@ -101,6 +101,12 @@ impl<S: Scalar> Journal<S> {
         self.has_more
     }
 
+    /// Puts a value into a register, by its number, and notes what was there.
+    #[inline(always)]
+    pub fn set(&mut self, register: &mut Value<S>, place: usize, value: Value<S>) {
+        self.registers.push((place as u32, std::mem::replace(register, value)));
+    }
+
     /// Bytes of its entries, without what values hold.
     pub fn bytes(&self) -> usize {
         fn of<T>(entries: &[T]) -> usize {

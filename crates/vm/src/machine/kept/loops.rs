@@ -234,8 +234,7 @@ impl<S: Scalar> Kept<S> {
                     let value = r.get(state, &machine.scratch, *o);
                     if !same(value, &state.registers[to + k]) {
                         let value = value.clone();
-                        let old = std::mem::replace(&mut state.registers[to + k], value);
-                        self.journal.registers.push(((to + k) as u32, old));
+                        self.journal.set(&mut state.registers[to + k], to + k, value);
                         changed.add(r.f.inputs[first + k]);
                     }
                 }

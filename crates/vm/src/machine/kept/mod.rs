@@ -310,8 +310,7 @@ impl<S: Scalar> Kept<S> {
         if node_is_new {
             register.store(value);
         } else {
-            let old = std::mem::replace(register, value);
-            self.journal.registers.push((place as u32, old));
+            self.journal.set(register, place, value);
         }
         true
     }
@@ -446,8 +445,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
             _ => false,
         };
         if !unchanged {
-            let old = std::mem::replace(register, value);
-            self.journal.registers.push((place as u32, old));
+            self.journal.set(register, place, value);
         }
     }
 

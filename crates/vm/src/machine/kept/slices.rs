@@ -70,8 +70,7 @@ impl<S: Scalar> Kept<S> {
             return After::Next;
         }
         let value = value.clone();
-        let old = std::mem::replace(&mut state.registers[place], value);
-        self.journal.registers.push((place as u32, old));
+        self.journal.set(&mut state.registers[place], place, value);
         self.call_again(state, child, Entry::One(machine.program.function(function).inputs[arg as usize]))
     }
 
