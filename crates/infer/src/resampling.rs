@@ -41,11 +41,11 @@ impl Resampling {
         match self {
             Resampling::Systematic | Resampling::Tempered => {
                 let u = random.uniform();
-                place(weights, total, |k| (k as f64 + u) / n as f64)
+                place(weights, total, ROUNDED, |k| (k as f64 + u) / n as f64)
             }
             Resampling::Stratified => {
                 let us: Vec<f64> = (0..n).map(|_| random.uniform()).collect();
-                place(weights, total, |k| (k as f64 + us[k]) / n as f64)
+                place(weights, total, 1.0, |k| (k as f64 + us[k]) / n as f64)
             }
             Resampling::Multinomial => multinomial(weights, n, random),
             Resampling::Residual => {
@@ -70,10 +70,13 @@ fn count(among: std::ops::Range<usize>, has: impl Fn(usize) -> bool) -> usize {
     among.take_while(|k| has(*k)).count()
 }
 
+/// What rounding may move a point by, in distances of points: for fewer than a thousand million of them.
+const ROUNDED: f64 = 1e-6;
+
 /// Counts how many of the increasing points `at(0), at(1), ...` are in each particle's share: the points up to its end less
-/// those up to the end of the one before. Where the points have about equal distances, the number up to an end is known
-/// but for rounding.
-fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
+/// those up to the end of the one before. The points are off equal distances by at most `off` of one, so the number up to an
+/// end is known where no point is that near.
+fn place(weights: &[f64], total: f64, off: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     let n = weights.len();
     let mut copies = vec![0; n];
     let last = weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
@@ -82,8 +85,11 @@ fn place(weights: &[f64], total: f64, at: impl Fn(usize) -> f64) -> Vec<usize> {
     for (copies, weight) in copies[..last].iter_mut().zip(weights) {
         cumulative += weight;
         let is_within = |k: usize| at(k) * total <= cumulative;
-        let mut within = ((cumulative * scale - offset + 1.0) as usize).clamp(before, n);
-        if within < n && is_within(within) || within > before && !is_within(within - 1) {
+        let about = cumulative * scale - offset + 1.0;
+        let mut within = (about as usize).clamp(before, n);
+        let past = about - within as f64;
+        let is_near = !(past > off && past < 1.0 - off);
+        if is_near && (within < n && is_within(within) || within > before && !is_within(within - 1)) {
             within = before + count(before..n, is_within);
         }
         (*copies, before) = (within - before, within);
@@ -120,10 +126,18 @@ pub(crate) fn conditional_multinomial(weights: &[f64], kept: usize, random: &mut
 }
 
 /// Parent and index of each further copy, parents ascending.
-pub(crate) fn further_copies(copies: &[usize]) -> impl Iterator<Item = (usize, usize)> {
-    let mut free = copies.iter().enumerate().filter(|(_, c)| **c == 0).map(|(index, _)| index);
-    let parents = copies.iter().enumerate().flat_map(|(parent, &count)| (1..count).map(move |_| parent));
-    parents.map_while(move |parent| free.next().map(|to| (parent, to)))
+pub(crate) fn further_copies(copies: &[usize]) -> Vec<(usize, usize)> {
+    let (mut moves, mut free) = (Vec::with_capacity(copies.len()), 0);
+    for (parent, &count) in copies.iter().enumerate() {
+        for _ in 1..count {
+            while copies.get(free).is_some_and(|count| *count > 0) {
+                free += 1;
+            }
+            moves.push((parent, free));
+            free += 1;
+        }
+    }
+    moves
 }
 
 /// Two different particles.

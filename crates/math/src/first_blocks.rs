@@ -5,7 +5,7 @@
 //! The proposals of a Markov chain that come next have addresses of their own.
 #![allow(unsafe_code)] // Code for processors with AVX2, called where the processor has it.
 
-use crate::streams::{MULTIPLIER, Stream, StreamKey, WEYL, mix};
+use crate::streams::{MULTIPLIER, Stream, StreamKey, WEYL, mix, unit};
 
 /// The random bits of one address in many streams: their first blocks are made together, several at once.
 ///
@@ -34,6 +34,12 @@ impl FirstBlocks {
             return unsafe { make_avx2(address, keys, &mut self.words) };
         }
         make::<4>(address, keys, &mut self.words);
+    }
+
+    /// The first uniform of each stream, as [`Stream::uniform`] makes it.
+    #[inline(always)]
+    pub fn uniforms(&self) -> impl Iterator<Item = f64> {
+        self.words.iter().map(|words| unit(words[0]))
     }
 
     /// The bits of the `lane`-th stream.
@@ -150,11 +156,13 @@ mod tests {
             let mut blocks = FirstBlocks::default();
             for address in [0, 77, u128::MAX, 0x0123_4567_89AB_CDEF_0011_2233_4455_6677] {
                 blocks.make(&keys, address);
+                let mut uniforms = blocks.uniforms();
                 for (lane, key) in keys.iter().enumerate() {
                     let (mut begun, mut plain) = (blocks.stream(&keys, lane), key.at(address));
                     let mut narrow = Vec::new();
                     make::<4>(address, &keys, &mut narrow);
                     assert_eq!(narrow[lane], blocks.words[lane]);
+                    assert_eq!(uniforms.next(), Some(key.at(address).uniform()));
                     for _ in 0..7 {
                         assert_eq!(begun.next_u64(), plain.next_u64());
                     }

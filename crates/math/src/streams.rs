@@ -169,8 +169,14 @@ pub(crate) fn fill(bytes: &mut [u8], mut word: impl FnMut() -> u64) {
 /// A number in the open interval (0, 1) from 64 bits of `rng`.
 #[inline]
 pub fn open_unit(rng: &mut (impl RngCore + ?Sized)) -> f64 {
+    unit(rng.next_u64())
+}
+
+/// The number of these bits.
+#[inline(always)]
+pub(crate) fn unit(bits: u64) -> f64 {
     const STEP: f64 = 1.0 / (1u64 << 52) as f64;
-    ((rng.next_u64() >> 12) as f64 + 0.5) * STEP
+    ((bits >> 12) as f64 + 0.5) * STEP
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ impl Copies {
     /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts the
     /// lineages so far.
     pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
-        let moves: Vec<(usize, usize)> = further_copies(counts).collect();
+        let moves = further_copies(counts);
         let lineage = *lineages;
         // Lineages are assigned in this order, whatever thread copies.
         *lineages += moves.len() as u64;

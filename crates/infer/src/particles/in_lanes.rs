@@ -13,6 +13,7 @@ use super::resident::{Growth, values_to_recount};
 use crate::log::Log;
 use crate::particle::Particle;
 use crate::weights::near_log_step;
+use niwaki_math::distributions::Tables;
 use niwaki_math::total::NEAR;
 use niwaki_math::{Draw, FirstBlocks, StreamKey, grid};
 use niwaki_vm::machine::Machine;
@@ -22,6 +23,9 @@ use std::sync::Arc;
 
 /// Fewer particles than this run one by one.
 pub(super) const LEAST: usize = 16;
+
+/// Tables of the distributions that lanes share pay where each is drawn from this many times.
+const REPEATS: usize = 4;
 
 /// Choices that are stored before those that no particle descends from are looked for.
 const STORED: usize = 1 << 16;
@@ -213,24 +217,26 @@ impl Choices {
     /// The choices of each particle.
     fn logs(&mut self) -> Vec<Log> {
         self.drop_rows();
-        let mut logs = std::mem::take(&mut self.before);
+        let before = std::mem::take(&mut self.before);
+        // In boxes, because each moves from segment to segment; none is left out.
+        let mut logs: Vec<Option<Box<Log>>> = before.into_iter().map(|log| Some(Box::new(log))).collect();
         for segment in std::mem::take(&mut self.segments) {
             let mut uses = vec![0u32; logs.len()];
             segment.from.iter().for_each(|row| uses[*row as usize] += 1);
             let mut inherit = |row: &u32| {
                 let (uses, log) = (&mut uses[*row as usize], &mut logs[*row as usize]);
                 *uses -= 1;
-                if *uses == 0 { std::mem::take(log) } else { log.fork() }
+                if *uses == 0 { log.take() } else { log.as_mut().map(|log| Box::new(log.fork())) }
             };
-            let mut next: Vec<Log> = segment.from.iter().map(&mut inherit).collect();
-            for (row, log) in next.iter_mut().enumerate() {
+            let mut next: Vec<Option<Box<Log>>> = segment.from.iter().map(&mut inherit).collect();
+            for (row, log) in next.iter_mut().flatten().enumerate() {
                 for (address, column) in &segment.choices {
                     log.push(*address, column.get(row));
                 }
             }
             logs = next;
         }
-        logs
+        logs.into_iter().flatten().map(|log| *log).collect()
     }
 }
 
@@ -273,13 +279,52 @@ fn add(sum: &mut f64, log: f64) -> bool {
     sum.abs() < NEAR
 }
 
+/// Draws from tables, by the first uniform of each stream.
+fn draw_from(
+    tables: &Tables,
+    which: &[u32],
+    blocks: &FirstBlocks,
+    log_prior: &mut [f64],
+) -> Result<Vec<i64>, Apart> {
+    let (mut drawn, mut exact) = (Vec::with_capacity(log_prior.len()), true);
+    let mut sums = log_prior.iter_mut();
+    let mut take = |k, log| {
+        drawn.push(k);
+        exact &= sums.next().is_some_and(|sum| add(sum, log));
+    };
+    let uniforms = blocks.uniforms();
+    if which.is_empty() {
+        tables.draw(uniforms.map(|u| (0, u)), &mut take);
+    } else {
+        tables.draw(which.iter().map(|row| *row as usize).zip(uniforms), &mut take);
+    }
+    if exact { Ok(drawn) } else { Err(Apart) }
+}
+
+impl Drawing<'_> {
+    /// Stores the values of a choice.
+    fn note(&mut self, address: u128, column: Column) -> Column {
+        if let Some(last) = self.past.segments.last_mut() {
+            last.choices.push((address, column.clone()));
+            self.past.stored += self.streams.len();
+        }
+        column
+    }
+}
+
 impl LaneAnswers for Drawing<'_> {
     fn choices(&mut self, at: &At<'_, f64>, dists: Dists<'_>) -> Result<Column, Apart> {
         let (address, lanes) = (at.address(), self.streams.len());
-        let mut exact = true;
-        let sums = &mut *self.log_prior;
         self.blocks.make(self.streams, address);
-        let (streams, blocks) = (self.streams, &*self.blocks);
+        if let Some((all, which)) = dists.shared()
+            && all.len() * REPEATS <= lanes
+            && let Some(tables) = Tables::of(all)
+        {
+            let column = draw_from(&tables, which, self.blocks, self.log_prior)?;
+            return Ok(self.note(address, Column::Ints(Arc::new(column))));
+        }
+        let (streams, blocks, sums) = (self.streams, &*self.blocks, &mut *self.log_prior);
+        let mut exact = true;
         let mut draw = |lane: usize| {
             let (draw, log) = dists.get(lane).sample_and_score(&mut blocks.stream(streams, lane));
             exact &= add(&mut sums[lane], grid(log));
@@ -305,11 +350,7 @@ impl LaneAnswers for Drawing<'_> {
         if !exact {
             return Err(Apart);
         }
-        if let Some(last) = self.past.segments.last_mut() {
-            last.choices.push((address, column.clone()));
-            self.past.stored += lanes;
-        }
-        Ok(column)
+        Ok(self.note(address, column))
     }
 
     fn scores(&mut self, _: &At<'_, f64>, _: Factor, logs: Logs<'_>) -> Result<Answer<()>, Apart> {

@@ -13,6 +13,7 @@
 //! | `counts` | numbers of events |
 //! | `ranks` | where a whole number stands in its distribution, as a normal score |
 //! | `weights` | categorical, and the table of weights that mixtures share |
+//! | `tables` | categorical distributions side by side, for many draws |
 //! | `bell` | gaussian, and what becomes one by a logarithm |
 //! | `truncated` | truncated_gaussian |
 //! | `waiting` | waiting times |
@@ -44,6 +45,7 @@ mod lists;
 mod mixture;
 mod ranks;
 mod support;
+mod tables;
 mod tails;
 mod truncated;
 mod vectors;
@@ -61,5 +63,6 @@ pub use family::{Dist, Family, Space};
 pub use lists::{DiagonalGaussian, Multinomial};
 pub use mixture::Mixture;
 pub use support::Support;
+pub use tables::Tables;
 pub use vectors::MultivariateGaussian;
 pub use weights::Weights;

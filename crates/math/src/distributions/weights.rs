@@ -60,6 +60,11 @@ impl<S: Scalar> Weights<S> {
         &self.given
     }
 
+    /// Running sums of the probabilities; from the last possible choice on exactly 1.
+    pub(super) fn cumulative(&self) -> &[f64] {
+        &self.cumulative
+    }
+
     /// Log probability of choice `k`, nats; minus infinity for one that does not exist.
     #[inline]
     pub fn log_probability(&self, k: i64) -> S {

@@ -34,6 +34,15 @@ impl<'a> Dists<'a> {
             Dists::Each(all) => &all[lane],
         }
     }
+
+    /// Those that they share, and the number of each lane's; `None` where each has its own.
+    pub fn shared(&self) -> Option<(&[&'a Dist], &[u32])> {
+        match self {
+            Dists::Same(dist) => Some((std::slice::from_ref(dist), &[])),
+            Dists::Among(all, which) => Some((all, which)),
+            Dists::Each(_) => None,
+        }
+    }
 }
 
 /// The log scores of a factor, nats.
@@ -198,6 +207,12 @@ impl Run<'_, '_> {
                 found.with(|dists| {
                     if let (Dists::Same(dist), Side::All(value)) = (dists, &value) {
                         same = log_density(dist, value)?;
+                        return Ok(());
+                    }
+                    if let (Dists::Among(all, which), Side::All(value)) = (dists, &value) {
+                        let logs = all.iter().map(|dist| log_density(dist, value));
+                        let logs: Vec<f64> = logs.collect::<Result<_, _>>()?;
+                        each.extend(which.iter().map(|at| logs[*at as usize]));
                         return Ok(());
                     }
                     each.reserve(lanes);
