@@ -125,19 +125,22 @@ pub(crate) fn conditional_multinomial(weights: &[f64], kept: usize, random: &mut
     copies
 }
 
-/// Parent and index of each further copy, parents ascending.
+/// Parent and index of each further copy, parents ascending. The sum of `copies` is at most their number.
 pub(crate) fn further_copies(copies: &[usize]) -> Vec<(usize, usize)> {
-    let (mut moves, mut free) = (Vec::with_capacity(copies.len()), 0);
-    for (parent, &count) in copies.iter().enumerate() {
-        for _ in 1..count {
-            while copies.get(free).is_some_and(|count| *count > 0) {
-                free += 1;
-            }
-            moves.push((parent, free));
-            free += 1;
+    // Counts are noise, so a jump that depends on one is mostly guessed wrong: what is written too early is written again.
+    let n = copies.len();
+    let (mut parents, mut free) = (vec![0; n + 1], vec![0; n + 1]);
+    let (mut further, mut dead) = (0, 0);
+    for (index, &count) in copies.iter().enumerate() {
+        parents[further] = index;
+        if count > 2 {
+            parents[further..further + count - 1].fill(index);
         }
+        further += count.saturating_sub(1);
+        free[dead] = index;
+        dead += usize::from(count == 0);
     }
-    moves
+    parents[..further].iter().copied().zip(free).collect()
 }
 
 /// Two different particles.
@@ -154,6 +157,42 @@ pub(crate) fn pair<P>(particles: &mut [P], a: usize, b: usize) -> [&mut P; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn points_are_counted_in_the_share_that_they_are_in() {
+        let shapes: [fn(usize) -> f64; 4] =
+            [|_| 1.0, |i| (i % 3) as f64, |i| 0.3 + (i % 7) as f64, |i| f64::from(i == 5)];
+        for (n, weight) in [8, 10, 49, 1000].into_iter().flat_map(|n| shapes.map(|weight| (n, weight))) {
+            let weights: Vec<f64> = (0..n).map(weight).collect();
+            let total: f64 = weights.iter().sum();
+            for u in [0.0, 0.25, 0.5, 1.0 / 3.0, 0.999] {
+                let at = |k: usize| (k as f64 + u) / n as f64;
+                let mut ends = weights.iter().scan(0.0, |sum, w| {
+                    *sum += w;
+                    Some(*sum)
+                });
+                let last = weights.iter().rposition(|w| *w > 0.0).unwrap();
+                let ends: Vec<f64> = ends.by_ref().take(last).chain([f64::INFINITY]).collect();
+                let within = |end: f64| (0..n).filter(|k| at(*k) * total <= end).count();
+                let mut expected = vec![0; n];
+                let mut before = 0;
+                for (expected, end) in expected.iter_mut().zip(ends) {
+                    *expected = within(end) - before;
+                    before += *expected;
+                }
+                assert_eq!(place(&weights, total, ROUNDED, at), expected, "{n} points at {u}");
+            }
+        }
+    }
+
+    #[test]
+    fn further_copies_go_where_a_particle_died() {
+        let copies = [0, 3, 1, 0, 0, 2, 1, 4, 0, 0, 0];
+        let moves = [(1, 0), (1, 3), (5, 4), (7, 8), (7, 9), (7, 10)];
+        assert_eq!(further_copies(&copies), moves);
+        assert_eq!(further_copies(&[1; 5]), []);
+        assert_eq!(further_copies(&[0, 0, 3]), [(2, 0), (2, 1)]);
+    }
 
     /// Expected copies are `N w / sum w`. Each mean over 20,000 draws has a standard error of at most
     /// `sqrt(N p (1 - p) / 20000)`; five of them are exceeded once in 1.7 million, 20 means are looked at.

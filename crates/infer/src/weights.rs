@@ -23,7 +23,8 @@ impl Normalised {
             return false;
         }
         self.relative.clear();
-        self.relative.extend(logs.map(|w| (w - max).exp()));
+        let mut exps = Exps::default();
+        self.relative.extend(logs.map(|w| exps.of(w - max)));
         let (mut sum, mut squares) = (0.0, 0.0);
         for w in &self.relative {
             sum += w;
@@ -37,6 +38,32 @@ impl Normalised {
     /// The particle index into whose share of the total `u`, between 0 and 1, falls.
     pub fn index(&self, u: f64) -> usize {
         index(&self.relative, u)
+    }
+}
+
+/// `exp` of many numbers, of which many may be equal: scores of choices from a few are sums of a few.
+struct Exps {
+    /// Numbers with their `exp`, each at the place that its bits name.
+    known: [(f64, f64); Exps::SIZE],
+}
+
+impl Default for Exps {
+    fn default() -> Exps {
+        Exps { known: [(0.0, 1.0); Exps::SIZE] }
+    }
+}
+
+impl Exps {
+    const SIZE: usize = 64;
+
+    #[inline(always)]
+    fn of(&mut self, x: f64) -> f64 {
+        let place = x.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - Exps::SIZE.ilog2());
+        let known = &mut self.known[place as usize % Exps::SIZE];
+        if known.0 != x {
+            *known = (x, x.exp());
+        }
+        known.1
     }
 }
 
@@ -99,6 +126,16 @@ pub(crate) fn conditional_share(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exps_are_those_of_the_numbers_to_the_bit() {
+        let mut exps = Exps::default();
+        let few = [0.0, -0.0, f64::NEG_INFINITY, -700.0, -1.5];
+        let many = (0..2000).map(|k| f64::from(k % 400) * -0.37);
+        for x in many.flat_map(|x| [x, few[(x.to_bits() % 5) as usize]]) {
+            assert_eq!(exps.of(x).to_bits(), x.exp().to_bits());
+        }
+    }
 
     #[test]
     fn the_conditional_share_is_one_for_equal_steps_and_counts_survivors() {

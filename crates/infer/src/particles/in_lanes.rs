@@ -245,13 +245,14 @@ fn only_used(list: &mut [u32]) -> Vec<u32> {
     let count = list.iter().max().map_or(0, |most| *most as usize + 1);
     let mut places = vec![0; count];
     list.iter().for_each(|number| places[*number as usize] = 1);
-    let mut used = Vec::new();
+    // Without a jump that depends on what is used: what is written too early is written again.
+    let (mut used, mut length) = (vec![0; count + 1], 0);
     for (number, place) in places.iter_mut().enumerate() {
-        if *place == 1 {
-            *place = used.len() as u32;
-            used.push(number as u32);
-        }
+        used[length] = number as u32;
+        let is_used = std::mem::replace(place, length as u32);
+        length += is_used as usize;
     }
+    used.truncate(length);
     list.iter_mut().for_each(|number| *number = places[*number as usize]);
     used
 }

@@ -122,8 +122,12 @@ impl Run<'_, '_> {
             (Source::Element, [list, at, ..]) => match (self.column(*list), self.column(*at)) {
                 (None, None) => Ok(Found::Value(index::index(self.value(*list), self.value(*at))?)),
                 (None, Some(Column::Ints(all))) => {
-                    let numbers = all.iter().map(|at| u32::try_from(*at).map_err(|_| Apart));
-                    Ok(Found::Elements(self.value(*list).clone(), numbers.collect::<Result<_, _>>()?))
+                    // None is negative, and none is large: one look at the bits of all.
+                    if all.iter().fold(0, |bits, at| bits | at) >> 32 != 0 {
+                        return Err(Apart);
+                    }
+                    let numbers = all.iter().map(|at| *at as u32).collect();
+                    Ok(Found::Elements(self.value(*list).clone(), numbers))
                 }
                 _ => Err(Apart),
             },
