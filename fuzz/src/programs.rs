@@ -1,4 +1,4 @@
-//! Programs run: forwards, as chains by all four strategies, as particles; under small limits.
+//! Programs run: forwards, as chains by all four strategies, as particles; under small limits, with machine code and without.
 
 use crate::core_text::on_stack_for;
 use niwaki_geom::{Aabb, Rule, no_overshoot, no_self_intersection, vec3};
@@ -25,23 +25,23 @@ const LIMITS: Limits = Limits { steps: 3000, bytes: 16 << 20 };
 /// Runs a program whose text follows [`HEAD`] bytes of settings.
 ///
 /// # Panics
-/// When two strategies disagree, or a seed gives two results.
+/// When two strategies disagree, or a seed gives two results, be it by machine code.
 pub fn check(bytes: &[u8]) {
     let Some((head, text)) = bytes.split_at_checked(HEAD) else { return };
     let Ok(text) = std::str::from_utf8(text) else { return };
     on_stack_for(text, || {
-        if let Some(task) = task(text, head[0]) {
-            run(&task, head);
+        if let (Some(plain), Some(compiled)) = (task(text, head[0], 0), task(text, head[0], 1)) {
+            run(&plain, &compiled, head);
         }
     });
 }
 
-/// The task of a text, where that is a program; its parameters are whole numbers.
-fn task(text: &str, flags: u8) -> Option<Task> {
+/// The task of a text, where that is a program, with machine code after so many visits; its parameters are whole numbers.
+fn task(text: &str, flags: u8, visits: u32) -> Option<Task> {
     let module = parse(text).ok()?;
     let entry = module.functions.iter().find(|function| function.name == module.entry)?;
     let args = (0..entry.params.len()).map(|k| Value::Int(2 + k as i64)).collect();
-    let program = Arc::new(compile::<f64>(&module, vec![]).ok()?);
+    let program = Arc::new(compile::<f64>(&module, vec![]).ok()?.with_machine_code_after(visits));
     let mut sketches = vec![];
     if flags & 1 == 1 {
         let domain = Aabb { low: vec3(-1.0, -1.0, -1.0), high: vec3(1.0, 1.0, 1.0) };
@@ -53,15 +53,16 @@ fn task(text: &str, flags: u8) -> Option<Task> {
     Some(Task { args, sketches, limits: LIMITS, ..Task::new(program) })
 }
 
-/// Runs a task.
+/// Runs a task without machine code and the same one with it, which says what a run finds twice.
 ///
 /// # Panics
 /// As [`check`].
-pub fn run(task: &Task, head: &[u8]) {
+pub fn run(plain: &Task, compiled: &Task, head: &[u8]) {
     let seed = u64::from(head[1]);
-    let once =
-        || format!("{:?}", forward(task, seed, 0, head[0] & 4 == 4).map_err(|failure| failure.to_string()));
-    assert_eq!(once(), once(), "a forward run");
+    let once = |task| {
+        format!("{:?}", forward(task, seed, 0, head[0] & 4 == 4).map_err(|failure| failure.to_string()))
+    };
+    assert_eq!(once(plain), once(compiled), "a forward run");
     let kernel = kernel(head[2]);
     let settings = Settings {
         seed,
@@ -73,20 +74,21 @@ pub fn run(task: &Task, head: &[u8]) {
         every: 4,
         ..Settings::default()
     };
-    if let Ok((Some(difference), _)) = compare(task, &settings, PROPOSALS, 4) {
+    if let Ok((Some(difference), _)) = compare(compiled, &settings, PROPOSALS, 4) {
         panic!("{difference}");
     }
     let moves =
         || Rejuvenation { kernel: kernel.clone(), moves: 1, at: Moment::Resampled, final_chains: None };
     let order = if head[3] & 1 == 1 { particles::Order::DepthFirst } else { particles::Order::Stochastic };
     let settings = particles::Settings {
-        particles: 4,
+        // As many as run in lanes, or fewer.
+        particles: if head[3] & 4 == 4 { 20 } else { 4 },
         order,
         rejuvenate: (head[3] & 2 == 2).then(moves),
         seed,
         ..particles::Settings::default()
     };
-    let found = || match smc(task, &settings, &mut |_| true) {
+    let found = |task| match smc(task, &settings, &mut |_| true) {
         Err(failure) => failure.to_string(),
         Ok(found) => {
             let all = found.particles.iter().map(|p| {
@@ -95,7 +97,7 @@ pub fn run(task: &Task, head: &[u8]) {
             format!("{:?} {:?}", all.collect::<Vec<_>>(), found.log_normaliser)
         }
     };
-    assert_eq!(found(), found(), "particles");
+    assert_eq!(found(plain), found(compiled), "particles");
 }
 
 /// One kernel of each kind, and all together.
