@@ -140,7 +140,7 @@ pub(crate) fn further_copies(copies: &[usize]) -> Vec<(usize, usize)> {
         free[dead] = index;
         dead += usize::from(count == 0);
     }
-    parents[..further].iter().copied().zip(free).collect()
+    parents[..further].iter().copied().zip(free[..dead].iter().copied()).collect()
 }
 
 /// Two different particles.
@@ -167,12 +167,12 @@ mod tests {
             let total: f64 = weights.iter().sum();
             for u in [0.0, 0.25, 0.5, 1.0 / 3.0, 0.999] {
                 let at = |k: usize| (k as f64 + u) / n as f64;
-                let mut ends = weights.iter().scan(0.0, |sum, w| {
+                let sums = weights.iter().scan(0.0, |sum, w| {
                     *sum += w;
                     Some(*sum)
                 });
                 let last = weights.iter().rposition(|w| *w > 0.0).unwrap();
-                let ends: Vec<f64> = ends.by_ref().take(last).chain([f64::INFINITY]).collect();
+                let ends = sums.take(last).chain([f64::INFINITY]);
                 let within = |end: f64| (0..n).filter(|k| at(*k) * total <= end).count();
                 let mut expected = vec![0; n];
                 let mut before = 0;

@@ -35,7 +35,8 @@ impl<'a> Dists<'a> {
         }
     }
 
-    /// Those that they share, and the number of each lane's; `None` where each has its own.
+    /// Those that they share, and the number of each lane's, or no numbers where it is the same one; `None` where each lane has
+    /// its own.
     pub fn shared(&self) -> Option<(&[&'a Dist], &[u32])> {
         match self {
             Dists::Same(dist) => Some((std::slice::from_ref(dist), &[])),
