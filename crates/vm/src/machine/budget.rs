@@ -131,13 +131,24 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
     }
 }
 
+/// Whether a parameter makes the building of a distribution cost something: it is long, or copied many times.
+#[inline(always)]
+fn has_price<S: Scalar>(family: Family, value: &Value<S>) -> bool {
+    let is_long = match value {
+        Value::List(list) => list.len() > SHORT,
+        Value::Tuple(tuple) => tuple.items().len() > SHORT,
+        other => length(other) > SHORT,
+    };
+    is_long || matches!(family, Family::Mixture | Family::MultivariateGaussian)
+}
+
 /// The price of building a distribution from its parameters.
 #[inline]
 pub(super) fn of_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Price {
-    let longest = args.iter().map(length).max().unwrap_or(0);
-    if longest <= SHORT && !matches!(family, Family::Mixture | Family::MultivariateGaussian) {
+    if !args.iter().any(|value| has_price(family, value)) {
         return Price::default();
     }
+    let longest = args.iter().map(length).max().unwrap_or(0);
     let all: usize = args.iter().map(length).sum();
     match family {
         // The covariance is copied and factored.
@@ -375,7 +386,7 @@ impl<S: Scalar> Machine<'_, S> {
     ///
     /// # Errors
     /// Too many steps or bytes.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn charge_rows<K: Keep<S>>(
         &self,
         state: &mut State<S>,
@@ -384,8 +395,29 @@ impl<S: Scalar> Machine<'_, S> {
         args: Args,
         family: Family,
     ) -> Result<(), Fault> {
-        let operands = r.f.operands[args.range()].iter();
-        let prices = operands.map(|o| of_dist(family, std::slice::from_ref(r.get(state, &self.scratch, *o))));
+        let operands = &r.f.operands[args.range()];
+        if has_rows(family) {
+            for o in operands {
+                if has_price(family, r.get(state, &self.scratch, *o)) {
+                    return self.charge_long_rows(state, keep, r, operands, family);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn charge_long_rows<K: Keep<S>>(
+        &self,
+        state: &mut State<S>,
+        keep: &K,
+        r: Registers<'_, S>,
+        operands: &[Operand],
+        family: Family,
+    ) -> Result<(), Fault> {
+        let prices =
+            operands.iter().map(|o| of_dist(family, std::slice::from_ref(r.get(state, &self.scratch, *o))));
         let price = prices.reduce(|a, b| Price { steps: a.steps.max(b.steps), bytes: a.bytes.max(b.bytes) });
         let price = price.unwrap_or_default();
         self.charge_passing(state, keep, Price { steps: price.steps / PARAMETERS_PER_STEP, ..price })

@@ -55,17 +55,11 @@ impl<S: Scalar> DistCache<S> {
         Some((address >> 4 ^ address >> 10) % ENTRIES)
     }
 
-    /// The distribution of that family with the value as its parameter.
-    ///
-    /// # Errors
-    /// The value does not fit the family.
+    /// Whether the entry at `index` is the distribution of that family with the value as its parameter.
     #[inline]
-    pub fn dist(&mut self, index: usize, family: Family, value: &Value<S>) -> Result<&Dist<S>, Fault> {
-        if self.entries.is_empty() {
-            self.entries.resize(ENTRIES, None);
-        }
-        let is_it = match &self.entries[index] {
-            Some((of, known, _)) => {
+    pub fn holds(&self, index: usize, family: Family, value: &Value<S>) -> bool {
+        match self.entries.get(index) {
+            Some(Some((of, known, _))) => {
                 *of == family
                     && match (known, value) {
                         (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b),
@@ -73,25 +67,36 @@ impl<S: Scalar> DistCache<S> {
                         _ => false,
                     }
             }
-            None => false,
-        };
-        if !is_it {
-            self.entries[index] = None;
+            _ => false,
         }
-        if !is_it {
-            let added = Self::bytes_of(value);
-            if self.bytes + added > self.most {
-                self.entries.fill(None);
-                self.bytes = 0;
-            }
-            self.bytes += added;
+    }
+
+    /// The distribution at `index`, where there is one.
+    #[inline]
+    pub fn at(&self, index: usize) -> &Dist<S> {
+        let (.., dist) = self.entries[index].as_ref().expect("an entry that it holds");
+        dist
+    }
+
+    /// Builds the distribution of that family with the value as its parameter, in the place of what was at `index`.
+    ///
+    /// # Errors
+    /// The value does not fit the family.
+    #[inline(never)]
+    pub fn build(&mut self, index: usize, family: Family, value: &Value<S>) -> Result<(), Fault> {
+        if self.entries.is_empty() {
+            self.entries.resize(ENTRIES, None);
         }
-        match &mut self.entries[index] {
-            Some((.., dist)) => Ok(dist),
-            entry => {
-                let dist = make_dist(family, std::slice::from_ref(value))?;
-                Ok(&entry.insert((family, value.clone(), dist)).2)
-            }
+        let added = Self::bytes_of(value);
+        if self.bytes + added > self.most {
+            self.entries.fill(None);
+            self.bytes = 0;
         }
+        self.bytes += added;
+        // Before anything can fail: a parameter that is wrong leaves nothing at this place.
+        self.entries[index] = None;
+        let dist = make_dist(family, std::slice::from_ref(value))?;
+        self.entries[index] = Some((family, value.clone(), dist));
+        Ok(())
     }
 }

@@ -143,8 +143,12 @@ impl<S: Scalar> Machine<'_, S> {
                     && let Some(index) = self.cache.index(r.get(state, &self.scratch, only))
                 {
                     let value = r.get(state, &self.scratch, only);
-                    if self.cache.is_room_for(value) {
-                        return self.cache.dist(index, family, value);
+                    let is_held = self.cache.holds(index, family, value);
+                    if is_held || self.cache.is_room_for(value) {
+                        if !is_held {
+                            self.cache.build(index, family, value)?;
+                        }
+                        return Ok(self.cache.at(index));
                     }
                 }
                 Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
@@ -166,9 +170,7 @@ impl<S: Scalar> Machine<'_, S> {
         node: NodeId,
         site: &Site,
     ) -> Result<(), Halt> {
-        if let SiteKind::Sample(Source::Family(family)) = site.kind
-            && budget::has_rows(family)
-        {
+        if let SiteKind::Sample(Source::Family(family)) = site.kind {
             self.charge_rows(state, &Dropped, r, site.args, family)?;
         }
         let (program, mut owned) = (self.program, None);
@@ -251,9 +253,7 @@ impl<S: Scalar> Machine<'_, S> {
                 let value = get!(last).clone();
                 let mut owned = None;
                 let args = Args { len: last as u16, ..site.args };
-                if let SiteKind::Observe(Source::Family(family)) = site.kind
-                    && budget::has_rows(family)
-                {
+                if let SiteKind::Observe(Source::Family(family)) = site.kind {
                     self.charge_rows(state, &Dropped, r, args, family)?;
                 }
                 let program = self.program;

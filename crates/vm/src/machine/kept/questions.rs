@@ -201,9 +201,7 @@ impl<S: Scalar> Kept<S> {
             }
             return Ok(false);
         }
-        if let SiteKind::Sample(Source::Family(family)) = site.kind
-            && budget::has_rows(family)
-        {
+        if let SiteKind::Sample(Source::Family(family)) = site.kind {
             machine.charge_rows(state, self, r, site.args, family)?;
         }
         let mut owned = None;
@@ -292,9 +290,7 @@ impl<S: Scalar> Kept<S> {
                     let mut owned = None;
                     let args = Args { len: last as u16, ..site.args };
                     let value = r.get(state, &machine.scratch, operand).clone();
-                    if let SiteKind::Observe(Source::Family(family)) = site.kind
-                        && budget::has_rows(family)
-                    {
+                    if let SiteKind::Observe(Source::Family(family)) = site.kind {
                         machine.charge_rows(state, self, r, args, family)?;
                     }
                     let dist = machine.dist(state, r, site, args, &mut owned)?;
