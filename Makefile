@@ -93,12 +93,13 @@ $(STAMPS)/engine: $(RUST) pyproject.toml $(STAMPS)/core $(STAMPS)/build
 demo: $(STAMPS)/engine
 	$(PY) -m niwaki.shell.demo out
 
-# What `make test` runs of the engine: to be built beside something else.
+# What `make test` runs of the engine: to be built beside something else. Without examples, which clippy reads.
 test-binaries: $(STAMPS)/engine
-	cargo test $(CARGO_FLAGS) --workspace --no-run
+	cargo test $(CARGO_FLAGS) --workspace --tests --no-run
 
 test: $(STAMPS)/engine $(STAMPS)/test
-	cargo test $(CARGO_FLAGS) --workspace
+	cargo test $(CARGO_FLAGS) --workspace --tests
+	cargo test $(CARGO_FLAGS) --workspace --doc
 	$(PY) -m pytest -n auto --dist worksteal
 
 # The types of the page come from the messages; the bundle is committed, and a test compares it where node is found.

@@ -1,6 +1,6 @@
 //! The claim: a text that was changed at random is refused, or runs to a value or a fault. Nothing panics.
 
-#[path = "kept/programs.rs"]
+#[path = "../kept/programs.rs"]
 mod programs;
 
 use niwaki_math::{Dist, Draw};

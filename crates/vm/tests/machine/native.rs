@@ -2,7 +2,7 @@
 //! steps as the interpreter.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
-#[path = "support/halves.rs"]
+#[path = "../support/halves.rs"]
 mod halves;
 
 use halves::Halves;
