@@ -134,12 +134,7 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
 /// Whether a parameter makes the building of a distribution cost something: it is long, or copied many times.
 #[inline(always)]
 fn has_price<S: Scalar>(family: Family, value: &Value<S>) -> bool {
-    let is_long = match value {
-        Value::List(list) => list.len() > SHORT,
-        Value::Tuple(tuple) => tuple.items().len() > SHORT,
-        other => length(other) > SHORT,
-    };
-    is_long || matches!(family, Family::Mixture | Family::MultivariateGaussian)
+    length(value) > SHORT || matches!(family, Family::Mixture | Family::MultivariateGaussian)
 }
 
 /// The price of building a distribution from its parameters.
@@ -396,16 +391,17 @@ impl<S: Scalar> Machine<'_, S> {
         family: Family,
     ) -> Result<(), Fault> {
         let operands = &r.f.operands[args.range()];
-        if has_rows(family) {
-            for o in operands {
-                if has_price(family, r.get(state, &self.scratch, *o)) {
-                    return self.charge_long_rows(state, keep, r, operands, family);
-                }
-            }
+        let has_price = |o: &Operand| has_price(family, r.get(state, &self.scratch, *o));
+        if has_rows(family) && operands.iter().any(has_price) {
+            return self.charge_long_rows(state, keep, r, operands, family);
         }
         Ok(())
     }
 
+    /// The rare part of [`Machine::charge_rows`].
+    ///
+    /// # Errors
+    /// Too many steps or bytes.
     #[cold]
     #[inline(never)]
     fn charge_long_rows<K: Keep<S>>(

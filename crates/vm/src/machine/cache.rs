@@ -83,7 +83,8 @@ impl<S: Scalar> DistCache<S> {
     /// # Errors
     /// The value does not fit the family.
     #[inline(never)]
-    pub fn build(&mut self, index: usize, family: Family, value: &Value<S>) -> Result<(), Fault> {
+    pub fn build(&mut self, index: usize, family: Family, value: &Value<S>) -> Result<&Dist<S>, Fault> {
+        let dist = make_dist(family, std::slice::from_ref(value))?;
         if self.entries.is_empty() {
             self.entries.resize(ENTRIES, None);
         }
@@ -93,10 +94,7 @@ impl<S: Scalar> DistCache<S> {
             self.bytes = 0;
         }
         self.bytes += added;
-        // Before anything can fail: a parameter that is wrong leaves nothing at this place.
-        self.entries[index] = None;
-        let dist = make_dist(family, std::slice::from_ref(value))?;
-        self.entries[index] = Some((family, value.clone(), dist));
-        Ok(())
+        let (.., dist) = self.entries[index].insert((family, value.clone(), dist));
+        Ok(dist)
     }
 }

@@ -143,12 +143,11 @@ impl<S: Scalar> Machine<'_, S> {
                     && let Some(index) = self.cache.index(r.get(state, &self.scratch, only))
                 {
                     let value = r.get(state, &self.scratch, only);
-                    let is_held = self.cache.holds(index, family, value);
-                    if is_held || self.cache.is_room_for(value) {
-                        if !is_held {
-                            self.cache.build(index, family, value)?;
-                        }
+                    if self.cache.holds(index, family, value) {
                         return Ok(self.cache.at(index));
+                    }
+                    if self.cache.is_room_for(value) {
+                        return self.cache.build(index, family, value);
                     }
                 }
                 Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
