@@ -7,7 +7,8 @@
 //! * [`forward`]: a run of new choices; [`replay`]: take every choice from a log, and name it;
 //! * [`enumeration`], [`rejection`], [`importance`]: exact and direct answers, the oracles for the rest;
 //! * [`annealed`]: annealed importance sampling, by chains at rising powers of the score;
-//! * [`method`]: a search as data; [`run`]: a finished run; [`mixed`]: observations whose kind depends on the run;
+//! * [`method`]: a search as data; [`run`]: a finished run;
+//! * `kinds`: whether observations are probabilities or densities; [`mixed`]: those for which it depends on the run;
 //! * `streams`: the random streams that belong to no run;
 //! * `particle`, `weights`, [`resampling`]: a run that stops at barriers, what it weighs, and which of many survive;
 //! * [`chain`]: Metropolis-Hastings over kept runs, kernels as values; parts of a run grown again by particles;
@@ -39,6 +40,7 @@ pub mod hamiltonian;
 pub mod hold;
 pub mod importance;
 pub mod improve;
+mod kinds;
 pub mod log;
 pub mod losses;
 pub mod method;

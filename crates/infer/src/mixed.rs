@@ -10,9 +10,10 @@
 //! number per unit of `grade`. No weight can compare the two: written in other units, the same model would have another
 //! posterior, and in truth the density counts nothing beside the probability.
 //!
-//! A few runs from the prior show it: an observation is named by its activation and the text of what is observed, so that it is
-//! the same in two arms of an `if`. It is reported where one run has it only as a probability and another only as a density.
-//! Columns of data that are of different kinds in the same manner in all runs are not.
+//! Most programs cannot: [`kinds`](crate::kinds) tells without a run. Of the others a few runs from the prior show it: an
+//! observation is named by its activation and the text of what is observed, so that it is the same in two arms of an `if`. It is
+//! reported where one run has it only as a probability and another only as a density. Columns of data that are of different
+//! kinds in the same manner in all runs are not.
 //!
 //! Source: Wu et al. 2018, "Discrete-Continuous Mixtures in Probabilistic Programming", whose grades these are. differs: they
 //! weigh such runs by their numbers of densities; we say that it is so.
@@ -20,16 +21,16 @@
 use crate::Task;
 use crate::chooser::Prior;
 use crate::forward::Forward;
+use crate::kinds::{is_density, may_mix, subject};
 use crate::record::Record;
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, StreamKey};
-use niwaki_vm::code::{Program, SiteKind, Source};
 use niwaki_vm::core::Span;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::address::join;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::value::Value;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Runs that are looked at, at most.
 const RUNS: u64 = 64;
@@ -58,7 +59,7 @@ struct Kinds {
 
 /// The first such observation of a task, if a few runs from the prior meet one.
 pub fn mixed(task: &Task, seed: u64) -> Option<Mixed> {
-    if !may_mix(&task.program, task.held.is_some()) {
+    if !may_mix(task) {
         return None;
     }
     let (mut all, mut steps) = (HashMap::new(), 0);
@@ -87,25 +88,6 @@ pub fn mixed(task: &Task, seed: u64) -> Option<Mixed> {
         }
     }
     None
-}
-
-/// Whether a program has an observation that can be of two kinds: of a distribution that is a value, or of one thing by
-/// two families.
-fn may_mix(program: &Program, held: bool) -> bool {
-    program.functions.iter().any(|f| {
-        let mut kinds: HashSet<(u128, bool)> = HashSet::new();
-        f.sites.iter().any(|site| match site.kind {
-            SiteKind::Observe(Source::Family(family)) => {
-                let is_continuous = family.space().is_continuous();
-                kinds.insert((site.subject, is_continuous));
-                kinds.contains(&(site.subject, !is_continuous))
-            }
-            SiteKind::Observe(_) => true,
-            SiteKind::Sample(Source::Family(_)) => false,
-            SiteKind::Sample(_) => held,
-            _ => false,
-        })
-    })
 }
 
 /// The observations of one run from the prior, and its steps; `None` where it met a fault.
@@ -138,21 +120,12 @@ struct Watch<'a> {
     kinds: HashMap<u128, Kinds>,
 }
 
-/// Whether a value of a distribution has a density, and not a probability.
-fn is_density(dist: &Dist) -> bool {
-    match dist {
-        Dist::Mixture(mixture) => mixture.components.first().is_some_and(is_density),
-        other => other.family().space().is_continuous(),
-    }
-}
-
 impl Answers<f64> for Watch<'_> {
     const LOGS: bool = true;
     const WATCHES: bool = true;
 
     fn observes(&mut self, at: &At<'_, f64>, dist: &Dist) {
-        let subject = if at.site.subject == 0 { at.site.key } else { at.site.subject };
-        let kinds = self.kinds.entry(join(at.activation(), subject)).or_default();
+        let kinds = self.kinds.entry(join(at.activation(), subject(at.site))).or_default();
         let place = if is_density(dist) { &mut kinds.density } else { &mut kinds.probability };
         *place = Some((at.function.file, at.site.span));
     }

@@ -468,6 +468,11 @@ pub struct Function<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Function<S> {
+    /// The registers and constants that an instruction reads.
+    pub fn reads(&self, op: &Op) -> Vec<Operand> {
+        crate::passes::place::reads_and_writes(self, op).0
+    }
+
     /// The variables with names that can be read at a site, in the order in which they were last assigned.
     pub fn visible(&self, site: &Site) -> impl Iterator<Item = &Visible> {
         let (from, to) = site.visible;
