@@ -1,10 +1,12 @@
-"""The time before anything runs: `import niwaki`, and compiling the spaceship.
+"""The time before anything runs: `import niwaki`, compiling the spaceship, and the machine code of the tree.
 
     .venv/bin/python benches/startup.py [PROCESSES]
 
 Each figure is measured in fresh processes, so that nothing is warm but the disk. Compiling is measured twice in
-each: the first time with the front end's own imports, and again without them. Prints one JSON line with the
-median and the largest of each figure in seconds, beside the budgets that people feel (0.3 s and 0.05 s).
+each: the first time with the front end's own imports, and again without them. Machine code is written by a thread of
+its own while runs go on: its figure is the processor time of that thread, by the kernel's account, after searches of
+some seconds. Prints one JSON line with the least, the median and the largest of each figure in seconds, beside the
+budgets that people feel (0.3 s and 0.05 s) and that of a thread in the background (0.02 s).
 """
 
 import json
@@ -12,7 +14,7 @@ import statistics
 import subprocess
 import sys
 
-BUDGETS = {"import": 0.3, "compile": 0.05}
+BUDGETS = {"import": 0.3, "compile": 0.05, "code": 0.02}
 
 PROGRAM = """
 import json, time
@@ -32,19 +34,33 @@ print(json.dumps({
 }))
 """
 
+CODE = """
+import json, time
+from pathlib import Path
+import niwaki
+from niwaki import gallery
+(tree,) = [entry.model for entry in gallery.entries() if entry.name == "niwaki-tree"]
+begun = time.perf_counter()
+while time.perf_counter() - begun < 4.0:
+    niwaki.run(tree, method=niwaki.smc(100), seed=1, threads=1)
+(writer,) = [task for task in Path("/proc/self/task").iterdir() if (task / "comm").read_text() == "machine code\\n"]
+print(json.dumps({"code": int((writer / "schedstat").read_text().split()[0]) * 1e-9}))
+"""
+
+
+def measured(program: str) -> dict[str, float]:
+    """What a program prints in a fresh process."""
+    command = [sys.executable, "-c", program]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
 
 def main(processes: int = 10) -> None:
     """Measure and print."""
-    runs = []
-    for _ in range(processes):
-        line = subprocess.run(
-            [sys.executable, "-c", PROGRAM], check=True, capture_output=True, text=True
-        ).stdout
-        runs.append(json.loads(line))
-    figures = {
-        name: {"median": statistics.median(r[name] for r in runs), "max": max(r[name] for r in runs)}
-        for name in runs[0]
-    }
+    runs = [measured(PROGRAM) | measured(CODE) for _ in range(processes)]
+    figures = {}
+    for name in runs[0]:
+        all_of = [run[name] for run in runs]
+        figures[name] = {"least": min(all_of), "median": statistics.median(all_of), "most": max(all_of)}
     print(json.dumps({"bench": "startup", "processes": processes, "seconds": figures, "budgets": BUDGETS}))
 
 

@@ -2,12 +2,10 @@
 
 Each kind of value runs in a child process, whose largest resident set is compared with the limit: what the model
 took may be at most 1.3 times as much, and the fault must name the limit. The child may not have more than 3 GB at all,
-so that one that is not bounded fails and does no harm. Its allocator takes no huge pages: of those, each vector that
-grows holds one that is partly empty, 16 MB together, whatever the limit.
+so that one that is not bounded fails and does no harm.
 """
 
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -245,7 +243,6 @@ def warm():
 def outcome(name: str, threads: int = 1) -> dict[str, object]:
     done = subprocess.run(
         [sys.executable, __file__, name, str(threads)],
-        env=dict(os.environ, MIMALLOC_ALLOW_THP="0"),
         capture_output=True,
         text=True,
         timeout=100,

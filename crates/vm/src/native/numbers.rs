@@ -107,6 +107,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     pub(super) fn divide(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
         let refused = self.b.ins().icmp_imm_s(IntCC::SignedLessThanOrEqual, b, 0);
         self.leave_if(now, pc, refused);
+        self.divides = true;
         let rest = self.b.ins().srem(a, b);
         let below = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, rest, 0);
         Typed::Int(if op == Binary::Mod {

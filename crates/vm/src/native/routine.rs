@@ -8,7 +8,7 @@ use niwaki_native::codegen::ir::types::I64;
 use niwaki_native::codegen::ir::{AbiParam, Signature, UserFuncName};
 use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext};
 use niwaki_native::module::{Linkage, Module as _};
-use niwaki_native::{Effort, Memory, Written, module};
+use niwaki_native::{Effort, Memory, Written};
 
 /// `(words)`, as [`words`] says; gives the number of the exit taken.
 type Code = unsafe extern "C" fn(*mut u64) -> u64;
@@ -112,13 +112,12 @@ impl Routine {
         pc: usize,
         found: Found<'_, 'v>,
     ) -> Written<Routine> {
-        let mut module = module(Effort::Quick)?;
+        let mut module = niwaki_native::module(Effort::Plain)?;
         let mut context = module.make_context();
         let mut signature = Signature::new(module.target_config().default_call_conv);
         signature.params.push(AbiParam::new(I64));
         signature.returns.push(AbiParam::new(I64));
         let convention = signature.call_conv;
-        let id = module.declare_function("routine", Linkage::Local, &signature)?;
         context.func.signature = signature;
         context.func.name = UserFuncName::user(0, 0);
         let mut builder_context = FunctionBuilderContext::new();
@@ -127,10 +126,15 @@ impl Routine {
         let mut inputs = writer.begin(function, pc, found)?;
         writer.all_pieces();
         let exits = writer.all_exits();
-        let Writer { mut b, constants, written, read, names, words, .. } = writer;
+        let Writer { mut b, constants, written, read, names, divides, words, .. } = writer;
         inputs.retain(|input| read.contains(&input.reg) || written.contains(&input.reg));
         b.seal_all_blocks();
         b.finalize(module.target_config());
+        if divides {
+            // By a constant, it becomes a multiplication. Nothing else gains by the effort, which takes twice the time.
+            module = niwaki_native::module(Effort::Quick)?;
+        }
+        let id = module.declare_function("routine", Linkage::Local, &context.func.signature)?;
         module.define_function(id, &mut context)?;
         let bytes = context.compiled_code().map_or(0, |code| code.code_info().total_size as usize);
         let memory = Memory::finish(module)?;

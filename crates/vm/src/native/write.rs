@@ -96,6 +96,8 @@ pub(super) struct Writer<'p, 'v, 'b> {
     /// Registers that some instruction reads.
     pub(super) read: BTreeSet<Reg>,
     pub(super) names: Vec<Box<str>>,
+    /// Whether whole numbers are divided.
+    pub(super) divides: bool,
     pub(super) words: usize,
     exchange: Value,
     pub(super) answer: StackSlot,
@@ -129,6 +131,7 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             written: BTreeSet::new(),
             read: BTreeSet::new(),
             names: vec![],
+            divides: false,
             words: 0,
             exchange: Value::from_u32(0),
             answer,
