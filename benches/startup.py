@@ -39,7 +39,7 @@ import json, time
 from pathlib import Path
 import niwaki
 from niwaki import gallery
-(tree,) = [entry.model for entry in gallery.entries() if entry.name == "niwaki-tree"]
+tree = gallery.entry("niwaki-tree").model
 begun = time.perf_counter()
 while time.perf_counter() - begun < 4.0:
     niwaki.run(tree, method=niwaki.smc(100), seed=1, threads=1)

@@ -10,7 +10,7 @@
 //! number per unit of `grade`. No weight can compare the two: written in other units, the same model would have another
 //! posterior, and in truth the density counts nothing beside the probability.
 //!
-//! Most programs cannot: [`kinds`](crate::kinds) tells without a run. Of the others a few runs from the prior show it: an
+//! Most programs cannot: `kinds` tells without a run. Of the others a few runs from the prior show it: an
 //! observation is named by its activation and the text of what is observed, so that it is the same in two arms of an `if`. It is
 //! reported where one run has it only as a probability and another only as a density. Columns of data that are of different
 //! kinds in the same manner in all runs are not.

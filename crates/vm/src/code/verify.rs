@@ -265,9 +265,7 @@ fn is_copy<S: Scalar>(f: &Function<S>, op: &Op, original: &Op) -> bool {
         (Op::Pass { site: mine, .. }, Op::Site { site }) => mine == site,
         (Op::JumpIf { .. }, Op::JumpIf { .. })
         | (Op::JumpUnless { .. }, Op::JumpUnless { .. })
-        | (Op::JumpUnlessCompare { .. }, Op::JumpUnlessCompare { .. }) => {
-            reads_and_writes(f, op).0 == reads_and_writes(f, original).0
-        }
+        | (Op::JumpUnlessCompare { .. }, Op::JumpUnlessCompare { .. }) => f.reads(op) == f.reads(original),
         _ => op == original,
     }
 }

@@ -6,7 +6,6 @@ use super::{Here, Machine};
 use crate::code::{FunctionId, Mode, Op, SiteKind};
 use crate::core::{Name, Span};
 use crate::fault::Fault;
-use crate::passes::place::reads_and_writes;
 use niwaki_math::Scalar;
 use std::collections::VecDeque;
 
@@ -154,7 +153,7 @@ impl<S: Scalar> Machine<'_, S> {
         };
         let (own, outer) = if f.mode == Mode::Pure { (0, 0) } else { self.bases(state, f, node) };
         let r = Registers { f, own, outer, scratch };
-        let met = reads_and_writes(f, op).0.into_iter().any(|o| {
+        let met = f.reads(op).into_iter().any(|o| {
             let value = r.get(state, &self.scratch, o);
             if looks_inside { value.holds_future() } else { value.is_future() }
         });
