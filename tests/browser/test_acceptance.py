@@ -265,6 +265,39 @@ def test_a_mesh_above_the_limit_is_refused_with_a_message(open_page, served, tmp
     assert page.evaluate("window.__studio.view.ask.target") is None
 
 
+def test_a_floor_waits_for_the_target_under_which_it_lies(open_page, served):
+    page = open_page(served)
+    held = []
+
+    def ghosts_wait(socket):
+        studio = socket.connect_to_server()
+
+        def comes(message):
+            is_ghost = isinstance(message, bytes) and b'"what":"ghost"' in message and b"gallery:ship" in message
+            (held.append if is_ghost else socket.send)(message)
+            sockets.append(socket)
+
+        studio.on_message(comes)
+
+    sockets = []
+    page.route_web_socket("**/socket", ghosts_wait)
+    page.reload()
+    until(page, "window.__studio?.view?.model")
+    page.select_option("select[aria-label=Model]", "building")
+    until(page, "window.__studio.view.model.reference == 'building' && window.__studio.isGhostShown")
+    page.select_option("select[aria-label=Model]", "spaceship")
+    until(page, "window.__studio.view.model.reference == 'spaceship'")
+    page.get_by_title("Add an object").click()
+    page.get_by_role("menuitem", name="Floor").click()
+    while not held:
+        page.evaluate("1")  # Playwright hands messages over while it is called.
+    assert page.evaluate("window.__studio.view.ask.floor") is None
+    for message in held:
+        sockets[-1].send(message)
+    until(page, "window.__studio.view.ask.floor != null")
+    assert page.evaluate("window.__studio.view.ask.floor") == -1.0
+
+
 def test_the_keyboard_alone_is_enough(open_page, served):
     page = open_page(served)
     page.mouse.move(0, 0)
@@ -287,7 +320,7 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     until(page, "document.querySelector('[role=menuitem]')")
     tab_to("one.getAttribute('role') == 'menuitem'")
     page.keyboard.press("Enter")
-    until(page, "window.__studio.view.ask.floor != null")
+    until(page, "window.__studio.view.ask.floor == -1")
     tab_to("one.type == 'range' && one.closest('label').innerText.startsWith('results')")
     count = page.evaluate("window.__studio.view.settings.count")
     page.keyboard.press("ArrowRight")

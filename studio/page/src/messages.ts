@@ -403,6 +403,7 @@ export interface Shape {
   parts: string[];
   low: [number, number, number];
   high: [number, number, number];
+  source: string | null;
   pivot: [number, number, number];
   is_flat: boolean;
   note: string;

@@ -1,6 +1,6 @@
 // What the page knows: the session's view as the studio tells it, and this window's own selection.
 
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal, untracked } from "@preact/signals";
 import { connect, Refused } from "./link";
 import type { Frame } from "./link";
 import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Offer, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
@@ -171,6 +171,17 @@ export const target = computed<TargetAsk | null>(() => {
   if (now === null || now.ask.sketch != null) return null;
   return now.ask.target ?? (now.model?.target ? { source: now.model.target } : null);
 });
+/** The source of the target that is on the stage, or null where there is none; undefined until the first has come. */
+export const shownTarget = signal<string | null | undefined>(undefined);
+/** Calls `place` when the target that is asked for is on the stage, so that an object is placed beside the scene that is seen. */
+export function whenTargetIsShown(place: () => void): void {
+  let isPlaced = false;
+  effect(() => {
+    if (isPlaced || shownTarget.value !== (target.value?.source ?? null)) return;
+    isPlaced = true;
+    untracked(place);
+  });
+}
 export function avoid(solid: TargetAsk): void {
   const obstacles = view.value?.ask.obstacles ?? [];
   ask({ obstacles: [...obstacles, solid] });

@@ -172,6 +172,8 @@ class Shape(Event, tag="shape"):
     parts: list[str] = []
     low: Point = (0.0, 0.0, 0.0)
     high: Point = (0.0, 0.0, 0.0)
+    #: Of a ghost or an obstacle: the solid that it shows; None where there is no target.
+    source: str | None = None
     #: Of a ghost: the point about which it is turned and scaled, where it stands.
     pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False

@@ -71,13 +71,18 @@ async def load_ghost(session: Session, window: Window | None) -> None:
         found.append((newest(header), frame(msgspec.json.encode(header), payload)))
 
     found: list[tuple[str, bytes]] = []
-    answer = await session.desk.do(m.Ghost(question=session.question()), report)
+    question = session.question()
+    usual = None if session.model is None else session.model.target
+    answer = await session.desk.do(m.Ghost(question=question), report)
     session.note = answer.note
     session.tell_all()
     if answer.problem is not None and window is not None:
         window.tell(m.Failed(0, answer.problem))
     if "ghost" not in dict(found):
-        found.append(("ghost", frame(msgspec.json.encode(m.Shape(what="ghost")))))
+        source = None
+        if question.ask.sketch is None:
+            source = question.ask.target.source if question.ask.target is not None else usual
+        found.append(("ghost", frame(msgspec.json.encode(m.Shape(what="ghost", source=source)))))
     session.ghosts = dict(found)
     for one in session.windows:
         for kind, data in found:

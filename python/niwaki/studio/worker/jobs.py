@@ -41,7 +41,9 @@ def _solid(ask: TargetAsk, job: int, send: Any, **header: Any) -> None:
     ghost, foot = asks.shown(ask)
     many = ghost.triangles > GHOST_TRIANGLES
     note = f"shown with fewer than its {ghost.triangles:,} triangles" if many else ""
-    described, payload = shapes.ghost(ghost.vertices, ghost.faces, ghost.bounds, foot, note=note, **header)
+    described, payload = shapes.ghost(
+        ghost.vertices, ghost.faces, ghost.bounds, foot, note=note, source=ask.source, **header
+    )
     described.id = job
     send(described, payload)
 

@@ -89,6 +89,7 @@ function follow(): void {
   store.onShape((shape, payload) => {
     if (shape.what === "ghost") {
       stage.setSolid("target", shape, payload, store.target.value);
+      store.shownTarget.value = shape.source ?? null;
       if (shape.note) store.note(shape.note);
     } else if (shape.what === "obstacle") {
       stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);

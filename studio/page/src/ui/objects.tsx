@@ -60,9 +60,9 @@ export function Objects() {
   };
   const add = (source: string) => {
     setAdding(false);
-    if (source === "floor") store.ask({ floor: stage.bottom() });
-    else if (source === "mesh") input.current?.click();
-    else store.avoid(stage.above(source));
+    if (source === "mesh") input.current?.click();
+    else if (source === "floor") store.whenTargetIsShown(() => store.ask({ floor: stage.bottom() }));
+    else store.whenTargetIsShown(() => store.avoid(stage.above(source)));
   };
   return (
     <section aria-label="Objects of the scene">
