@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from niwaki.errors import NiwakiError
+from niwaki.shell import resuming
 from niwaki.shell.main import app
 from typer.testing import CliRunner
 
@@ -183,31 +184,12 @@ def test_a_process_prints_errors_without_a_traceback() -> None:
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 def test_ctrl_c_writes_the_best_so_far(tmp_path: Path) -> None:
-    out, loaded, model = tmp_path / "out", tmp_path / "loaded", tmp_path / "ship.py"
-    model.write_text(
-        "from pathlib import Path\nfrom niwaki.gallery.spaceship import spaceship\n"
-        f"Path({str(loaded)!r}).touch()\n"
-    )
-    words = [
-        "grow",
-        str(model),
-        "--target",
-        "gallery:ship",
-        "-n",
-        "300",
-        "--runs",
-        "100000",
-        "--voxel",
-        "0.5",
-    ]
-    child = subprocess.Popen(
-        [sys.executable, "-m", "niwaki.shell.main", *words, "--no-picture", "-o", str(out)],
-        stdout=subprocess.PIPE,
-    )
-    # The model is loaded right before the search begins.
-    while not loaded.exists() and child.poll() is None:
-        time.sleep(0.1)
-    time.sleep(3.0)
+    out = tmp_path / "out"
+    words = [*GROW, "--runs", "100000", "--no-picture", "-o", str(out)]
+    child = subprocess.Popen([sys.executable, "-m", "niwaki.shell.main", *words], stdout=subprocess.PIPE)
+    # The first checkpoint is written when there is a result to keep.
+    while not (out / resuming.NAME).exists() and child.poll() is None:
+        time.sleep(0.02)
     child.send_signal(signal.SIGINT)
     assert child.wait(timeout=60) == 130
     assert child.stdout is not None
