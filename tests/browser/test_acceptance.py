@@ -273,7 +273,9 @@ def test_a_floor_waits_for_the_target_under_which_it_lies(open_page, served):
         studio = socket.connect_to_server()
 
         def comes(message):
-            is_ghost = isinstance(message, bytes) and b'"what":"ghost"' in message and b"gallery:ship" in message
+            is_ghost = (
+                isinstance(message, bytes) and b'"what":"ghost"' in message and b"gallery:ship" in message
+            )
             (held.append if is_ghost else socket.send)(message)
             sockets.append(socket)
 

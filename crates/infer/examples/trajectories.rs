@@ -10,13 +10,14 @@
 //! MODEL is ring, coloring, stack, or stackN of N blocks; POINT a file with a number for each coordinate. Prints one
 //! JSON line.
 
-#[path = "../../grad/tests/peers/mod.rs"]
-mod peers;
+#[path = "programs/densities.rs"]
+mod densities;
 
-use niwaki_grad::{Compiled, Density, Native, Rolling, Tape, Wide};
+use densities::{Target, density, first_point, peers};
+use niwaki_grad::{Compiled, Native, Tape, Wide};
 use niwaki_infer::hamiltonian::chains::{Length, run};
 use niwaki_infer::hamiltonian::lanes::run_in_lanes;
-use niwaki_infer::hamiltonian::{Cause, Chain, Draws, Potential, Settings, Shape, Stop};
+use niwaki_infer::hamiltonian::{Chain, Draws, Settings, Shape};
 use niwaki_infer::variational::ascent::{ascend, counts};
 use niwaki_infer::variational::family::Family;
 use niwaki_infer::variational::pathfinder::pathfinder;
@@ -24,49 +25,6 @@ use niwaki_infer::variational::{self, Batch, Purpose};
 use niwaki_math::Stream;
 use std::sync::Arc;
 use std::time::Instant;
-
-/// A recorded density as a target.
-struct Target(Compiled);
-
-const OUTSIDE: Stop = Stop { cause: Cause::Guard, place: 0 };
-
-impl Potential for Target {
-    fn dim(&self) -> usize {
-        self.0.density().dim()
-    }
-    fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Stop> {
-        self.0.inside(x, g).ok_or(OUTSIDE)
-    }
-    fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), Stop> {
-        if self.0.gradient(x, g) { Ok(()) } else { Err(OUTSIDE) }
-    }
-    fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
-        self.0.roll(at, kick, step, steps)
-    }
-}
-
-fn blocks(model: &str) -> usize {
-    model.strip_prefix("stack").and_then(|n| n.parse().ok()).unwrap_or(6)
-}
-
-fn first_point(model: &str) -> Vec<f64> {
-    match model {
-        "ring" | "coloring" => peers::known().into_iter().find(|k| k.name == model).expect("a known point").x,
-        _ => peers::stack_start(blocks(model)),
-    }
-}
-
-fn density(model: &str) -> Density {
-    let x = first_point(model);
-    match model {
-        "ring" => peers::recorded(&x, peers::ring),
-        "coloring" => {
-            let drawing = peers::drawing();
-            peers::recorded(&x, |x| peers::coloring(&drawing, x, niwaki_grad::Var::below_or))
-        }
-        _ => peers::recorded(&x, |x| peers::stack(blocks(model), x)),
-    }
-}
 
 fn milliseconds<T>(f: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
