@@ -1,4 +1,4 @@
-"""Claim: the committed table of instruction counts has each path of the bench, and constants of models survive the way there."""
+"""Claim: the committed table of instruction counts has each path of the bench, and constants keep their kinds."""
 
 from __future__ import annotations
 
