@@ -140,7 +140,7 @@ def neighbours(labels: NDArray[np.int64], count: int, near: int = NEAR) -> list[
 
 
 def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
-    pixels = _rgba(load_pixels(path))
+    pixels = _rgba(load_pixels(path).channels)
     code = pixels[..., 0].astype(np.uint32) << 16
     code |= pixels[..., 1].astype(np.uint32) << 8
     code |= pixels[..., 2]
@@ -160,8 +160,6 @@ def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
 
 def _rgba(values: NDArray[Any]) -> NDArray[np.uint8]:
     """The channels of an image as red, green, blue and alpha."""
-    if values.dtype == np.bool_:
-        values = np.where(values, np.uint8(255), np.uint8(0))
     if values.dtype != np.uint8:
         values = np.rint(values.clip(0, 255)).astype(np.uint8)
     if values.ndim == 2:

@@ -1,8 +1,10 @@
 """Images to match: which pixels should be on, and how much each matters.
 
-A pixel of a silhouette is on when its red is above zero, so that the grey edge of a smoothed shape counts as on; pixels
-that are wholly transparent are off. A drawing is ink on paper instead: what is not white is ink. No image is flipped:
-the camera, or the reader of the page, should see it as it is.
+A pixel of a silhouette is on when its red is at least half of the image's brightest: the noise of a JPEG is off, and so
+is a border that is less than half covered. Where an image has transparent pixels, they say which are on: those at least
+half as opaque as the most opaque one, if they have any red. A drawing is ink on paper instead: what is not white is
+ink. No image is flipped, but turned as its file says: the camera, or the reader of the page, should see it as a person
+does.
 """
 
 from __future__ import annotations
@@ -32,6 +34,9 @@ FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff")
 #: Greys from here on are paper: scans and photographs of white are not quite white.
 PAPER = 250
 
+#: Pixels along a side of what a lossy compression looks at together; the mean of such a block survives it.
+BLOCK = 8
+
 
 def silhouette(image: Image) -> NDArray[np.bool_]:
     """Tell which pixels should be on, (rows, columns).
@@ -43,8 +48,8 @@ def silhouette(image: Image) -> NDArray[np.bool_]:
     InputError
         `bad-image` for an array of another shape; `image-one-color` when all pixels are alike.
     """
-    values = _values(image)
-    on = values if values.dtype == np.bool_ else _red(values) > 0
+    values = _pixels(image).channels
+    on = values if values.dtype == np.bool_ else _on(values)
     lit = int(on.sum())
     if lit in (0, on.size):
         raise InputError(
@@ -56,7 +61,9 @@ def silhouette(image: Image) -> NDArray[np.bool_]:
 def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
     """Read a drawing: greys, (rows, columns) uint8, 255 where there is no ink.
 
-    Transparent pixels are paper, and so are greys from `PAPER` on. Of truth values the true ones are ink.
+    Transparent pixels are paper, and so are greys from `PAPER` on. Of truth values the true ones are ink. Compression
+    with a loss leaves ripples around ink: of a JPEG or a WebP, greys nearer to its lightest than to its darkest are
+    paper, unless it is made `BLOCK` times smaller, which levels them.
 
     Parameters
     ----------
@@ -72,7 +79,8 @@ def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
     InputError
         `bad-image` for an array of another shape; `drawing-one-color` when there is no ink, or no paper.
     """
-    values = _values(image)
+    found = _pixels(image)
+    values, paper = found.channels, float(PAPER)
     if values.dtype == np.bool_:
         grey = np.where(values, 0.0, 255.0)
     else:
@@ -86,7 +94,9 @@ def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
         # Means of areas: other filters ring, and their ripples on the paper would be ink.
         page = page.resize((columns, rows), Pil.Resampling.BOX)
     greys = np.array(page)
-    greys[greys >= PAPER] = 255
+    if found.is_lossy and longer < BLOCK * max(page.size):
+        paper = min(paper, (float(greys.min()) + float(greys.max())) / 2.0)
+    greys[greys >= paper] = 255
     filled = int((greys < 255).sum())
     if filled in (0, greys.size):
         raise InputError(
@@ -106,7 +116,7 @@ def weights(image: Image, like: NDArray[Any]) -> NDArray[np.uint8]:
     InputError
         `weight-size` when the sizes differ.
     """
-    values = _values(image)
+    values = _pixels(image).channels
     if values.shape[:2] != like.shape[:2]:
         raise InputError("weight-size", name=name_of(image), found=_size(values), expected=_size(like))
     if values.dtype == np.bool_:
@@ -120,8 +130,8 @@ def name_of(image: Image) -> str:
     return str(image) if isinstance(image, (str, PathLike)) else "the image"
 
 
-def _values(image: Image) -> NDArray[Any]:
-    """Return (rows, columns) bool or numbers in 0 to 255, or (rows, columns, channels) of the latter."""
+def _pixels(image: Image) -> files.Pixels:
+    """The pixels of a file or an image of Pillow; of an array, which may be one of truth values."""
     if isinstance(image, (str, PathLike)):
         return files.load(image)
     if hasattr(image, "convert") and hasattr(image, "getbands"):
@@ -134,21 +144,27 @@ def _values(image: Image) -> NDArray[Any]:
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("bad-image", found="an array with values that are not finite")
     check("pixels", values.shape[0] * values.shape[1], None)
-    return values
+    return files.Pixels(values)
 
 
-def _of_pil(image: Any) -> NDArray[Any]:
+def _of_pil(image: Any) -> files.Pixels:
     check("pixels", image.width * image.height, None)
     # An image may still have to be read from its file.
     with library(None, "an image"):
-        return files.channels(image)
+        return files.of_image(image)
 
 
-def _red(values: NDArray[Any]) -> NDArray[Any]:
-    if values.ndim == 2:
-        return values
-    red = values[:, :, 0]
-    return np.where(values[:, :, 3] > 0, red, 0) if values.shape[2] == 4 else red
+def _on(values: NDArray[Any]) -> NDArray[np.bool_]:
+    red = values if values.ndim == 2 else values[:, :, 0]
+    if values.ndim == 3 and values.shape[2] == 4 and (values[:, :, 3] < 255).any():
+        return _upper_half(values[:, :, 3]) & (red > 0)
+    return _upper_half(red)
+
+
+def _upper_half(values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Where a value is at least half of the largest, and above 0."""
+    found: NDArray[np.bool_] = (values > 0) & (values >= 0.5 * float(values.max()))
+    return found
 
 
 def _grey(values: NDArray[Any]) -> NDArray[np.float64]:

@@ -1,7 +1,8 @@
 """The pixels of image files: PNG, JPEG, WebP, BMP, GIF and TIFF; of several images in a file, the first.
 
-Only these formats are opened: some others that Pillow knows start other programs. The size is read before the pixels.
-TIFF files are read in a process of their own, because their reader takes its sizes from the file.
+They stand as a person sees them: turned and mirrored as the file's orientation says (EXIF tag 274, or XMP). Only these
+formats are opened: some others that Pillow knows start other programs. The size is read before the pixels. TIFF files
+are read in a process of their own, because their reader takes its sizes from the file.
 """
 
 from __future__ import annotations
@@ -9,13 +10,14 @@ from __future__ import annotations
 import io
 import re
 import warnings
+from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import ExifTags, UnidentifiedImageError
 from PIL import Image as Pil
-from PIL import UnidentifiedImageError
 
 from niwaki.errors import FileError
 from niwaki.inputs import bytes_of, library, limit, read_apart
@@ -24,12 +26,45 @@ from niwaki.inputs.limits import beyond
 #: Pillow's names of what is read.
 KINDS = ("PNG", "JPEG", "WEBP", "BMP", "GIF", "TIFF")
 
+#: Formats whose compression leaves ripples around edges; WebP seldom keeps every pixel, and does not say so.
+LOSSY = ("JPEG", "MPO", "WEBP")
+
 # What ends a piece of a JPEG and begins a scan.
 _SCAN = re.compile(rb"\xff\xda")
 
+# The tag of a TIFF that says whether 0 is black.
+_PHOTOMETRIC = 262
 
-def load(path: str | PathLike[str]) -> NDArray[Any]:
-    """The channels of an image's file: (rows, columns) or (rows, columns, channels), as `channels` gives them.
+# What turns the pixels of an orientation upright (TIFF 6.0, Orientation).
+_UPRIGHT = {
+    2: Pil.Transpose.FLIP_LEFT_RIGHT,
+    3: Pil.Transpose.ROTATE_180,
+    4: Pil.Transpose.FLIP_TOP_BOTTOM,
+    5: Pil.Transpose.TRANSPOSE,
+    6: Pil.Transpose.ROTATE_270,
+    7: Pil.Transpose.TRANSVERSE,
+    8: Pil.Transpose.ROTATE_90,
+}
+
+
+@dataclass(frozen=True)
+class Pixels:
+    """The pixels of an image.
+
+    Attributes
+    ----------
+    channels : (rows, columns) or (rows, columns, channels)
+        Numbers in 0 to 255: red first, alpha last where there is one.
+    is_lossy : bool
+        Whether the image was compressed with a loss.
+    """
+
+    channels: NDArray[Any]
+    is_lossy: bool = False
+
+
+def load(path: str | PathLike[str]) -> Pixels:
+    """The pixels of an image's file.
 
     Raises
     ------
@@ -39,19 +74,21 @@ def load(path: str | PathLike[str]) -> NDArray[Any]:
     return parsed(bytes_of(path, "image"), path)
 
 
-def parsed(data: bytes, place: str | PathLike[str] | None = None) -> NDArray[Any]:
-    """The channels of the bytes of an image's file."""
+def parsed(data: bytes, place: str | PathLike[str] | None = None) -> Pixels:
+    """The pixels of the bytes of an image's file."""
     if data[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
         memory = limit("memory") + 32 * limit("pixels") + len(data)
-        return read_apart(_apart, data, place, "an image", memory)["channels"]
+        found = read_apart(_apart, data, place, "an image", memory)
+        return Pixels(found["channels"], bool(found["is_lossy"]))
     return _decoded(data, place)
 
 
 def _apart(data: bytes) -> dict[str, NDArray[Any]]:
-    return {"channels": _decoded(data, None)}
+    found = _decoded(data, None)
+    return {"channels": found.channels, "is_lossy": np.array(found.is_lossy)}
 
 
-def _decoded(data: bytes, place: str | PathLike[str] | None) -> NDArray[Any]:
+def _decoded(data: bytes, place: str | PathLike[str] | None) -> Pixels:
     _check_webp(data, place)
     if data[:2] == b"\xff\xd8" and len(_SCAN.findall(data)) > limit("scans"):
         raise beyond("scans", f"it has {len(_SCAN.findall(data)):,} scans", place)
@@ -68,20 +105,42 @@ def _decoded(data: bytes, place: str | PathLike[str] | None) -> NDArray[Any]:
         with opened:
             columns, rows = opened.size
             _check_size(columns, rows, place)
-            return channels(opened)
+            return of_image(opened)
 
 
-def channels(image: Pil.Image) -> NDArray[Any]:
-    """Truth values, or numbers in 0 to 255: red first, alpha last where there is one."""
-    alpha = "A" in image.getbands() or "transparency" in image.info
-    if image.mode == "1":
-        return np.asarray(image, dtype=np.bool_)
+def of_image(image: Pil.Image) -> Pixels:
+    """The pixels of an image of Pillow."""
+    is_lossy = image.format in LOSSY or "jpeg" in str(image.info.get("compression"))
+    return Pixels(_channels(_upright(image)), is_lossy)
+
+
+def _upright(image: Pil.Image) -> Pil.Image:
+    # TIFF files are turned as they are loaded, and do not say so before.
+    image.load()
+    try:
+        orientation = image.getexif().get(ExifTags.Base.Orientation)
+    except Exception:
+        # What else a camera noted may be damaged in any way; the pixels are there.
+        return image
+    method = _UPRIGHT.get(orientation) if isinstance(orientation, int) else None
+    return image if method is None else image.transpose(method)
+
+
+def _channels(image: Pil.Image) -> NDArray[Any]:
+    clear = image.info.get("transparency")
     if image.mode.startswith(("I", "F")):
-        # Sixteen bits and more: scaled by the brightest, since only zero and not zero matter for what is on.
+        # Sixteen bits and more: scaled by the brightest, as nothing says what is white.
         values = np.asarray(image, dtype=np.float64)
         if not np.isfinite(values).all():
             raise ValueError("a pixel is not a finite number")
-        return values * (255.0 / max(float(values.max()), 1.0))
+        if image.mode.startswith("I;16") and getattr(image, "tag_v2", {}).get(_PHOTOMETRIC) == 0:
+            # Pillow leaves a TIFF's sixteen bits as they are where 0 is white.
+            values = 65535.0 - values
+        grey = values * (255.0 / max(float(values.max()), 1.0))
+        if not isinstance(clear, int):
+            return grey
+        return np.stack([grey, grey, grey, np.where(values == clear, 0.0, 255.0)], axis=2)
+    alpha = clear is not None or "A" in image.getbands() or image.mode in ("La", "RGBa")
     return np.asarray(image.convert("RGBA" if alpha else "RGB"))
 
 

@@ -222,7 +222,7 @@ def match_image(
     Parameters
     ----------
     image
-        A file, a Pillow image or an array; a pixel should be covered where red is above zero.
+        A file, a Pillow image or an array; a pixel should be covered where red is at least half of the brightest.
     camera
         A `Camera`, its JSON file, or the names and values of one.
     weight_image
@@ -256,7 +256,7 @@ def match_shadow(
     Parameters
     ----------
     image, weight_image, weight, sigma
-        As for `match_image`; a pixel should be in shadow where red is above zero.
+        As for `match_image`; a pixel should be in shadow where red is at least half of the brightest.
     light
         Direction in which the light travels, any length: (0, -1, 0) is a sun right above.
     receiver

@@ -12,7 +12,7 @@ import pytest
 from niwaki.errors import FileError, InputError
 from niwaki.targets import drawings, images
 from niwaki.targets.drawing import Drawing, lowest
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFilter
 
 #: Of the pixels and the starts of every drawing that is held out, in the order of the table.
 HELD_OUT = "4b888199089e83d82847a7bb9e1f4d423090651ae2f245dd933121268467f178"
@@ -59,6 +59,30 @@ def test_ink_is_what_is_not_white() -> None:
     small = images.ink(large, 50)
     assert small.shape == (20, 50) and (small[:, :15] == 0).all() and (small[:, 15:] == 255).all()
     assert images.ink(large, 200).shape == (40, 100)
+
+
+def test_ripples_of_a_jpeg_are_paper_and_small_pictures_keep_their_bits(tmp_path: Path) -> None:
+    page = Image.new("L", (800, 800), 255)
+    ImageDraw.Draw(page).line((100, 120, 700, 650), fill=0, width=5)
+    page.save(tmp_path / "line.png")
+    for quality in (20, 75):
+        page.save(tmp_path / "line.jpg", quality=quality)
+        assert ((images.ink(tmp_path / "line.jpg") < 255) == (np.asarray(page) < 128)).mean() > 0.999
+        # Nothing but its ink is darker than its lightest half: no ripple is left.
+        assert (
+            images.ink(tmp_path / "line.jpg")[np.asarray(page.filter(ImageFilter.MinFilter(3))) == 255] == 255
+        ).all()
+        whole = np.asarray(Image.open(tmp_path / "line.jpg").resize((50, 50), Image.Resampling.BOX)).copy()
+        whole[whole >= images.PAPER] = 255
+        assert (images.ink(tmp_path / "line.jpg", 50) == whole).all()
+
+
+def test_a_page_of_two_colours_is_dark_ink_too(tmp_path: Path) -> None:
+    page = Image.new("1", (30, 20), 1)
+    page.paste(0, (5, 5, 15, 10))
+    for name in ("page.png", "page.tif", "page.bmp"):
+        page.save(tmp_path / name)
+        assert (images.ink(tmp_path / name) == np.asarray(page.convert("L"))).all()
 
 
 @pytest.mark.parametrize("value", [0, 255, 252])

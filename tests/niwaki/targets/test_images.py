@@ -1,4 +1,4 @@
-"""Claim: a pixel is on where its red is above zero, whatever the format; a file that is no image gives an error."""
+"""Claim: a pixel is on where its red is at least half of the brightest, whatever the format; no image is an error."""
 
 from __future__ import annotations
 
@@ -34,17 +34,33 @@ def test_arrays() -> None:
         assert (silhouette(values) == ON).all()
 
 
-def test_a_grey_edge_is_on_and_green_alone_is_not() -> None:
+def test_half_of_the_brightest_red_is_on() -> None:
     image = np.zeros((4, 4, 3), dtype=np.uint8)
-    image[0, 0] = (1, 0, 0)
-    image[1, 1] = (0, 255, 255)
-    assert np.argwhere(silhouette(image)).tolist() == [[0, 0]]
+    image[0, 0], image[0, 1], image[0, 2], image[1, 1] = (
+        (200, 0, 0),
+        (100, 0, 0),
+        (99, 255, 255),
+        (0, 255, 255),
+    )
+    for values in (image, image / 200.0, image.astype(np.int64) * 1000, image // 100):
+        assert np.argwhere(silhouette(values)).tolist() == [[0, 0], [0, 1]]
 
 
-def test_what_is_transparent_is_off() -> None:
+def test_what_is_transparent_is_off_and_half_of_the_alpha_is_on() -> None:
     image = np.full((4, 4, 4), 255, dtype=np.uint8)
     image[1:, :, 3] = 0
-    assert silhouette(Image.fromarray(image)).sum() == 4
+    image[1, :2, 3] = 127, 128
+    # The alpha says what is on, and the red may be dark there.
+    image[0, 0, 0], image[0, 1, 0] = 1, 0
+    assert np.argwhere(silhouette(Image.fromarray(image))).tolist() == [[0, 0], [0, 2], [0, 3], [1, 1]]
+    image[:, :, 3] = 255
+    assert silhouette(Image.fromarray(image)).sum() == 14
+
+
+def test_a_jpeg_is_its_shape_at_any_quality(tmp_path: Path) -> None:
+    for quality in (20, 50, 75, 95):
+        Image.fromarray((ON * 255).astype(np.uint8)).save(tmp_path / "on.jpg", quality=quality)
+        assert (silhouette(tmp_path / "on.jpg") == ON).all()
 
 
 def test_weights_are_greys(tmp_path: Path) -> None:

@@ -48,7 +48,7 @@ VIEWS = (
     Message(
         "image-one-color",
         "`{name}` has one colour only",
-        why="all of its {size} pixels are {state}: a pixel is on where its red is above 0",
+        why="all of its {size} pixels are {state}: a pixel is on where its red is at least half of the brightest",
         help="draw the shape in white on black; if it is black on white, invert the image",
         example="a white page with a black skyline that was scanned as grey",
         cure="a black page with a white skyline",
