@@ -8,6 +8,8 @@ swatches.py palettes of colours in rows
 palette.py  colours for parts without colours
 
 files.py        a scene as a file; the suffix decides the format
+page.py         the numbers of an SVG
+far.py          scenes far from the origin
 parts.py        the meshes of its parts, by their paints
 instances.py    which parts are one mesh in several places
 glb.py          GLB: a node for each part

@@ -15,6 +15,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from niwaki.draw import far
 from niwaki.draw.animation import growth
 from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.flat.svg import svg
@@ -69,6 +70,11 @@ def export(
     ------
     FileError
         Another ending, an empty scene, a part that is not a solid (.stl, .3mf), or a place that cannot be written to.
+
+    Warns
+    -----
+    FarSceneWarning
+        The scene is far from the origin, and the file is .obj or .ply.
     """
     place = Path(path)
     suffix = check_format(place)
@@ -92,6 +98,7 @@ def export(
         return write_whole(place, stl(solid) if suffix == ".stl" else threemf(solid, place.stem))
     if suffix == ".glb":
         return write_whole(place, glb(scene, about))
+    far.warn_of(scene)
     return write_whole(place, obj(scene) if suffix == ".obj" else ply(scene))
 
 

@@ -6,7 +6,8 @@ run is an extra of the node of its call. Parts of equal geometry (`niwaki.draw.i
 their paints are equal too they share the whole mesh, so that a modelling program opens them as linked copies.
 
 Lengths are metres, y is up, as glTF requires. A part's node has the part's own frame (`niwaki.draw.pivots`): its first
-shape's. The node of a call stands where its first part stands, with the scene's axes.
+shape's. The node of a call stands where its first part stands, with the scene's axes. A scene far from the origin
+(`niwaki.draw.far`) is below one node more, `origin`, which has the offset.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki.draw.far import is_far
 from niwaki.draw.finite import plain
 from niwaki.draw.hierarchy import hierarchy
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
@@ -96,6 +98,8 @@ def glb(scene: Scene, about: About | None = None) -> bytes:
         nodes.append(_node(part.address, meshes[instance.mesh, worn], instance))
     noted = [] if about is None else [(address, plain(value)) for address, value in about.choices.items()]
     roots, others = hierarchy(nodes, noted)
+    if is_far(scene.bounds):
+        roots = [_below_origin(nodes, roots, scene)]
     listed = [{"address": address, "value": value} for address, value in others]
     extras = {} if about is None else {"extras": {"niwaki": {"model": about.model, "choices": listed}}}
     for node in nodes[: len(parts)]:
@@ -140,6 +144,16 @@ def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
     if not np.allclose(instance.rotation, np.eye(3), rtol=0.0, atol=1e-9):
         node["rotation"] = list(quaternion(instance.rotation))
     return node
+
+
+def _below_origin(nodes: list[dict[str, Any]], roots: list[int], scene: Scene) -> int:
+    """Move the topmost nodes below one that has the offset of the scene; its number."""
+    # A number of 32 bits, so that programs which keep no more of it lose nothing.
+    offset = scene.bounds.mean(axis=0).astype(np.float32).astype(np.float64)
+    for root in roots:
+        nodes[root]["translation"] = (nodes[root]["translation"] - offset).tolist()
+    nodes.append({"name": "origin", "translation": offset.tolist(), "children": roots})
+    return len(nodes) - 1
 
 
 def materials_named(materials: Iterable[Paint]) -> list[str]:

@@ -1,7 +1,8 @@
 """A scene as the plain files of meshes: OBJ (text, an object for each part) and PLY (binary, one mesh).
 
 Both keep scene units with y up, smooth normals and colours at the vertices (in OBJ by the common extension of the `v`
-line that Blender, MeshLab and trimesh read). Nothing is joined: parts that overlap, overlap.
+line that Blender, MeshLab and trimesh read). Nothing is joined: parts that overlap, overlap. Coordinates have 32 bits,
+or nine digits; those of a scene far from the origin (`niwaki.draw.far`) have 64 bits, or all digits.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import io
 
 import numpy as np
 
+from niwaki.draw.far import is_far
 from niwaki.draw.parts import part_meshes
 from niwaki.draw.scene import Scene
 
@@ -18,6 +20,7 @@ def obj(scene: Scene) -> bytes:
     """The bytes of an OBJ file; equal scenes give equal bytes."""
     out = io.StringIO()
     out.write("# niwaki: scene units, y up\n")
+    digits = 17 if is_far(scene.bounds) else 9
     start = 1
     for part in part_meshes(scene):
         # A name ends at the first space in some readers.
@@ -25,7 +28,10 @@ def obj(scene: Scene) -> bytes:
         for piece in part.pieces:
             red, green, blue = piece.paint.color
             color = f"{red:.6g} {green:.6g} {blue:.6g}"
-            out.writelines(f"v {x:.9g} {y:.9g} {z:.9g} {color}\n" for x, y, z in piece.vertices.tolist())
+            out.writelines(
+                f"v {x:.{digits}g} {y:.{digits}g} {z:.{digits}g} {color}\n"
+                for x, y, z in piece.vertices.tolist()
+            )
             out.writelines(f"vn {x:.6g} {y:.6g} {z:.6g}\n" for x, y, z in piece.normals.tolist())
             faces = (piece.faces + start).tolist()
             out.writelines(f"f {a}//{a} {b}//{b} {c}//{c}\n" for a, b, c in faces)
@@ -37,7 +43,8 @@ def ply(scene: Scene) -> bytes:
     """The bytes of a binary PLY file; equal scenes give equal bytes."""
     pieces = [piece for part in part_meshes(scene) for piece in part.pieces]
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
-    corner = np.dtype([("place", "<f4", 3), ("normal", "<f4", 3), ("color", "u1", 3)])
+    real, name = ("<f8", "double") if is_far(scene.bounds) else ("<f4", "float")
+    corner = np.dtype([("place", real, 3), ("normal", "<f4", 3), ("color", "u1", 3)])
     vertices = np.zeros(starts[-1], corner)
     vertices["place"] = np.concatenate([piece.vertices for piece in pieces])
     vertices["normal"] = np.concatenate([piece.normals for piece in pieces])
@@ -49,7 +56,8 @@ def ply(scene: Scene) -> bytes:
     faces["corners"] = np.concatenate([p.faces + start for p, start in zip(pieces, starts, strict=False)])
     header = ["ply", "format binary_little_endian 1.0", "comment niwaki: scene units, y up"]
     header.append(f"element vertex {len(vertices)}")
-    header += [f"property float {name}" for name in ("x", "y", "z", "nx", "ny", "nz")]
-    header += [f"property uchar {name}" for name in ("red", "green", "blue")]
+    header += [f"property {name} {axis}" for axis in "xyz"]
+    header += [f"property float n{axis}" for axis in "xyz"]
+    header += [f"property uchar {color}" for color in ("red", "green", "blue")]
     header += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header", ""]
     return "\n".join(header).encode() + vertices.tobytes() + faces.tobytes()

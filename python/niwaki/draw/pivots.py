@@ -1,6 +1,6 @@
 """Where a shape has its own frame: the origin and the axes about which a person would turn it.
 
-box, cylinder, mesh, ellipse   its centre, and its own axes
+box, cylinder, mesh, ellipse   its centre, and its own axes; the middle of a mesh that is far from its own origin
 limb                           the middle of its first ring, y along the ring's direction
 segment                        the middle of its first ring, y forward and z up
 stroke                         its start, x towards its end
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki._engine import Shape
+from niwaki.draw.far import is_far
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,8 @@ def pivot(shape: Shape) -> Pivot:
     elif kind == "stroke":
         start, end = (_vector(one["center"]) for one in solid["ends"])
         center, axes = start, _along(end - start)
+    elif kind == "mesh" and is_far(shape.aabb() - place):
+        return Pivot(np.mean(shape.aabb(), axis=0), rotation)
     else:
         center, axes = np.zeros(3), np.eye(3)
     return Pivot(place + rotation @ center, rotation @ axes)

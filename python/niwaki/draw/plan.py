@@ -14,6 +14,7 @@ from pathlib import Path
 from PIL import Image, ImageDraw
 
 from niwaki.draw.finite import finite
+from niwaki.draw.page import Page
 from niwaki.draw.palette import paints
 from niwaki.draw.picture import png
 from niwaki.draw.scene import Scene
@@ -125,7 +126,7 @@ def plan(
 
 
 def plan_svg(scene: Scene, outline: Sequence[VecLike] = (), *, margin: float = 0.04) -> str:
-    """Write a scene from above as SVG; one unit of the page is one of the scene.
+    """Write a scene from above as SVG; one unit of the page is one of the scene (see `niwaki.draw.page`).
 
     Parameters
     ----------
@@ -135,14 +136,11 @@ def plan_svg(scene: Scene, outline: Sequence[VecLike] = (), *, margin: float = 0
     shown = patches(scene, outline)
     (left, low), (right, high) = _bounds(shown)
     pad = margin * (right - left)
-    wide, tall = right - left + 2.0 * pad, high - low + 2.0 * pad
-    line = 0.0016 * wide
-    box = f"{left - pad:.4f} {-high - pad:.4f} {wide:.4f} {tall:.4f}"
-    lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" stroke-width="{line:.4f}" stroke-linejoin="round">'
-    ]
+    page = Page((left - pad, low - pad), (right + pad, high + pad))
+    line = page.number(0.0016 * page.width)
+    lines = [f'<svg {page.attributes} stroke-width="{line}" stroke-linejoin="round">']
     for patch in shown:
-        points = " ".join(f"{x:.4f},{-y:.4f}" for x, y in patch.corners)
+        points = page.corners(patch.corners)
         lines.append(
             f'  <polygon points="{points}" fill="{_hex(patch.fill)}" stroke="{_hex(_darker(patch.fill))}"/>'
         )

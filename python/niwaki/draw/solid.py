@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.draw.far import is_far
 from niwaki.draw.finite import finite, floats
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
@@ -128,9 +129,12 @@ def kernel() -> Any:
 def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:
     """Each shape as a solid of manifold3d; those that are not closed are reported together."""
     found, bad = [], []
+    # The solid is moved anyway, and the library's tolerance grows with the distance from the origin.
+    origin = scene.bounds[0] if is_far(scene.bounds) else np.zeros(3)
     for part in scene.parts:
         for number, shape in enumerate(part.shapes):
-            vertices, faces = _swollen(*_engine.fine_mesh(shape), swell)
+            vertices, faces, normals = _engine.fine_mesh(shape)
+            vertices, faces = _swollen(vertices - origin, faces, normals, swell)
             solid = tools.Manifold(tools.Mesh64(vertices, faces.astype(np.uint64)))
             reason = ""
             if (count := _open_edges(faces)) or solid.status() != tools.Error.NoError:

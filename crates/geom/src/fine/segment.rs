@@ -48,16 +48,22 @@ fn collared(start: &Ring, end: &Ring, bark: &Bark, down: Vec3) -> FineMesh {
         };
         let ring = between(start, end, t);
         let spread = ring.radius * (1.0 + (foot - 1.0) * left * left);
-        let next = row(&mut mesh, &ring, |out| {
+        let lowered = |out: Vec3| {
             let place = ring.center + out * spread;
-            let lowered = place + down * (bark.drop(place, down, SUNK) * left * left);
+            (place, place + down * (bark.drop(place, down, SUNK) * left * left))
+        };
+        let next = row(&mut mesh, &ring, |out| {
+            let (place, lowered) = lowered(out);
             let (axis, _) = bark.below(place, 1.0);
             let skin = unit_or(lowered - axis, out);
             (lowered, skin * left + out * (1.0 - left))
         });
-        match step {
-            0 => close(&mut mesh, &next, start.center + down * (start.radius * 0.5), down),
-            _ => join(&mut mesh, &below, &next),
+        if step == 0 {
+            // What closes the foot faces into the parent, unlike the skin around it.
+            let base = row(&mut mesh, &ring, |out| (lowered(out).1, down));
+            close(&mut mesh, &base, start.center + down * (start.radius * 0.5), down);
+        } else {
+            join(&mut mesh, &below, &next);
         }
         below = next;
     }
@@ -67,7 +73,8 @@ fn collared(start: &Ring, end: &Ring, bark: &Bark, down: Vec3) -> FineMesh {
 
 #[cfg(test)]
 mod tests {
-    //! Claim: a collared segment is closed, its foot lies on the parent, and its end is the ring of the next one.
+    //! Claim: a collared segment is closed, its foot lies on the parent, its normals agree with its faces, and its end
+    //! is the ring of the next one.
     use super::*;
     use crate::mesh::TriMesh;
     use crate::vector::vec3;
@@ -95,6 +102,13 @@ mod tests {
             }
             let six: f64 = mesh.corners().map(|[a, b, c]| a.dot(b.cross(c))).sum();
             assert!(six > 0.0);
+            for face in &fine.faces {
+                let [a, b, c] = face.map(|i| fine.vertices[i as usize]);
+                let across = unit_or((b - a).cross(c - a), Vec3::ZERO);
+                for &i in face {
+                    assert!(fine.normals[i as usize].dot(across) > -1e-9, "radius {radius}");
+                }
+            }
         }
     }
 }

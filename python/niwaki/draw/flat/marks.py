@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 
-from niwaki.draw.flat.strokes import Curve, Point, Stroke, curves, ring
+from niwaki.draw.flat.strokes import Curve, Point, Stroke, curves, ring, sides_of
 from niwaki.draw.palette import paints
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
@@ -51,7 +51,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Oval:
-    """An ellipse of a scene: its half axes, and the angle of the first."""
+    """An ellipse of a scene: its half axes, the angle of the first, and the sides that it is drawn with."""
 
     address: str
     center: Point
@@ -59,11 +59,16 @@ class Oval:
     across: float
     angle: float
     z: float
+    sides: int
 
     @property
     def is_disc(self) -> bool:
         """Whether both axes are equal."""
         return abs(self.along - self.across) < 1e-9 * self.along
+
+    def ring(self, share: float = 1.0) -> list[Point]:
+        """Its corners, or those of a smaller one of the same form."""
+        return ring(self.center, share * self.along, share * self.across, self.angle, self.sides)
 
 
 @dataclass(frozen=True)
@@ -103,8 +108,9 @@ def marks(scene: Scene, style: Style, like: Scene | None = None) -> list[Mark]:
     like
         The whole of which the scene is a state: curves bend as they will then.
     """
-    strokes, ovals, colors = _taken(scene)
-    whole = strokes if like is None else _taken(like)[0]
+    size = float((scene if like is None else like).size[:2].max())
+    strokes, ovals, colors = _taken(scene, size)
+    whole = strokes if like is None else _taken(like, size)[0]
     bent = {
         (one.address, one.start, one.end): curve
         for one, curve in zip(whole, curves(whole, style.bend), strict=True)
@@ -118,8 +124,8 @@ def marks(scene: Scene, style: Style, like: Scene | None = None) -> list[Mark]:
     return [mark for _, _, mark in sorted(made, key=lambda one: one[:2])]
 
 
-def _taken(scene: Scene) -> tuple[list[Stroke], list[Oval], list[Rgb]]:
-    """Strokes, ellipses, and the colours of the ones and then of the others."""
+def _taken(scene: Scene, size: float) -> tuple[list[Stroke], list[Oval], list[Rgb]]:
+    """Strokes, ellipses, and the colours of the ones and then of the others; the whole drawing has that size."""
     strokes: list[Stroke] = []
     ovals: list[Oval] = []
     stroked, filled = [], []
@@ -134,8 +140,8 @@ def _taken(scene: Scene) -> tuple[list[Stroke], list[Oval], list[Rgb]]:
                 stroked.append(paint.color)
             else:
                 center, long, wide, angle = flat
-                at = (center[0], center[1])
-                ovals.append(Oval(part.address, at, 0.5 * long, 0.5 * wide, angle, center[2]))
+                at, sides = (center[0], center[1]), sides_of(0.5 * max(long, wide), size)
+                ovals.append(Oval(part.address, at, 0.5 * long, 0.5 * wide, angle, center[2], sides))
                 filled.append(paint.color)
     return strokes, ovals, stroked + filled
 
@@ -145,7 +151,7 @@ def _ink_stroke(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark
 
 
 def _ink_oval(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
-    return [(0.0, Mark(one.address, ring(one.center, one.along, one.across, one.angle), color))]
+    return [(0.0, Mark(one.address, one.ring(), color))]
 
 
 def _vine_stroke(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
@@ -187,16 +193,12 @@ def _flower(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     for petal in range(5):
         angle = start + 2.0 * pi * petal / 5.0
         center = one.center[0] + 0.6 * one.along * cos(angle), one.center[1] + 0.6 * one.along * sin(angle)
-        outer = ring(center, 0.45 * one.along, 0.4 * one.along, angle)
-        inner = ring(center, 0.36 * one.along, 0.31 * one.along, angle)
+        outer = ring(center, 0.45 * one.along, 0.4 * one.along, angle, one.sides)
+        inner = ring(center, 0.36 * one.along, 0.31 * one.along, angle, one.sides)
         made.append((0.0, Mark(one.address, outer, mixed(color, (0.45, 0.04, 0.22), 0.4))))
         made.append((0.0, Mark(one.address, inner, color)))
-    made.append(
-        (0.0, Mark(one.address, ring(one.center, 0.27 * one.along, 0.27 * one.along), (0.98, 0.80, 0.25)))
-    )
-    made.append(
-        (0.0, Mark(one.address, ring(one.center, 0.13 * one.along, 0.13 * one.along), (0.86, 0.55, 0.12)))
-    )
+    made.append((0.0, Mark(one.address, one.ring(0.27), (0.98, 0.80, 0.25))))
+    made.append((0.0, Mark(one.address, one.ring(0.13), (0.86, 0.55, 0.12))))
     return made
 
 
@@ -219,7 +221,7 @@ def _bolt(one: Stroke, curve: Curve, color: Rgb) -> list[tuple[float, Mark]]:
 
 
 def _glow(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
-    corners = ring(one.center, one.along, one.across, one.angle)
+    corners = one.ring()
     return [
         (0.0, Mark(one.address, corners, color, 0.6, 0.5, "glow")),
         (0.2, Mark(one.address, corners, color)),
@@ -260,10 +262,7 @@ def _pad(one: Oval, color: Rgb) -> list[tuple[float, Mark]]:
     dark, tin = mixed(BOARD, (0.0, 0.0, 0.0), 0.5), TIN
     if one.is_disc:
         radii = ((0.86, dark), (0.78, tin), (0.36, dark))
-        return [
-            (0.3, Mark(one.address, ring(one.center, size * one.along, size * one.along), fill))
-            for size, fill in radii
-        ]
+        return [(0.3, Mark(one.address, one.ring(size), fill)) for size, fill in radii]
     made = []
     for size, fill in ((0.60, dark), (0.5, tin)):
         half = size * one.across

@@ -151,9 +151,13 @@ def _cap(start: Point, end: Point) -> list[Point]:
     return [(x + u * cos(a) + v * sin(a), y + v * cos(a) - u * sin(a)) for a in turns]
 
 
-def ring(center: Point, along: float, across: float, angle: float = 0.0, sides: int = 0) -> list[Point]:
+def sides_of(radius: float, whole: float) -> int:
+    """How many sides a circle has: enough to miss it by a ten-thousandth of the whole drawing's size at most."""
+    return max(48, 4 * ceil(60.0 * (radius / whole) ** 0.5)) if whole > 0.0 else 48
+
+
+def ring(center: Point, along: float, across: float, angle: float, sides: int) -> list[Point]:
     """Corners of an ellipse with those half axes, the first turned by `angle`, counter-clockwise."""
-    sides = sides or max(16, ceil(12.0 * max(along, across) ** 0.5) * 4)
     turn = cos(angle), sin(angle)
     made = []
     for k in range(sides):

@@ -1,6 +1,6 @@
 """Marks as SVG: a group for each part, its id made of the address, its title the address itself.
 
-One unit of the page is one of the scene.
+One unit of the page is one of the scene; see `niwaki.draw.page` for scenes far from the origin.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from xml.sax.saxutils import escape, quoteattr
 from niwaki.draw.finite import finite
 from niwaki.draw.flat.drawing import Window
 from niwaki.draw.flat.marks import Mark, Rgb, marks, style_of
+from niwaki.draw.page import Page
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 
@@ -39,24 +40,23 @@ def svg(scene: Scene, *, style: str = "ink", window: Window | None = None, margi
         pad = margin * max(wide, tall)
         window = ((low_x - pad, low_y - pad), (high_x + pad, high_y + pad))
     (left, low), (right, high) = finite(window, "the page", "its corners").tolist()
-    box = f"{left:.3f} {-high:.3f} {right - left:.3f} {high - low:.3f}"
-    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}">']
+    page = Page((left, low), (right, high))
+    lines = [f"<svg {page.attributes}>"]
+    taken = {"paper"}
     for blur in sorted({mark.blur for mark in drawn} - {0.0}):
+        taken.add(_filter(blur))
         lines.append(
             f'  <filter id="{_filter(blur)}" x="-100%" y="-100%" width="300%" height="300%">'
             f'<feGaussianBlur stdDeviation="{blur:g}"/></filter>'
         )
-    lines.append(
-        f'  <rect id="paper" x="{left:.3f}" y="{-high:.3f}" width="{right - left:.3f}" height="{high - low:.3f}"'
-        f' fill="{_hex(chosen.paper)}"/>'
-    )
-    used: dict[str, int] = {}
+    x, y = map(page.number, page.at((left, high)))
+    size = f'width="{page.number(page.width)}" height="{page.number(page.height)}"'
+    lines.append(f'  <rect id="paper" x="{x}" y="{y}" {size} fill="{_hex(chosen.paper)}"/>')
     for (address, role), group in groupby(drawn, key=lambda mark: (mark.address, mark.role)):
         name = identifier(address) + (f".{role}" if role else "")
-        used[name] = used.get(name, 0) + 1
-        number = f".{used[name]}" if used[name] > 1 else ""
-        lines.append(f"  <g id={quoteattr(name + number)}><title>{escape(address)}</title>")
-        lines += [f"    {_path(mark)}" for mark in group]
+        name = _free(name, taken)
+        lines.append(f"  <g id={quoteattr(name)}><title>{escape(address)}</title>")
+        lines += [f"    {_path(mark, page)}" for mark in group]
         lines.append("  </g>")
     return "\n".join([*lines, "</svg>", ""])
 
@@ -69,12 +69,20 @@ def identifier(address: str) -> str:
     return name if name[:1].isalpha() or name[:1] == "_" else f"part.{name}"
 
 
-def _path(mark: Mark) -> str:
-    (x, y), *rest = mark.corners
-    corners = " ".join(f"{u:.3f},{-v:.3f}" for u, v in rest)
+def _free(name: str, taken: set[str]) -> str:
+    """The name, or with the first number that makes it another than those taken; it is taken then."""
+    found = next(
+        one for one in (name, *(f"{name}.{k}" for k in range(2, len(taken) + 3))) if one not in taken
+    )
+    taken.add(found)
+    return found
+
+
+def _path(mark: Mark, page: Page) -> str:
+    first, _, corners = page.corners(list(mark.corners)).partition(" ")
     soft = f' filter="url(#{_filter(mark.blur)})" style="mix-blend-mode:screen"' if mark.blur else ""
     thin = f' opacity="{mark.opacity:g}"' if mark.opacity < 1.0 else ""
-    return f'<path d="M{x:.3f},{-y:.3f} L{corners} Z" fill="{_hex(mark.fill)}"{thin}{soft}/>'
+    return f'<path d="M{first} L{corners} Z" fill="{_hex(mark.fill)}"{thin}{soft}/>'
 
 
 def _filter(blur: float) -> str:

@@ -1,0 +1,45 @@
+"""Scenes far from the origin, such as those in the coordinates of a map.
+
+Many programs and formats keep numbers of 32 bits, about seven digits. A scene that is farther from the origin than
+`FAR` times its own size would lose too many of them, so its files keep an offset, or more digits.
+"""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from niwaki.draw.scene import Scene
+
+#: The distance from the origin at which a scene is far, in longest sides of it: 32 bits keep 170,000 steps of it there.
+FAR = 100.0
+
+
+class FarSceneWarning(UserWarning):
+    """A file has all digits of a scene far from the origin, and some programs do not read them all."""
+
+
+def distance(bounds: ArrayLike) -> float:
+    """The distance of the farthest coordinate from 0, in longest sides of a box with those corners; 0 for a point."""
+    low, high = np.asarray(bounds, dtype=np.float64)
+    longest = float((high - low).max())
+    return float(np.abs([low, high]).max()) / longest if longest > 0.0 else 0.0
+
+
+def is_far(bounds: ArrayLike) -> bool:
+    """Whether a box with those corners is far from the origin."""
+    return distance(bounds) > FAR
+
+
+def warn_of(scene: Scene) -> None:
+    """Warn that a file of plain coordinates has more digits than some programs read."""
+    if is_far(scene.bounds):
+        warnings.warn(
+            f"the scene is {distance(scene.bounds):.2g} times as far from the origin as it is large: the file has all "
+            f"digits, but programs that keep 32 bits of a number, such as Blender, lose some; .glb has an offset "
+            f"that they keep, and a scene near the origin needs none",
+            FarSceneWarning,
+            stacklevel=3,
+        )
