@@ -21,6 +21,7 @@ from niwaki.batches.spec import Case, Seeds, Spec
 from niwaki.batches.store import Store
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
+from niwaki.inputs.modules import files
 from niwaki.lang.models import Model
 from niwaki.search import Search, asked
 from niwaki.targets.target import Target
@@ -236,9 +237,9 @@ def _axes(vary: Any) -> dict[str, list[Any]]:
 
 
 def _folders(modules: tuple[str, ...]) -> tuple[str, ...]:
-    """Where the modules of host functions are found, but for our own."""
+    """Where the modules of host functions are found, but for our own and for files."""
     found = set()
-    for name in modules:
+    for name in {*modules} - {name for name, _ in files(modules)}:
         first = sys.modules.get(name.partition(".")[0])
         place = getattr(first, "__file__", None)
         if place is not None and not name.startswith("niwaki."):

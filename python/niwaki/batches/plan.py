@@ -16,6 +16,7 @@ from niwaki.batches.spec import Spec
 from niwaki.batches.store import Store
 from niwaki.batches.working import Chunk
 from niwaki.errors.settings import bad, is_whole
+from niwaki.inputs.modules import files
 
 #: Seconds of the smallest chunk, at the end of a batch.
 LEAST = 0.1
@@ -153,7 +154,14 @@ class Plan:
     def _chunk(self, items: list[Item], suspected: int = 0) -> Chunk:
         texts = {case: self.spec.cases[case].text for case, _ in items}
         return Chunk(
-            self.spec.engine, self.spec.bits, texts, tuple(items), self._trust, self._folders, suspected
+            self.spec.engine,
+            self.spec.bits,
+            texts,
+            tuple(items),
+            self._trust,
+            self._folders,
+            suspected,
+            files(self._trust),
         )
 
     def done(self, items: list[Item], seconds: float) -> None:

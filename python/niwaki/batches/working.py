@@ -16,11 +16,13 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from niwaki import _engine
 from niwaki.batches.body import body_of, fault_of
 from niwaki.errors import FileError, NiwakiError
+from niwaki.inputs.modules import run_files
 from niwaki.search import Search
 from niwaki.search.request import engine_hash
 
@@ -43,8 +45,8 @@ class Chunk:
         The cases as JSON, by number.
     items
         Number of a case, and a seed, for each search.
-    trust, folders
-        Modules whose host functions may be called, and where they are looked for.
+    trust, folders, files
+        Modules whose host functions may be called, where they are looked for, and those that are files, by name.
     suspected
         How often a pool broke while it was under way.
     """
@@ -56,6 +58,7 @@ class Chunk:
     trust: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     suspected: int = 0
+    files: tuple[tuple[str, Path], ...] = ()
 
 
 @dataclass
@@ -97,6 +100,7 @@ def work(chunk: Chunk) -> Done:
     for case, seed in chunk.items:
         wall, cpu = time.perf_counter(), time.process_time()
         try:
+            run_files(chunk.files)
             body, said = _searched(chunk.searches[case], chunk.trust, seed)
         except (Exception, KeyboardInterrupt) as error:
             done.trouble = f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"

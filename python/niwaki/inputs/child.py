@@ -26,6 +26,7 @@ from niwaki.errors import FileError, InputError
 from niwaki.errors.files import FILE_MESSAGES
 from niwaki.inputs.guard import library
 from niwaki.inputs.limits import beyond, limit
+from niwaki.inputs.modules import folders
 
 resource: Any
 try:
@@ -82,7 +83,8 @@ def read_apart(
         "seconds": seconds,
         "memory": memory,
     }
-    paths = os.pathsep.join(path for path in sys.path if path)
+    # A person's folder, which is the first one while a file of it is run, has nothing that the child needs.
+    paths = os.pathsep.join(sorted(filter(None, sys.path), key=folders().__contains__))
     environment = {**os.environ, "PYTHONPATH": paths, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
     # -P: the folder that we are in holds no modules of the child.
     command = [sys.executable, "-P", "-W", "ignore", "-c", _START]

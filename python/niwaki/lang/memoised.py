@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from niwaki.errors import ModelFault
+from niwaki.inputs.modules import public
 from niwaki.lang import futures
 from niwaki.lang.marks import underlying
 from niwaki.words.memo import Memoised
@@ -32,7 +33,7 @@ class Calls:
         """The function's part of addresses: its name, with its module where another function has that name."""
         name = memo.name
         if self.names.setdefault(name, memo) is not memo:
-            name = f"{underlying(memo.function).__module__}.{name}"
+            name = f"{public(underlying(memo.function).__module__)}.{name}"
         return name
 
 

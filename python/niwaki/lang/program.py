@@ -12,6 +12,7 @@ from typing import Any
 
 from niwaki.errors import InputError, ModelError
 from niwaki.errors.source import SourceFile, Span, find_function, span_of
+from niwaki.inputs.modules import public
 from niwaki.lang.constants import is_data, owned
 from niwaki.lang.core import Expr, Form, is_literal, literal
 from niwaki.lang.deep import too_deep
@@ -91,7 +92,7 @@ class Program:
     def _name(self, unit: Unit) -> None:
         qualified = unit.function.__qualname__.replace(".<locals>", "").replace("<lambda>", "lambda")
         if qualified in self.taken:
-            qualified = f"{unit.function.__module__}.{qualified}"
+            qualified = f"{public(unit.function.__module__)}.{qualified}"
         unit.names[unit.scopes.root] = self.fresh(qualified)
         for scope in functions(unit.scopes):
             if scope.parent is not None:

@@ -12,7 +12,6 @@ import base64
 import hashlib
 import inspect
 import math
-import sys
 import textwrap
 import zlib
 from collections.abc import Callable, Mapping
@@ -25,6 +24,7 @@ import numpy as np
 from niwaki import _engine
 from niwaki.errors import InputError, NiwakiError
 from niwaki.errors.schema import Unfit, fitted, inside, shown
+from niwaki.inputs.modules import modules, public
 from niwaki.lang.constants import NUMERIC
 from niwaki.lang.marks import Host
 from niwaki.lang.models import Model
@@ -172,7 +172,7 @@ def host_reference(function: Any) -> dict[str, str]:
     """Write a host function: its module and name, and the hash of its source."""
     plain = inspect.unwrap(function.function if isinstance(function, Host) else function)
     name = getattr(plain, "__qualname__", type(plain).__qualname__)
-    return {"module": getattr(plain, "__module__", ""), "name": name, "sha256": source_hash(plain)}
+    return {"module": public(getattr(plain, "__module__", "")), "name": name, "sha256": source_hash(plain)}
 
 
 def source_hash(function: Any) -> str:
@@ -268,13 +268,14 @@ class Reader:
         if module not in self.trust:
             reason = f"it calls the Python function `{module}.{name}`, and `{module}` is not among the trusted modules"
             raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
-        found: Any = sys.modules.get(module) or import_module(module)
-        for part in name.split("."):
-            found = getattr(found, part, None)
-        if not isinstance(found, Host) or source_hash(inspect.unwrap(found.function)) != reference["sha256"]:
-            reason = "it is no host function there, or another than it was"
-            raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
-        return found.function
+        for place in modules(module) or [import_module(module)]:
+            found: Any = place
+            for part in name.split("."):
+                found = getattr(found, part, None)
+            if isinstance(found, Host) and source_hash(inspect.unwrap(found.function)) == reference["sha256"]:
+                return found.function
+        reason = "it is no host function there, or another than it was"
+        raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
 
 
 def _array(reader: Reader, data: Mapping[str, Any]) -> Any:

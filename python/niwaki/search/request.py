@@ -29,6 +29,7 @@ from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.schema import Unfit, decoded, fitted, shown
 from niwaki.errors.settings import bad, count, is_whole
+from niwaki.inputs.modules import files, public, run_files
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
@@ -322,10 +323,11 @@ class Search:
     @property
     def host_modules(self) -> tuple[str, ...]:
         """The modules of the host functions that the model calls."""
-        return tuple(sorted({one.__module__ for one in self.model.core().constants if callable(one)}))
+        hosts = {public(one.__module__) for one in self.model.core().constants if callable(one)}
+        return tuple(sorted(hosts))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Search.of_json, (self.json("inside"), self.host_modules)
+        return _unpickled, (self.json("inside"), self.host_modules, files(self.host_modules))
 
 
 @cache
@@ -404,6 +406,12 @@ def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
         required=data["required"],
     )
     return StoredModel(core, data["name"])
+
+
+def _unpickled(text: str, trust: tuple[str, ...], wanted: tuple[tuple[str, Path], ...]) -> Search:
+    """A search of another process, which has run those files."""
+    run_files(wanted)
+    return Search.of_json(text, trust)
 
 
 def _function_writer(write: Writer) -> Any:

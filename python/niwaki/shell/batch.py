@@ -13,7 +13,8 @@ from niwaki import batches
 from niwaki.batches import clusters, export, plan, pools
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad, count
-from niwaki.shell import batch_files, references, results
+from niwaki.inputs.modules import run_file
+from niwaki.shell import batch_files, results
 from niwaki.shell.app import app
 from niwaki.shell.progress import batch_line, standing
 
@@ -147,7 +148,7 @@ def export_(
         raise InputError("no-batch", path=folder)
     modules = tuple(Path(place).stem for place in trust or ())
     for place in trust or ():
-        references.run_file(place.resolve())
+        run_file(place.resolve())
     there = folder if output is None else output
     written: list[Path] = []
     if as_csv:

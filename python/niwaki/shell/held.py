@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -16,6 +15,7 @@ import typer
 import niwaki as nw
 from niwaki import search, shell
 from niwaki.errors import InputError
+from niwaki.inputs.modules import modules
 from niwaki.lang.compiled import translated
 from niwaki.result import parts
 from niwaki.shell import picking
@@ -86,7 +86,7 @@ class Origin:
         data = shell.run_files.load(path)
         place = picking.place(number, len(data["runs"]), data["best"])
         # The model's own file has been run for this command; no other module is imported here.
-        known = {module for module, _, _ in shell.trust.hosts(data["search"]) if module in sys.modules}
+        known = {module for module, _, _ in shell.trust.hosts(data["search"]) if modules(module)}
         sample = shell.run_files.replayed(data, place, tuple(sorted(known)), path)
         return cls(path, place + 1, sample, tuple(lock or ()), tuple(reroll or ()))
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
-import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any
 
-from niwaki.errors import InputError, NiwakiError
+from niwaki.errors import InputError
 from niwaki.gallery import Entry, entries, entry
-from niwaki.inputs import bytes_of
+from niwaki.inputs.modules import run_file
 from niwaki.lang.models import Model
 
 
@@ -73,58 +70,3 @@ def _in_file(reference: str, place: Path, name: str) -> ModelReference:
         here = ", ".join(models) or "no function marked with `@model`"
         raise InputError("unknown-model", name=reference, reason=f"{place} defines {here}")
     return ModelReference(f"{place.resolve()}:{name}", found, file_hash=digest)
-
-
-def run_file(
-    place: Path, name: str = "", check: Callable[[bytes], object] | None = None
-) -> tuple[ModuleType, str]:
-    """Run a file as a module, with its own folder importable, as `python file.py` would.
-
-    Parameters
-    ----------
-    place
-        The file.
-    name
-        Of the module; the file's when left out.
-    check
-        Gets the bytes that are about to be run, and raises an error where they must not be.
-
-    Returns
-    -------
-    module
-        What the file defines.
-    digest : str
-        SHA-256 of the bytes that were run.
-    """
-    name = name or place.stem
-    module = ModuleType(name)
-    module.__file__ = str(place)
-    sys.path.insert(0, str(place.parent))
-    try:
-        # Not through the import system: its cache misses the second of two edits within a second.
-        source = bytes_of(place, "model")
-        if check is not None:
-            check(source)
-        code = compile(source, str(place), "exec", dont_inherit=True)
-        sys.modules[name] = module
-        exec(code, module.__dict__)
-    except NiwakiError:
-        raise
-    except Exception as error:
-        line = _last_line(error, place)
-        raise InputError(
-            "model-file-failed", path=place, reason=f"{type(error).__name__}: {error}{line}"
-        ) from error
-    finally:
-        sys.path.remove(str(place.parent))
-    return module, hashlib.sha256(source).hexdigest()
-
-
-def _last_line(error: BaseException, place: Path) -> str:
-    """The line of the file where it stopped."""
-    found, trace = "", error.__traceback__
-    while trace is not None:
-        if trace.tb_frame.f_code.co_filename == str(place):
-            found = f" (line {trace.tb_lineno})"
-        trace = trace.tb_next
-    return found

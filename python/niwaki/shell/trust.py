@@ -10,14 +10,13 @@ from __future__ import annotations
 
 import ast
 import hashlib
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.inputs.modules import modules, run_file
 from niwaki.search.data import text_hash
-from niwaki.shell.references import run_file
 
 #: The package's own functions are as trusted as the package.
 OWN = "niwaki"
@@ -55,7 +54,7 @@ def trusted(data: dict[str, Any], model: Path | None, trust: bool) -> tuple[str,
         raise InputError("unknown-model", name=str(place), reason=f"there is no file {place}")
     run_file(place, named.stem, None if model else _unchanged(place, data, others))
     # Running the file has imported what it needs; nothing else is imported for a run.json.
-    return tuple(sorted(own | {module for module, _, _ in others if module in sys.modules}))
+    return tuple(sorted(own | {module for module, _, _ in others if modules(module)}))
 
 
 def hosts(data: Any) -> Iterator[tuple[str, str, str]]:

@@ -8,12 +8,13 @@ was called.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from niwaki.errors import InputError
+from niwaki.inputs.modules import modules as run_modules
+from niwaki.inputs.modules import prefer
 from niwaki.shell.trust import hosts, trusted
 from niwaki.studio.refused import Refused
 from niwaki.studio.worker import models
@@ -47,7 +48,8 @@ def modules(data: dict[str, Any]) -> tuple[str, ...]:
     if reference is not None:
         # Run at most once for each state of the file.
         models.reference(reference)
-        return tuple(sorted(needed & set(sys.modules)))
+        prefer(named.resolve())
+        return tuple(sorted(module for module in needed if run_modules(module)))
     try:
         return trusted(data, None, _trust[0])
     except InputError as error:
