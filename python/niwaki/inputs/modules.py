@@ -8,6 +8,7 @@ own name, `public`, which is the same on all machines.
 from __future__ import annotations
 
 import hashlib
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -49,7 +50,7 @@ def run_file(
         SHA-256 of the bytes that were run.
     """
     name = name or place.stem
-    own, path = re.sub(r"\W", "_", name), hashlib.sha256(str(place).encode()).hexdigest()
+    own, path = re.sub(r"\W", "_", name), hashlib.sha256(os.fsencode(place)).hexdigest()
     private = f"_{own}_{path[:12]}"
     module = ModuleType(private)
     module.__file__ = str(place)

@@ -7,6 +7,7 @@ The pipeline: `source` finds the text, `scope` the owners of names, `sites` the 
 from __future__ import annotations
 
 import ast
+import os
 from types import FunctionType
 
 from niwaki.errors.source import head_span
@@ -63,7 +64,9 @@ def lowered(function: FunctionType) -> Program:
 
 def module_head(program: Program) -> list[Expr]:
     """The files and the record classes of a program."""
-    head: list[Expr] = [Form("file", [str(n), literal(file.path)]) for n, file in enumerate(program.files)]
+    # A name that is not in the encoding of file names has halves of characters in Python, and the engine none.
+    paths = [os.fsencode(file.path).decode("utf-8", "replace") for file in program.files]
+    head: list[Expr] = [Form("file", [str(n), literal(path)]) for n, path in enumerate(paths)]
     for number, record in enumerate(program.classes):
         fields = Form("", [literal(field) for field in record_fields(record)])
         kind = ["namedtuple"] if is_named_tuple(record) else []

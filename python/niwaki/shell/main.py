@@ -7,6 +7,7 @@ results are written).
 from __future__ import annotations
 
 import gc
+import io
 import sys
 import warnings
 from typing import Any, NoReturn
@@ -23,6 +24,8 @@ def main() -> NoReturn:
     Clock.of_process = True
     # What is loaded stays: looking for garbage among it takes a tenth of the time to load it.
     gc.set_threshold(50_000)
+    for stream in (sys.stdout, sys.stderr):
+        make_lenient(stream)
     warnings.showwarning = _warned  # type: ignore[assignment]
     try:
         app(standalone_mode=True)
@@ -33,6 +36,15 @@ def main() -> NoReturn:
         print("stopped", file=sys.stderr)
         raise SystemExit(130) from None
     raise SystemExit(0)
+
+
+def make_lenient(stream: Any) -> None:
+    r"""Let a stream write characters that its encoding lacks as escapes, such as `\u2713`.
+
+    A redirect on Windows is in cp1252, a pipe in the C locale in ASCII; what was computed must not end in an error.
+    """
+    if isinstance(stream, io.TextIOWrapper) and stream.errors in ("strict", "surrogateescape"):
+        stream.reconfigure(errors="backslashreplace")
 
 
 def _warned(message: Warning | str, category: type[Warning], *_: Any) -> None:

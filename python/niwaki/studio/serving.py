@@ -60,13 +60,15 @@ def listening(port: int) -> socket.socket:
     found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         found.bind(("127.0.0.1", port))
-    except OSError as error:
+    except (OSError, OverflowError) as error:
         found.close()
         raise InputError(
             "bad-setting",
             name="--port",
             found=str(port),
-            expected=f"a free port ({error.strerror})",
+            expected=f"a free port ({error.strerror})"
+            if isinstance(error, OSError)
+            else "a port from 0 to 65535",
             suggestion="another port, or leave it out",
         ) from error
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,8 @@ import pytest
 
 pytest.importorskip("starlette")
 
-from niwaki import studio
+from niwaki import InputError, studio
+from niwaki.studio.serving import listening
 from studio_process import serving
 
 #: Leaves a mark when it is run.
@@ -103,3 +105,37 @@ def test_two_sessions_at_once_and_one_folder_for_one_studio(tmp_path: Path) -> N
     with serving(tmp_path / "a") as third, studio.connect(third.url, third.key) as one:
         ready(one)
         assert one.view["model"]["reference"] == "spaceship"
+
+
+def test_each_model_of_a_file_that_was_named_can_be_chosen(tmp_path: Path) -> None:
+    file, other = tmp_path / "garden.py", tmp_path / "other.py"
+    text = MODEL.format(mark=str(tmp_path / "mark"))
+    file.write_text(text + text[text.index("@model") :].replace("tower", "wall"))
+    other.write_text(text)
+    with serving(tmp_path / "session", file) as served, studio.connect(served.url, served.key) as one:
+        for name in ("tower", "wall"):
+            one.ask("model", reference=f"{file}:{name}")
+            while one.view["model"]["reference"] != f"{file.resolve()}:{name}":
+                one.read(20)
+            assert f"{file.resolve()}:{name}" in {listed["reference"] for listed in one.view["models"]}
+            one.ask("ask", ask={"target": {"source": "box"}})
+            one.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+            one.ask("run")
+            assert one.view["results"]
+        with pytest.raises(studio.StudioError, match="was not named at the start"):
+            one.ask("model", reference=f"{other}:tower")
+
+
+@pytest.mark.parametrize("port", [-1, 65_536, 70_000, 10**20])
+def test_a_port_that_is_none_is_refused(port: int) -> None:
+    with pytest.raises(InputError, match="a port from 0 to 65535") as refused:
+        listening(port)
+    assert refused.value.code == "bad-setting"
+
+
+def test_a_port_that_is_taken_is_refused() -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        with pytest.raises(InputError, match="expected a free port [(]Address already in use[)]"):
+            listening(taken.getsockname()[1])

@@ -41,7 +41,7 @@ class Hello(Command, tag="hello"):
 
 
 class ChooseModel(Command, tag="model"):
-    """Take a model: a name of the gallery, or a reference that was named at the start."""
+    """Take a model: a name of the gallery, or a reference of a file that was named at the start."""
 
     reference: Text
 

@@ -36,14 +36,24 @@ async def begin(session: Session) -> None:
 
 def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
     """Take another model; starred results stay."""
-    is_listed = command.reference in {one.reference for one in session.models}
-    if not is_listed and not session.drawing_file(command.reference):
+    reference = command.reference
+    if reference not in {one.reference for one in session.models}:
+        reference = _of_named_file(session, reference)
+    if not reference and not session.drawing_file(command.reference):
         text = f"`{command.reference}` is no model of the gallery, and was not named at the start"
         raise Refused("unknown-model", text)
     session.losses = ""
-    fresh = {"model": command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
+    fresh = {"model": reference or command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
     session.step("model", {**fresh, "results": session.document.starred(), "picked": None})
     session.start(load(session))
+
+
+def _of_named_file(session: Session, reference: str) -> str:
+    """The reference of a model in a file that was named at the start, with the whole path; empty for any other."""
+    place, colon, name = reference.rpartition(":")
+    path = Path(place if colon else reference).resolve()
+    named = {Path(one.rpartition(":")[0] or one) for one in session.files}
+    return f"{path}{colon}{name}" if path in named else ""
 
 
 async def load(session: Session, keep: m.Problem | None = None) -> None:
@@ -56,6 +66,8 @@ async def load(session: Session, keep: m.Problem | None = None) -> None:
     if answer.models:
         session.model = answer.models[0]
         session.models = [session.model if one.reference == reference else one for one in session.models]
+        if session.model.is_file and session.model not in session.models:
+            session.models.append(session.model)
     elif session.model is None or session.model.reference != reference:
         listed = (one for one in session.models if one.reference == reference)
         session.model = next(listed, None) or m.ModelInfo(reference, is_file=True)

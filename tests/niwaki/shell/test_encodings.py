@@ -1,0 +1,71 @@
+"""Claim: a command ends as it should wherever its output goes: text that an encoding lacks is written as escapes."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+MODEL = """
+from niwaki import box, emit, model, uniform
+
+@model
+def \u0434\u0435\u0440\u0435\u0432\u043e():
+    emit(box((0, 1, 0), (1, uniform(0.5, 1.5), 1)), name="\u0441\u0442\u0432\u043e\u043b")
+"""
+FILE, FOLDER = "\u043c\u043e\u0434\u0435\u043b\u044c.py", "\u2713 \u043e\u0442\u0432\u0435\u0442"
+COMMANDS = (
+    ["check", FILE],
+    ["show", FILE, "-n", "1", "--quick", "--seed", "1"],
+    ["grow", FILE, "--target", "box.obj", "-n", "5", "--seed", "1", "--no-picture", "-o", FOLDER],
+    ["replay", f"{FOLDER}/run.json", "-o", "again", "--no-picture"],
+    ["color", "house", "-o", f"{FOLDER} 2", "--seed", "1"],
+    ["models"],
+)
+ENCODINGS = {
+    "ascii": {"PYTHONIOENCODING": "ascii"},
+    "cp1252": {"PYTHONIOENCODING": "cp1252"},
+    "strict": {"PYTHONIOENCODING": "ascii:strict"},
+    "C": {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"},
+}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / FILE).write_text(MODEL, "utf-8")
+    (tmp_path / "box.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 3 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+    )
+    return tmp_path
+
+
+def run(words: Any, folder: Path, **settings: Any) -> subprocess.CompletedProcess[bytes]:
+    program = [sys.executable, "-P", "-c", "from niwaki.shell.main import main; main()"]
+    return subprocess.run(
+        [*program, *map(os.fsencode, words)], cwd=folder, stderr=subprocess.PIPE, **settings
+    )
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+def test_text_that_an_encoding_lacks_ends_no_command(folder: Path, encoding: str) -> None:
+    environment = {**os.environ, **ENCODINGS[encoding]}
+    for words in COMMANDS:
+        done = run(words, folder, stdout=subprocess.PIPE, env=environment)
+        assert done.returncode == 0, (words, done.stderr.decode())
+        if words[0] == "check":
+            assert b"\\u0434\\u0435\\u0440" in done.stdout
+    assert (folder / "again" / "best.glb").is_file()
+    refused = run(["check", f"{FILE}:\u043d\u0435\u0442"], folder, stdout=subprocess.PIPE, env=environment)
+    assert refused.returncode == 2 and b"Traceback" not in refused.stderr
+
+
+@pytest.mark.parametrize("closed", [(1,), (2,), (1, 2)])
+def test_a_closed_output_ends_no_command(folder: Path, closed: tuple[int, ...]) -> None:
+    for words in COMMANDS[:3]:
+        done = run(words, folder, preexec_fn=lambda: [os.close(number) for number in closed])
+        assert done.returncode == 0, (words, done.stderr.decode())
+    assert (folder / FOLDER / "best.glb").is_file()
