@@ -78,7 +78,14 @@ class Workers:
         self.seconds = seconds
         known = getattr(executor, "_max_workers", None)
         self.count = count("processes", processes or known or cores(), most=1 << 20 if executor else MOST)
-        self._given, self._own = executor, None if executor else local(self.count)
+        self._given, self._own = executor, None if executor else self._started()
+        self._answered = False
+
+    def _started(self) -> ProcessPoolExecutor:
+        """A pool of our own, which is first asked whether it is there."""
+        own = local(self.count)
+        self._hello = own.submit(os.getpid)
+        return own
 
     @property
     def depth(self) -> int:
@@ -97,12 +104,16 @@ class Workers:
         Raises
         ------
         InputError
-            The executor is not ours.
+            The executor is not ours, or no worker of ours has ever answered.
         """
         if self._own is None:
             raise InputError("executor-broken", reason=str(reason) or type(reason).__name__) from reason
         self._own.shutdown(wait=True, cancel_futures=True)
-        self._own = local(self.count)
+        self._answered = self._answered or not (self._hello.cancelled() or self._hello.exception())
+        if not self._answered:
+            # Others would end as they did, before any search.
+            raise InputError("workers-not-started") from reason
+        self._own = self._started()
 
     def close(self, at_once: bool) -> None:
         """End our own pool; `at_once` also what is under way."""

@@ -112,6 +112,21 @@ def test_what_ends_its_worker_is_given_up_alone(monkeypatch: pytest.MonkeyPatch,
     assert len(batches.Store(tmp_path)) == len(found)
 
 
+def test_a_program_without_a_guard_ends_with_its_first_workers(tmp_path: Path) -> None:
+    # Each start of a worker leaves a line: one pool is started, and no other in its place.
+    (tmp_path / "unguarded.py").write_text(
+        "import os, niwaki as nw\n"
+        f"os.write(os.open({str(tmp_path / 'starts')!r}, os.O_WRONLY | os.O_APPEND | os.O_CREAT), b'start\\n')\n"
+        "@nw.model\ndef coin():\n    return nw.flip(0.5)\n"
+        "list(nw.batch(nw.Search(coin, method=nw.importance(1)), seeds=12, processes=2))\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    program = [sys.executable, str(tmp_path / "unguarded.py")]
+    done = subprocess.run(program, env=environment, capture_output=True, text=True)
+    assert done.returncode != 0 and "error[workers-not-started]" in done.stderr, done.stderr
+    assert (tmp_path / "starts").read_text().count("start") == 3
+
+
 def test_an_executor_that_is_not_ours_is_not_replaced(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

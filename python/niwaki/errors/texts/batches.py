@@ -63,12 +63,20 @@ BATCHES = (
         cure="niwaki.batch(...), whose own processes are replaced",
     ),
     Message(
+        "workers-not-started",
+        "the workers of this batch ended before they could begin",
+        why="each worker imports the program that calls `batch`, and what ended that import is written above",
+        help='call `batch` under `if __name__ == "__main__":`, so that a worker which imports the program begins no batch of '
+        "its own",
+        example="for one in niwaki.batch(model, seeds=100):\n    print(one)",
+        cure='if __name__ == "__main__":\n    for one in niwaki.batch(model, seeds=100):\n        print(one)',
+    ),
+    Message(
         "searches-lost",
         "{count} of {total} searches have no result",
         why="the first is case {case}, seed {seed}; three workers were lost with it, or could not do it: {reason}",
         help="all others are stored. Look into the log for the rest of the message, and run the batch again: it tries "
-        "these anew. Where memory ran out, `--processes 1` leaves more to each. A script calls `batch` under `if __name__ == "
-        '"__main__":`, because each worker imports it',
+        "these anew. Where memory ran out, `--processes 1` leaves more to each",
         example="a model whose host function ends the process",
         cure="a host function that returns",
     ),
