@@ -206,7 +206,7 @@ def outcomes(store: Store, trust: tuple[str, ...] = ()) -> Iterator[Outcome]:
 
     @cache
     def searched(case: int) -> Search:
-        return Search.of_data(store.whole.cases[case].data, trust)
+        return store.whole.cases[case].search(trust)
 
     for case, seed, body in store.present():
         yield Outcome(case, store.whole.cases[case].labels, seed, searched(case).with_seed(seed), body)

@@ -1,7 +1,7 @@
 """What a batch consists of: cases, which are searches without a seed, and seeds. Each case is searched by each seed.
 
-A spec is written once, under a name with its hash, and is not changed. Another spec in the same folder has the same
-cases and other seeds. The results depend on the engine and on the bits that a machine computes, so both are part of it.
+A spec is written once and is not changed: its name has the hash of its bytes, which is computed again wherever it is
+read. Another spec in the same folder has the same cases and other seeds. The results depend on the engine and on the bits that a machine computes, so both are part of it.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from itertools import accumulate
+from pathlib import Path
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -21,11 +22,13 @@ from niwaki.errors.schema import Unfit, decoded, fitted
 from niwaki.errors.settings import bad, count, is_whole
 from niwaki.once import cached_property
 from niwaki.search import Search
-from niwaki.search.data import text_hash
 from niwaki.search.request import check_format, engine_hash
 
 #: The version of the JSON form, and of what segments hold.
 FORMAT = 1
+
+#: How the names of specs begin, and how many digits of the hash follow.
+SPEC, DIGITS = "spec-", 16
 
 #: The most searches of a batch.
 MOST = 100_000_000
@@ -169,6 +172,20 @@ class Case:
         """The search as JSON."""
         return json.dumps(self.data, allow_nan=False)
 
+    def search(self, trust: tuple[str, ...] = ()) -> Search:
+        """The search; `trust` as for `Search.of_data`.
+
+        Raises
+        ------
+        InputError
+            It is none, or not that of the hash, by which results are found.
+        """
+        found = Search.of_data(self.data, trust).with_seed(0)
+        if found.hash != self.hash:
+            reason = f"its results are those of the search {self.hash[:16]}, and it has the search {found.hash[:16]}"
+            raise InputError("bad-batch", path=f"the case {dict(self.labels)}", reason=reason)
+        return found
+
 
 @dataclass(frozen=True)
 class Spec:
@@ -205,9 +222,9 @@ class Spec:
         return self.engine, self.bits, [(dict(case.labels), case.hash) for case in self.cases]
 
     @property
-    def hash(self) -> str:
-        """SHA-256 of the cases and the seeds, in hexadecimal."""
-        return text_hash(json.dumps([*self.identity, self.seeds.ranges], sort_keys=True))
+    def asked(self) -> tuple[Any, ...]:
+        """What decides which results the batch has: the cases and the seeds."""
+        return *self.identity, self.seeds.ranges
 
     @cached_property
     def prefixes(self) -> list[bytes]:
@@ -235,9 +252,14 @@ class Spec:
         """The spec as JSON."""
         return json.dumps(self.data(), allow_nan=False)
 
+    @staticmethod
+    def name_of(text: bytes) -> str:
+        """The name of the file that has this text."""
+        return f"{SPEC}{sha256(text).hexdigest()[:DIGITS]}.json"
+
     @classmethod
-    def of_text(cls, text: str | bytes, place: Any) -> Spec:
-        """Read a spec from JSON; `place` is its file, for messages.
+    def of_file(cls, text: bytes, place: Path) -> Spec:
+        """Read a spec from the bytes of its file.
 
         Raises
         ------
@@ -245,6 +267,8 @@ class Spec:
             It is none, or was changed.
         """
         try:
+            if place.name != cls.name_of(text):
+                raise InputError("bad-batch", path=place, reason="its bytes are not those that its name is the hash of")
             data = decoded(text)
             check_format(data, FORMAT)
             read = fitted(data, SpecData)

@@ -17,15 +17,11 @@ from hashlib import sha256
 from pathlib import Path
 
 from niwaki.batches.segments import HEAD, SEGMENT, Segment, records
-from niwaki.batches.spec import Spec
+from niwaki.batches.spec import SPEC, Spec
 from niwaki.errors import FileError, InputError
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.inputs import bytes_of
-
-#: How the names of specs begin.
-SPEC = "spec-"
-
 
 def specs(folder: Path) -> list[Spec]:
     """The specs of a folder, all with the same cases; none where there is no batch.
@@ -35,7 +31,7 @@ def specs(folder: Path) -> list[Spec]:
     InputError
         One of them is damaged, or they are of two batches.
     """
-    found = [Spec.of_text(bytes_of(place, "batch"), place) for place in sorted(folder.glob(f"{SPEC}*.json"))]
+    found = [Spec.of_file(bytes_of(place, "batch"), place) for place in sorted(folder.glob(f"{SPEC}*.json"))]
     for one in found[1:]:
         refuse_another(folder, found[0], one)
     return found
@@ -92,6 +88,7 @@ class Store:
         if spec is not None and there:
             refuse_another(folder, there[0], spec)
         self.spec = spec or there[0]
+        self._is_written = any(one.asked == self.spec.asked for one in there)
         seeds = self.spec.seeds
         for one in there:
             seeds = seeds.united(one.seeds)
@@ -167,10 +164,12 @@ class Store:
         FileError
             Another run writes there, or the folder cannot be written to.
         """
-        place = ensure_folder(self.folder) / f"{SPEC}{self.spec.hash[:16]}.json"
+        ensure_folder(self.folder)
         with held_folder(self.folder / f"{shard[0]}-of-{shard[1]}") as folder:
-            if not place.exists():
-                write_whole(place, self.spec.text().encode())
+            if not self._is_written:
+                text = self.spec.text().encode()
+                write_whole(self.folder / Spec.name_of(text), text)
+                self._is_written = True
             self.scan()
             own = Own(self, Segment(folder))
             try:

@@ -20,7 +20,7 @@ import pytest
 from niwaki import batches
 from niwaki.batches import segments, working
 from niwaki.batches.plan import MOST, shard_of
-from niwaki.batches.spec import Case
+from niwaki.batches.spec import Case, Spec
 from niwaki.errors import FileError, InputError
 from niwaki.shell.references import find
 
@@ -108,6 +108,61 @@ def test_unequal_results_of_one_search_are_an_error(tmp_path: Path, thread: Thre
     (tmp_path / "1-of-1" / "seg-wrong").write_bytes(segments.record(key, b"{}"))
     with pytest.raises(InputError, match="unequal-results"):
         batches.Store(tmp_path)
+
+
+def test_a_spec_with_any_bit_changed_is_refused(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+    (spec,) = tmp_path.glob("spec-*.json")
+    whole = spec.read_bytes()
+    for bit in range(8 * len(whole)):
+        changed = bytearray(whole)
+        changed[bit // 8] ^= 1 << bit % 8
+        with pytest.raises(InputError, match="bad-batch"):
+            Spec.of_file(bytes(changed), spec)
+    spec.write_bytes(whole.replace(b"0.", b"1.", 1))
+    for reads in (
+        lambda: list(batches.stored(tmp_path)),
+        lambda: list(nw.batch(batched.PILES, seeds=3, folder=tmp_path, executor=thread)),
+    ):
+        with pytest.raises(InputError, match="its bytes are not those"):
+            reads()
+
+
+def test_a_result_with_any_bit_changed_is_none(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    list(nw.batch(batched.PILES, seeds=1, folder=tmp_path, executor=thread))
+    wanted = list(batches.Store(tmp_path).present())
+    (segment,) = tmp_path.glob("*/seg-*")
+    whole = segment.read_bytes()
+    for bit in range(8 * len(whole)):
+        changed = bytearray(whole)
+        changed[bit // 8] ^= 1 << bit % 8
+        segment.write_bytes(changed)
+        found = list(batches.Store(tmp_path).present())
+        assert len(found) == 1 and found[0] in wanted
+
+
+def test_a_case_with_the_search_of_another_is_refused(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    list(nw.batch(batched.PILES, seeds=2, folder=tmp_path, executor=thread))
+    (spec,) = tmp_path.glob("spec-*.json")
+    data = json.loads(spec.read_bytes())
+    one, other = data["cases"]
+    one["search"], other["search"] = other["search"], one["search"]
+    text = json.dumps(data).encode()
+    spec.unlink()
+    (tmp_path / Spec.name_of(text)).write_bytes(text)
+    # Its scores would stand beside scenes that have others.
+    with pytest.raises(InputError, match="its results are those of the search"):
+        list(batches.stored(tmp_path))
+
+
+def test_a_spec_is_written_once(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
+    for seeds in (2, 2, 3, 2):
+        list(nw.batch(batched.PILES, seeds=seeds, folder=tmp_path, executor=thread))
+    assert len(list(tmp_path.glob("spec-*.json"))) == 2
+    # Other places of the same source are another text of the same searches.
+    moved = [Case(one.labels, one.hash, {}, one.data) for one in batches.Store(tmp_path).spec.cases]
+    with batches.Store(tmp_path, batches.Spec.here(moved, batches.Seeds.of(3))).held():
+        assert len(list(tmp_path.glob("spec-*.json"))) == 2
 
 
 def test_a_fault_is_the_result_of_its_search(tmp_path: Path, thread: ThreadPoolExecutor) -> None:
