@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from faults import trials
 from niwaki.errors import FileError
 from niwaki.errors import files as module
 from niwaki.errors.files import write_whole
@@ -203,3 +204,20 @@ def test_what_a_killed_process_left_is_removed_later(tmp_path: Path) -> None:
     with held_folder(tmp_path):
         pass
     assert names(tmp_path) == {young.name}
+
+
+def test_a_disk_that_fails_at_any_call_leaves_the_old_file_or_the_new_one(tmp_path):
+    seen = []
+    for trial in trials(
+        tmp_path,
+        lambda folder: write_whole(folder / "one.bin", b"second" * SIZE),
+        lambda folder: write_whole(folder / "one.bin", b"first" * SIZE),
+    ):
+        seen.append((trial.fault, trial.call))
+        assert trial.error is None or isinstance(trial.error, FileError), trial
+        assert [place.name for place in trial.folder.iterdir()] == ["one.bin"], trial
+        found = (trial.folder / "one.bin").read_bytes()
+        assert found in (b"first" * SIZE, b"second" * SIZE), trial
+        # Without an error the bytes are there.
+        assert trial.error is not None or found == b"second" * SIZE, trial
+    assert {("short", "write"), ("full", "write"), ("EIO", "fsync"), ("EACCES", "replace")} <= set(seen)
