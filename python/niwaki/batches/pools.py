@@ -8,12 +8,17 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from contextlib import suppress
+from multiprocessing.process import BaseProcess
+from multiprocessing.util import Finalize
 
 from niwaki.batches.working import Chunk, Done, work
 from niwaki.errors import InputError
+from niwaki.errors.processes import end_group, lead
 from niwaki.errors.settings import bad, count, is_number
 
 #: The most processes of a pool of ours.
@@ -21,6 +26,9 @@ MOST = 512
 
 #: Seconds of a chunk.
 TARGET = 2.0
+
+#: A priority at the exit of a process, above those of the standard library.
+FIRST = 1000
 
 #: Chunks under way for each worker: while one is worked on, the next one is there.
 AHEAD = 2
@@ -38,8 +46,14 @@ def local(processes: int) -> ProcessPoolExecutor:
 
 
 def _begin() -> None:
-    """In a worker: Ctrl-C is for the process that collects, and without that one there is nothing to do."""
+    """In a worker: Ctrl-C is for the process that collects, and without that one there is nothing to do.
+
+    What host functions have started ends with the worker.
+    """
+    lead()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Before it would wait for processes of its own.
+    Finalize(None, _end, exitpriority=FIRST)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_follow, args=(parent.join,), daemon=True).start()
@@ -47,7 +61,14 @@ def _begin() -> None:
 
 def _follow(ended: Callable[[], None]) -> None:
     ended()
+    end_group(os.getpid())
     os._exit(1)
+
+
+def _end() -> None:
+    with suppress(AttributeError, OSError, ValueError):
+        sys.stdout.flush()
+    end_group(os.getpid())
 
 
 class Workers:
@@ -108,20 +129,33 @@ class Workers:
         """
         if self._own is None:
             raise InputError("executor-broken", reason=str(reason) or type(reason).__name__) from reason
+        leaders = self._leaders()
         self._own.shutdown(wait=True, cancel_futures=True)
+        for leader in leaders:
+            end_group(leader)
         self._answered = self._answered or not (self._hello.cancelled() or self._hello.exception())
         if not self._answered:
             # Others would end as they did, before any search.
             raise InputError("workers-not-started") from reason
         self._own = self._started()
 
+    def end_orphans(self) -> None:
+        """End what workers of our own pool have started that are gone: a child of a fork keeps open what tells of it."""
+        for leader, process in self._leaders().items():
+            if not process.is_alive():
+                end_group(leader)
+
     def close(self, at_once: bool) -> None:
         """End our own pool; `at_once` also what is under way."""
         if self._own is None:
             return
-        processes = list((getattr(self._own, "_processes", None) or {}).values()) if at_once else []
+        processes = self._leaders() if at_once else {}
         self._own.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
-            process.terminate()
-        for process in processes:
+        for leader in processes:
+            end_group(leader)
+        for process in processes.values():
             process.join()
+
+    def _leaders(self) -> dict[int, BaseProcess]:
+        """The processes of our own pool, by their numbers."""
+        return dict(getattr(self._own, "_processes", None) or {})

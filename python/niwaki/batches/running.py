@@ -100,11 +100,15 @@ class Running:
         ------
         InputError
             A worker has another engine, or an executor that is not ours broke.
+        FileError
+            The folder cannot be written to, or the disk is full.
         """
         ended = False
         try:
             while self._send() or self._flying:
                 finished, _ = wait(self._flying, timeout=LOOK, return_when=FIRST_COMPLETED)
+                if not finished:
+                    self._workers.end_orphans()
                 broken = self._collect(finished)
                 if broken is not None:
                     rest, _ = wait(self._flying, timeout=GRACE)
@@ -147,16 +151,16 @@ class Running:
         for future in finished:
             chunk = self._flying.pop(future)
             try:
-                self._take(chunk, future.result())
+                done = future.result()
             except (BrokenExecutor, CancelledError) as error:
                 broken = error
                 self._suspect(chunk)
-            except InputError:
-                raise
             except Exception as error:
                 # The executor's own error: of Ray or Dask, whose pools do not break with one worker.
                 reason = str(error).partition("\n")[0]
                 self._plan.failed(chunk, f"{type(error).__name__}: {reason}")
+            else:
+                self._take(chunk, done)
         return broken
 
     def _suspect(self, chunk: Chunk) -> None:

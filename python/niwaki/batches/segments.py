@@ -15,8 +15,10 @@ import struct
 import time
 import zlib
 from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
+from niwaki.errors import FileError
 from niwaki.errors.files import sync_folder, unwritable
 from niwaki.inputs import regular
 
@@ -33,6 +35,16 @@ SEGMENT, LOG = "seg-", "log-"
 SYNC = 1.0
 
 
+@contextmanager
+def unreadable(place: Path, what: str = "a segment") -> Iterator[None]:
+    """What the system says inside, as the error about a segment, or something else, that cannot be read."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise FileError("file-unreadable", place, suffix=what, reason=reason) from error
+
+
 def record(key: bytes, body: bytes) -> bytes:
     """The bytes of one record."""
     return HEAD.pack(MARK, key, len(body), _crc(key, body)) + body
@@ -46,7 +58,7 @@ def records(place: Path) -> Iterator[tuple[bytes, int, int]]:
     FileError
         The segment cannot be read.
     """
-    with regular(place).open("rb") as file:
+    with unreadable(place), regular(place).open("rb") as file:
         if os.fstat(file.fileno()).st_size == 0:
             return
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
@@ -80,8 +92,8 @@ class Segment:
     def __init__(self, folder: Path) -> None:
         name = secrets.token_hex(8)
         self.path, self.log = folder / f"{SEGMENT}{name}", folder / f"{LOG}{name}.jsonl"
-        self._numbers: tuple[int, int] | None = None
-        self._length, self._synced = 0, 0.0
+        self._numbers: list[int] = []
+        self._synced = 0.0
 
     def append(self, found: Iterable[tuple[bytes, bytes]], lines: Iterable[str] = ()) -> list[int]:
         """Add records, and lines to the log; the places of the bodies.
@@ -92,16 +104,17 @@ class Segment:
             The folder cannot be written to, or the disk is full.
         """
         whole, places = bytearray(), []
-        for key, body in found:
-            places.append(self._length + len(whole) + HEAD.size)
-            whole += record(key, body)
         try:
-            if self._numbers is None:
-                self._numbers = _created(self.path), _created(self.log)
+            for place in (self.path, self.log)[len(self._numbers) :]:
+                self._numbers.append(_created(place))
                 sync_folder(self.path.parent)
+            # Where the file ends, also after a write that failed in its middle.
+            end = os.lseek(self._numbers[0], 0, os.SEEK_END)
+            for key, body in found:
+                places.append(end + len(whole) + HEAD.size)
+                whole += record(key, body)
             _write(self._numbers[0], bytes(whole))
             _write(self._numbers[1], "".join(f"{line}\n" for line in lines).encode())
-            self._length += len(whole)
             if time.monotonic() - self._synced >= SYNC:
                 os.fsync(self._numbers[0])
                 self._synced = time.monotonic()
@@ -110,13 +123,22 @@ class Segment:
         return places
 
     def close(self) -> None:
-        """Bring all of it to the disk."""
-        numbers, self._numbers = self._numbers, None
-        for number in numbers or ():
+        """Bring all of it to the disk.
+
+        Raises
+        ------
+        FileError
+            The disk does not take it.
+        """
+        numbers, self._numbers = self._numbers, []
+        with ExitStack() as stack:
+            for number in numbers:
+                stack.callback(os.close, number)
             try:
-                os.fsync(number)
-            finally:
-                os.close(number)
+                for number in numbers:
+                    os.fsync(number)
+            except OSError as error:
+                raise unwritable(self.path, error) from error
 
 
 def _created(place: Path) -> int:

@@ -16,9 +16,9 @@ from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
-from niwaki.batches.segments import HEAD, SEGMENT, Segment, records
+from niwaki.batches.segments import HEAD, SEGMENT, Segment, records, unreadable
 from niwaki.batches.spec import SPEC, Spec
-from niwaki.errors import FileError, InputError
+from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.inputs import bytes_of
@@ -31,7 +31,7 @@ def specs(folder: Path) -> list[Spec]:
     InputError
         One of them is damaged, or they are of two batches.
     """
-    found = [Spec.of_file(bytes_of(place, "batch"), place) for place in sorted(folder.glob(f"{SPEC}*.json"))]
+    found = [Spec.of_file(bytes_of(place, "batch"), place) for place in _within(folder, f"{SPEC}*.json")]
     for one in found[1:]:
         refuse_another(folder, found[0], one)
     return found
@@ -39,7 +39,13 @@ def specs(folder: Path) -> list[Spec]:
 
 def is_batch(folder: Path) -> bool:
     """Whether a folder holds a batch."""
-    return any(folder.glob(f"{SPEC}*.json"))
+    return bool(_within(folder, f"{SPEC}*.json"))
+
+
+def _within(folder: Path, pattern: str) -> list[Path]:
+    """The files of a folder by a pattern, in the order of their names."""
+    with unreadable(folder, "a folder"):
+        return sorted(folder.glob(pattern))
 
 
 def refuse_another(folder: Path, there: Spec, given: Spec) -> None:
@@ -102,7 +108,7 @@ class Store:
     def scan(self) -> None:
         """Find the results that are there."""
         self._files, self._places = [], {}
-        for place in sorted(self.folder.glob(f"*-of-*/{SEGMENT}*")):
+        for place in _within(self.folder, f"*-of-*/{SEGMENT}*"):
             self._files.append(place)
             for key, at, length in records(place):
                 self._know(key, len(self._files) - 1, at, length)
@@ -130,15 +136,9 @@ class Store:
 
     def _read(self, place: tuple[int, int, int]) -> bytes:
         file, at, length = place
-        try:
-            with self._files[file].open("rb") as opened:
-                opened.seek(at)
-                return opened.read(length)
-        except OSError as error:
-            reason = error.strerror or str(error)
-            raise FileError(
-                "file-unreadable", self._files[file], suffix="a segment", reason=reason
-            ) from error
+        with unreadable(self._files[file]), self._files[file].open("rb") as opened:
+            opened.seek(at)
+            return opened.read(length)
 
     def present(self) -> Iterator[tuple[int, int, bytes]]:
         """Case, seed and bytes of each result that is there, in the order of the batch."""

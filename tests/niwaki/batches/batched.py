@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -52,6 +54,22 @@ def deadly(value: float) -> float:
     return value
 
 
+@host
+def starting(value: float) -> float:
+    """Starts a process that goes on for long, and forks one that comes back; both leave their number in a folder."""
+    folder = Path(os.environ["STARTED"])
+    child = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"])
+    (folder / str(child.pid)).touch()
+    if os.fork() == 0:
+        (folder / str(os.getpid())).touch()
+    return slow(value)
+
+
+@model
+def prolific():
+    factor(starting(uniform(0.0, 1.0)))
+
+
 @model
 def waiting():
     x = uniform(0.0, 1.0)
@@ -73,6 +91,8 @@ SEEDS, COUNT = 30, 60
 
 #: So long searches wait that are killed.
 WAITING = nw.Search(waiting, method=nw.importance(1))
+#: Searches that leave processes behind.
+PROLIFIC = nw.Search(prolific, method=nw.importance(1))
 
 
 def whole(folder: Path) -> str:
@@ -80,9 +100,9 @@ def whole(folder: Path) -> str:
     return batches.Store(folder).hash()
 
 
-def main(folder: str, seeds: str = "200") -> None:
+def main(folder: str, seeds: str = "200", search: nw.Search = WAITING) -> None:
     """Search in the folder, by two processes, in chunks of a tenth of a second; print the hash."""
-    found: Any = list(nw.batch(WAITING, seeds=int(seeds), folder=folder, processes=2, chunk=0.1))
+    found: Any = list(nw.batch(search, seeds=int(seeds), folder=folder, processes=2, chunk=0.1))
     print(len(found), whole(Path(folder)))
 
 

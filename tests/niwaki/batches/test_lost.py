@@ -43,9 +43,11 @@ def notes(folder: Path) -> Iterator[dict[str, object]]:
                 yield json.loads(line)
 
 
-def started(folder: Path, seeds: int, slow: float) -> subprocess.Popen[str]:
-    environment = {**os.environ, "SLOW": str(slow), "PYTHONPATH": os.pathsep.join(sys.path)}
-    words = [sys.executable, "-c", PROGRAM, str(folder), str(seeds)]
+def started(
+    folder: Path, seeds: int, slow: float, program: str = PROGRAM, **variables: str
+) -> subprocess.Popen[str]:
+    environment = {**os.environ, "SLOW": str(slow), "PYTHONPATH": os.pathsep.join(sys.path), **variables}
+    words = [sys.executable, "-c", program, str(folder), str(seeds)]
     return subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -97,6 +99,26 @@ def test_a_batch_goes_on_without_a_worker(tmp_path: Path) -> None:
     assert child.returncode == 0, error
     assert said.split() == ["60", wanted(tmp_path / "alone", 60)]
     assert {one["attempt"] for one in notes(tmp_path / "kill")} == {1}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
+@pytest.mark.parametrize("end", ["its own", "Ctrl-C", "a kill", "a worker's"])
+def test_what_a_host_function_started_ends_with_its_batch(end: str, tmp_path: Path) -> None:
+    program = PROGRAM.replace("[1:])", "[1:], batched.PROLIFIC)")
+    (tmp_path / "numbers").mkdir()
+    seeds = 10 if end in ("its own", "a worker's") else 2000
+    with started(tmp_path / "out", seeds, 20.0, program, STARTED=str(tmp_path / "numbers")) as child:
+        if end != "its own":
+            until_some(tmp_path / "out", child, 5)
+        if end == "a worker's":
+            os.kill(int(str(next(notes(tmp_path / "out"))["process"])), signal.SIGKILL)
+        elif end in ("Ctrl-C", "a kill"):
+            child.send_signal(signal.SIGINT if end == "Ctrl-C" else signal.SIGKILL)
+        # What it left behind would keep the pipe open.
+        _, error = child.communicate(timeout=60)
+    assert child.returncode == 0 or end in ("Ctrl-C", "a kill"), error
+    numbers = {int(one.name) for one in (tmp_path / "numbers").iterdir()}
+    assert len(numbers) >= 10 and ended(numbers)
 
 
 def test_what_ends_its_worker_is_given_up_alone(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
