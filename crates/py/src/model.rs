@@ -1,6 +1,7 @@
 //! A compiled model for Python: from the text of its core form and the objects that come with it.
 
 use crate::faults;
+use crate::search::end_if_forked;
 use crate::values::Classes;
 use niwaki_grad::Var;
 use niwaki_infer::nested::{Inferences, Inner};
@@ -13,6 +14,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::Value;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use std::collections::HashMap;
@@ -30,10 +32,12 @@ impl Hosts for PyHosts {
         let Some(Some(callable)) = self.callables.get(constant as usize) else {
             return Err(Fault::new("host-function", format!("constant {constant} is not a function")));
         };
+        let process = std::process::id();
         Python::attach(|py| {
             let args: Vec<_> = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<_>>()?;
-            let given = callable.bind(py).call1(PyTuple::new(py, args)?)?;
-            self.classes.value(&given)
+            let given = callable.bind(py).call1(PyTuple::new(py, args)?);
+            end_if_forked(process, "the host function");
+            self.classes.value(&given?)
         })
         .map_err(|error| Python::attach(|py| failed(py, callable, &error)))
     }
@@ -42,7 +46,13 @@ impl Hosts for PyHosts {
 fn failed(py: Python<'_>, callable: &Py<PyAny>, error: &PyErr) -> Fault {
     let name = callable.bind(py).getattr("__name__").map_or_else(|_| "it".into(), |name| name.to_string());
     let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
-    Fault::new("host-function", format!("the host function `{name}` failed: {kind}: {}", error.value(py)))
+    let said = format!("the host function `{name}` failed: {kind}: {}", error.value(py));
+    if error.is_instance_of::<PyKeyboardInterrupt>(py) {
+        // Ctrl-C came while the function ran on the thread of the caller, to whom it goes on. Nothing of Python runs here
+        // after this, which would get it.
+        let _ = py.import("_thread").and_then(|threads| threads.call_method0("interrupt_main"));
+    }
+    Fault::new("host-function", said)
 }
 
 /// A compiled model; never changes, and serves any number of searches at once.

@@ -53,6 +53,15 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// The exit status of a child that was forked in a callback and came back (`EX_SOFTWARE` of sysexits.h).
 const FORKED: i32 = 70;
 
+/// Ends this process where it is a child that was forked in `callback`, a function of the user that `process` called: the
+/// search does not go on in it.
+pub(crate) fn end_if_forked(process: u32, callback: &str) {
+    if std::process::id() != process {
+        eprintln!("niwaki: the search stays in the parent of this fork; end the child in {callback}");
+        std::process::exit(FORKED);
+    }
+}
+
 /// The progress of a search, and whether it should stop.
 #[derive(Default)]
 pub(crate) struct Watch {
@@ -121,12 +130,7 @@ pub(crate) fn detached<T: Send>(
                     *raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);
                 }
-                if std::process::id() != process {
-                    eprintln!(
-                        "niwaki: the search stays in the parent of this fork; end the child in `progress`"
-                    );
-                    std::process::exit(FORKED);
-                }
+                end_if_forked(process, "`progress`");
             }
         })
     });
@@ -283,7 +287,10 @@ impl PyTask {
     ) -> PyResult<Vec<PyRun>> {
         let (task, known) = (&self.task, run.by_address());
         let with = Afresh { part, particles, power, seed };
-        let (runs, _) = detached(py, &task.program, threads, None, |_| afresh(task, &known, &with))?;
+        let (runs, pressed) = detached(py, &task.program, threads, None, |_| afresh(task, &known, &with))?;
+        if pressed {
+            return Err(PyKeyboardInterrupt::new_err(()));
+        }
         let classes = &self.model.get().classes;
         Ok(runs.into_iter().map(|run| PyRun::new(Arc::new(run), classes.clone())).collect())
     }
@@ -363,7 +370,10 @@ impl PyTask {
         work: impl FnOnce() -> Result<T, Failure> + Send,
     ) -> PyResult<T> {
         let done = if self.model.get().has_inferences() { Pool::inside(py, work)? } else { py.detach(work) };
-        done.map_err(|failure| faults::raise(py, &failure, &self.task.program))
+        done.map_err(|failure| {
+            // Ctrl-C in a host function is no fault of the model.
+            py.check_signals().err().unwrap_or_else(|| faults::raise(py, &failure, &self.task.program))
+        })
     }
 
     /// The method of a text.

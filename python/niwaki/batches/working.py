@@ -122,10 +122,7 @@ def _searched(text: str, trust: tuple[str, ...], seed: int) -> tuple[bytes, dict
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            result = _ready(text, trust).with_seed(seed).run(threads=1)
-            if result.interrupted:
-                raise KeyboardInterrupt
-            body = body_of(result)
+            body = body_of(_ready(text, trust).with_seed(seed).run(threads=1).to_its_end())
         except FileError:
             raise
         except NiwakiError as error:

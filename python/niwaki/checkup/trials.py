@@ -37,7 +37,7 @@ def block() -> Any:
 
 def exact() -> None:
     """Compile a model and enumerate its runs; the first coin shows heads in two of three."""
-    found = run(coins, method=enumerate_all()).distribution()[True]
+    found = run(coins, method=enumerate_all()).to_its_end().distribution()[True]
     if not math.isclose(found, 2.0 / 3.0, rel_tol=1e-9):
         raise ArithmeticError(f"the probability of two of three is {found!r}")
 
@@ -45,7 +45,7 @@ def exact() -> None:
 def grown() -> None:
     """Grow a block into a target, draw it and write it as a mesh."""
     target = Target.of_shapes(box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))
-    result = run(block, method=smc(20), score=match_volume(target, voxel=0.125), seed=1)
+    result = run(block, method=smc(20), score=match_volume(target, voxel=0.125), seed=1).to_its_end()
     with TemporaryDirectory(prefix="niwaki-doctor-") as folder:
         files = [
             result.best.save(Path(folder, "block.png"), size=(32, 24)),

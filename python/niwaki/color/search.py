@@ -159,6 +159,11 @@ def color(
     list of Coloring
         The best first, then each as different as can be from those before it.
 
+    Raises
+    ------
+    KeyboardInterrupt
+        Ctrl-C: what is not settled keeps no rule.
+
     Examples
     --------
     >>> from niwaki import mh
@@ -185,7 +190,7 @@ def color(
         seed=seed,
         threads=threads,
         progress=progress,
-    )
+    ).to_its_end()
     drawn = [sample for sample in result if sample.has_ended and np.isfinite(sample.log_score)]
     pool = [run(coloring, *given, choices=settled(one, settle))[0] for one in drawn] if settle else drawn
     if len(pool) < count:

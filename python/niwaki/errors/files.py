@@ -124,6 +124,23 @@ def written_beside(place: Path, data: bytes) -> Iterator[Callable[[], None]]:
         _discard(temporary)
 
 
+def check_place(place: Path) -> Path:
+    """Refuse, before the work, a place where no file can be written.
+
+    Raises
+    ------
+    FileError
+        There is no such folder; what is there is no regular file, or write-protected; or no file can have the name.
+    """
+    try:
+        if not os.path.isdir(place.parent):
+            raise FileNotFoundError(errno.ENOENT, "there is no such folder")
+        _replaceable(Path(os.path.realpath(place)))
+    except (OSError, ValueError) as error:
+        raise unwritable(place, error) from error
+    return place
+
+
 def _discard(temporary: Path | None) -> None:
     """Remove a file that did not get its place."""
     if temporary is not None:

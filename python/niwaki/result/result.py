@@ -99,6 +99,18 @@ class Result(Sequence[Sample]):
         except AttributeError as error:
             raise AttributeError(f"a result of `{self.method.NAME}` has no `{name}`") from error
 
+    def to_its_end(self) -> Result:
+        """The result itself, of a search that was not interrupted; for code that goes on after it.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            Ctrl-C stopped the search.
+        """
+        if self.interrupted:
+            raise KeyboardInterrupt
+        return self
+
     @property
     def model(self) -> Model[..., Any]:
         """What was run."""

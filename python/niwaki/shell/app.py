@@ -5,6 +5,7 @@ Results go to files and stdout, progress and warnings to stderr.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
@@ -40,6 +41,13 @@ class _Commands(typer.core.TyperGroup):
             return None
         import_module(f"niwaki.shell.{cmd_name}")
         return typer.main.get_group(app).commands[cmd_name]
+
+    def invoke(self, ctx: Any) -> Any:
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            print("stopped", file=sys.stderr)
+            raise typer.Exit(130) from None
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         with formatter.section("Commands"):

@@ -15,7 +15,7 @@ import typer
 import niwaki as nw
 from niwaki import guides, search, shell, targets
 from niwaki.errors import InputError
-from niwaki.errors.files import ensure_folder
+from niwaki.errors.files import check_place, ensure_folder
 from niwaki.guides.report import sentence
 from niwaki.methods import Guide
 from niwaki.search.checkpoint import begun_seed
@@ -29,6 +29,9 @@ group = typer.Typer(
     rich_markup_mode=None,
 )
 app.add_typer(group, name="guide")
+
+#: The last line of a training that was stopped.
+INTERRUPTED = "interrupted; go on with the same command and --resume"
 
 
 @group.command()
@@ -91,7 +94,8 @@ def train(
     found = shell.references.find(model)
     counts = None if rounds is None else settings.numbers("rounds", rounds, int)
     training = guides.Training() if objective == "examples" else guides.Training.bound(objective=objective)
-    place = output.with_name(f"{output.name}.checkpoint")
+    ensure_folder(output.parent)
+    place = check_place(check_place(output).with_name(f"{output.name}.checkpoint"))
     if resume and not place.is_file():
         raise InputError("no-checkpoint", path=place)
     if not resume and place.exists():
@@ -99,9 +103,8 @@ def train(
         print(f"warning: {place}, of a training that did not end, is replaced", file=sys.stderr)
     seed = search.fresh(begun_seed(seed, place))
     goals = _goals(found, places, window, pixels, voxel, mirror)
-    ensure_folder(output.parent)
     began = time.perf_counter()
-    with _shown(found.reference) as progress:
+    with _shown(found.reference) as progress, _told(place):
         guide = nw.train_guide(
             found.model,
             goals.learned,
@@ -131,10 +134,22 @@ def train(
     guide.save(output)
     seconds = time.perf_counter() - began
     print(f"{output}: {guide!r}, {len(guide.data) / 1000:.0f} kB, {seconds:.0f} s, seed {seed}")
-    if guide.report.get("interrupted"):
-        print("interrupted; go on with the same command and --resume")
+    if any(one.get("interrupted") for one in (guide.report, guide.report.get("look_ahead", {}))):
+        print(INTERRUPTED)
         raise typer.Exit(130)
     place.unlink(missing_ok=True)
+
+
+@contextmanager
+def _told(checkpoint: Path) -> Iterator[None]:
+    """Where Ctrl-C comes before there is a guide, the last line says how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if not checkpoint.exists():
+            raise
+        print(INTERRUPTED, file=sys.stderr)
+        raise typer.Exit(130) from None
 
 
 @group.command()

@@ -29,7 +29,7 @@ def tried(first: ModelReference, second: ModelReference, target: nw.Target, voxe
                 with warnings.catch_warnings():
                     # That a version is no good is what the table says.
                     warnings.simplefilter("ignore", SearchWarning)
-                    results.append(nw.grow(found.model, target, seed=seed, voxel=voxel))
+                    results.append(nw.grow(found.model, target, seed=seed, voxel=voxel).to_its_end())
                 show(f"search {seed + 1} of {SEARCHES}")
         best = [result.best.log_score for result in results]
         seconds = median(result.cpu_seconds for result in results)
