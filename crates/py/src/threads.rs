@@ -25,18 +25,22 @@ const KEPT: usize = 4;
 /// Threads of one process.
 pub struct Pool {
     threads: ThreadPool,
-    /// How many were asked for; `None` for as many as `RAYON_NUM_THREADS` or the machine says.
+    /// How many were asked for; `None` for as many as the machine has.
     asked: Option<usize>,
     process: u32,
 }
 
 impl Pool {
-    /// A pool for one search: one that waits, or else a new one.
+    /// A pool for one search: one that waits, or else a new one. Where no number is asked for, `RAYON_NUM_THREADS` may say one.
     ///
     /// # Errors
-    /// The system gives no more threads.
+    /// The variable names no number of threads; the system gives no more of them.
     pub fn borrow(py: Python<'_>, asked: Option<usize>) -> PyResult<Pool> {
         let process = std::process::id();
+        let asked = match asked {
+            Some(asked) => Some(asked),
+            None => py.import("niwaki.errors.settings")?.call_method0("usual_threads")?.extract()?,
+        };
         let mut idle = waiting(py);
         // Dropping a pool of the parent would tell threads that are not there to end.
         for foreign in idle.extract_if(.., |pool| pool.process != process) {
@@ -48,9 +52,14 @@ impl Pool {
         let builder = ThreadPoolBuilder::new().thread_name(|number| format!("niwaki {number}"));
         // Rayon's word for "as many as the machine has" is 0.
         let builder = builder.num_threads(asked.map_or(0, |n| n.max(1)));
-        let threads = builder.build().map_err(|error| {
-            PyRuntimeError::new_err(format!("no threads for the search: {error}; use fewer `threads`"))
-        })?;
+        let threads = match builder.build() {
+            Ok(threads) => threads,
+            Err(error) => {
+                let settings = py.import("niwaki.errors.settings")?;
+                settings.call_method1("refuse_threads", (asked, error.to_string()))?;
+                return Err(PyRuntimeError::new_err(error.to_string()));
+            }
+        };
         // Each thread has worked before the interpreter's lock is given away, and a fork is possible: what threads set up for
         // the whole process (the allocator's list of them, the collector of their queues) is then complete.
         apart(|| threads.broadcast(|_| ()));

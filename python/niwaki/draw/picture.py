@@ -7,7 +7,6 @@ gives the same pixels on any number of threads. A scene of flat shapes is a draw
 from __future__ import annotations
 
 import io
-from errno import EISDIR, ENOENT
 from math import isfinite
 from os import PathLike
 from pathlib import Path
@@ -20,11 +19,11 @@ from PIL import Image
 from niwaki import _engine
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.marks import is_flat
-from niwaki.draw.limits import LARGEST, check_size
+from niwaki.draw.limits import LARGEST, check_rays, check_size
 from niwaki.draw.palette import paints
 from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
-from niwaki.errors.files import unwritable, write_whole
+from niwaki.errors.files import check_place, write_whole
 from niwaki.errors.settings import count, is_number
 
 Backdrop = Literal["studio", "white", "slate", "clear"]
@@ -133,6 +132,7 @@ def picture(
         )
     meshes = surfaces(scene, like)
     ghost = None if target is None else _ghost(target)
+    check_rays(size, sum(len(faces) for _, faces, *_ in [*meshes, *([] if ghost is None else [ghost])]))
     if camera is None:
         seen = surfaces(frame) if frame is not None else meshes
         clouds = [mesh[0] for mesh in seen] + ([] if target is None else [target.vertices])
@@ -205,11 +205,7 @@ def check_image(path: str | PathLike[str]) -> Path:
             done="drawn",
             formats=", ".join(IMAGE_FORMATS),
         )
-    if not place.parent.is_dir():
-        raise unwritable(place, FileNotFoundError(ENOENT, "there is no such folder"))
-    if place.is_dir():
-        raise unwritable(place, IsADirectoryError(EISDIR, "it is a folder"))
-    return place
+    return check_place(place)
 
 
 def preview(scene: Scene) -> bytes:

@@ -20,7 +20,7 @@ LEAST = 256 * 2**20
 UNKNOWN = 1 << 62
 
 
-def check_room(name: str, count: int, each: int, what: str) -> None:
+def check_room(name: str, count: int, each: int, what: str, beside: int = 0) -> None:
     """Refuse a count that needs more memory than there is.
 
     Parameters
@@ -33,13 +33,15 @@ def check_room(name: str, count: int, each: int, what: str) -> None:
         The least that one takes, bytes.
     what
         One of them, in words.
+    beside
+        Bytes that are needed for other things.
 
     Raises
     ------
     InputError
         The numbers: asked for, one, together, free, and how many fit.
     """
-    free = free_memory()
+    free = max(0, free_memory() - beside)
     if count * each > free:
         raise InputError(
             "no-room",
@@ -76,7 +78,7 @@ def size(count: int) -> str:
 
 def free_memory() -> int:
     """Bytes that this process can still get: of the machine, of its group of processes, and by its own limit."""
-    return max(0, min(_of_machine(), *(_of_group(*files) for files in _GROUPS), _of_limit()))
+    return max(0, min(_of_machine(), *(_of_group(*files) for files in _GROUPS), limit_of_process()))
 
 
 def _of_machine() -> int:
@@ -105,7 +107,7 @@ def _of_group(limit: str, used: str) -> int:
     return left
 
 
-def _of_limit() -> int:
+def limit_of_process() -> int:
     """What `ulimit -v` leaves."""
     try:
         import resource

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import sys
-from typing import Any
+from typing import Any, NoReturn
 
 from niwaki.errors.kinds import InputError
 
 #: The largest count: the engine counts in 64 bits.
 MOST = 2**63 - 1
+
+#: The most threads of a search, and the variable in the environment that names their number.
+THREADS, VARIABLE = 1024, "RAYON_NUM_THREADS"
 
 #: The most characters of a value in a message.
 LONGEST = 200
@@ -62,3 +66,25 @@ def count(name: str, value: Any, least: int = 1, most: int = MOST, usual: str | 
     expected = {0: "a whole number, 0 or more", 1: "a whole number above 0"}
     suggestion = usual or ("0" if least == 0 else f"{least} or more")
     raise bad(name, value, expected.get(least, f"a whole number, at least {least}"), suggestion)
+
+
+def usual_threads() -> int | None:
+    """How many threads the environment asks for; None where it does not say. The engine calls it for each of its pools.
+
+    Raises
+    ------
+    InputError
+        The variable is no number of threads.
+    """
+    text = os.environ.get(VARIABLE, "").strip()
+    # Zero is Rayon's word for as many as the machine has.
+    if text in ("", "0"):
+        return None
+    if not (text.isascii() and text.isdecimal() and len(text) <= 4 and int(text) <= THREADS):
+        raise bad(VARIABLE, text, f"a whole number from 1 to {THREADS}", "such a number, or leave it out for all cores")
+    return int(text)
+
+
+def refuse_threads(asked: int | None, reason: str) -> NoReturn:
+    """The error about threads that the system does not give, in the engine's words."""
+    raise InputError("no-threads", asked="all" if asked is None else asked, reason=reason)

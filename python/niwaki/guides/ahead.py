@@ -8,11 +8,13 @@ from os import cpu_count
 from typing import Any
 
 from niwaki import _engine
+from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad
 from niwaki.guides.training import EVERY, JUDGE, with_guide
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Guide, Smc, at_least_one
+from niwaki.methods.room import SEARCH
 from niwaki.search import Search
 from niwaki.search.checks import check_seed, check_threads, fresh
 from niwaki.targets.sketches import Score
@@ -100,6 +102,7 @@ def train_look_ahead(
         raise bad("guide", guide, "a guide with the shared network", "one that was trained with `Training()`")
     for name, value in (("searches", searches), ("states", states), ("particles", particles)):
         at_least_one(name, value)
+    check_room("searches", searches, SEARCH, "search")
     if not isinstance(method, Smc) or method.weights != "ratio" or method.proposal is not None:
         expected = "particles by ratio weights, without a proposal"
         raise bad("method", method, expected, '`smc(10, resampling="tempered")`')

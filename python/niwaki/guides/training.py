@@ -15,6 +15,7 @@ import numpy as np
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
+from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad, is_whole
 from niwaki.guides.memory import Memory
 from niwaki.guides.report import Round
@@ -23,6 +24,7 @@ from niwaki.guides.traces import best_of
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Guide, Method, kernels, smc
+from niwaki.methods.room import SEARCH
 from niwaki.result import Sample
 from niwaki.search import Search
 from niwaki.search.checkpoint import Checkpoint, begun_seed
@@ -159,6 +161,8 @@ def train_guide(
     searches = SEARCHES if searches is None else searches
     if not rounds or by_examples and not all(is_whole(one) and one >= 2 for one in rounds):
         raise bad("rounds", rounds, "the number of searches of each round, each at least 2", "(150, 400)")
+    for wanted in rounds:
+        check_room("rounds", wanted, SEARCH, "search of a round")
     if not searches:
         raise bad("searches", searches, "at least one method", "`(smc(600), smc(50))`")
     if start is not None and not isinstance(start, Guide):

@@ -21,11 +21,13 @@ from niwaki.draw.limits import LARGEST
 from niwaki.draw.scene import Part, Scene
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
+from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad, count
 from niwaki.guides.traces import best_of
 from niwaki.letters import glyphs
 from niwaki.letters.glyphs import PIXEL, Letter, Piece
 from niwaki.methods import at_least_one, smc
+from niwaki.methods.room import SEARCH
 from niwaki.once import cached_property
 from niwaki.search.checks import check_threads, fresh
 
@@ -207,6 +209,7 @@ def write(
     if not written:
         raise bad("text", text, "at least one character that is seen", '"NIWAKI"')
     pieces = [(letter, piece) for letter in written for piece in letter.pieces]
+    check_room("tries", tries, len(pieces) * SEARCH, f"search for {len(pieces)} pieces of letters")
     seeds = np.random.default_rng(seed).integers(2**63, size=(len(pieces), tries))
     method = smc(particles, guide=guide, resampling="tempered")
     jobs = [

@@ -25,6 +25,9 @@ from niwaki.methods.particles import ParticleGibbs, Pimh, Smc
 #: draws, and of a proposal that is planned.
 RUN, PARTICLE, CHAIN, GRADIENT_CHAIN, DRAW, MOVE = 700, 1000, 3000, 10_000, 300, 8
 
+#: Bytes of a search that waits for its turn.
+SEARCH = 1000
+
 #: A setting, how many are asked for, the bytes of one, and its name.
 Need = tuple[str, int, int, str]
 

@@ -6,7 +6,7 @@ import secrets
 from collections.abc import Mapping
 from typing import Any
 
-from niwaki.errors.settings import bad, is_whole
+from niwaki.errors.settings import THREADS, bad, is_whole
 from niwaki.methods import Mh
 
 
@@ -35,11 +35,11 @@ def check_polish(method: Any) -> None:
 
 def check_threads(threads: int | None) -> int | None:
     """The number of threads, where it makes sense."""
-    if threads is not None and (not is_whole(threads) or not 1 <= threads <= 1024):
+    if threads is not None and (not is_whole(threads) or not 1 <= threads <= THREADS):
         raise bad(
             "threads",
             threads,
-            "a whole number from 1 to 1024",
+            f"a whole number from 1 to {THREADS}",
             "such a number, or leave it out for all cores",
         )
     return threads

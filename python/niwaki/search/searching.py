@@ -17,7 +17,7 @@ from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
 from niwaki.methods import Forward, Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
-from niwaki.methods.room import PARTICLE, check_method
+from niwaki.methods.room import PARTICLE, RUN, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.drawn import Drawn, DrawnInfo
@@ -71,6 +71,7 @@ def carried_out(
     if search.choices is not None and not starts(search.method):
         return given(search)
     once = once or searched
+    check_room("runs", search.runs, RUN, "run")
     guides = [one for one in search.method.text()[1] if isinstance(one, Guide)]
     for guide in guides:
         _check_guide(search, guide)

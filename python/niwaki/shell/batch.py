@@ -12,6 +12,7 @@ import typer
 from niwaki import batches
 from niwaki.batches import clusters, export, plan, pools
 from niwaki.errors import InputError
+from niwaki.errors.files import ensure_folder
 from niwaki.errors.settings import bad, count
 from niwaki.inputs.modules import run_file
 from niwaki.shell import batch_files, results
@@ -149,7 +150,7 @@ def export_(
     modules = tuple(Path(place).stem for place in trust or ())
     for place in trust or ():
         run_file(place.resolve())
-    there = folder if output is None else output
+    there = folder if output is None else ensure_folder(output)
     written: list[Path] = []
     if as_csv:
         written.append(export.write_csv(there / "results.csv", store, modules, choices))

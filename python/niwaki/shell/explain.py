@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from niwaki import draw, search, shell
-from niwaki.errors.files import ensure_folder
+from niwaki.errors.files import check_place, ensure_folder
 from niwaki.shell.app import ModelName, app
 
 
@@ -26,8 +26,8 @@ def explain(
 ) -> None:
     """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for a proposal."""
     found = shell.references.find(model)
+    check_place(ensure_folder(output.parent) / output.name)
     explained = search.explain(found.model, choice, seed=seed)
-    ensure_folder(output.parent)
     draw.reuse.draw(explained, output)
     total = len(explained["activations"])
     old, new = (draw.reuse.value_text(explained[key]) for key in ("old", "new"))

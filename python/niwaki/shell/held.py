@@ -15,8 +15,10 @@ import typer
 import niwaki as nw
 from niwaki import search, shell
 from niwaki.errors import InputError
+from niwaki.errors.memory import check_room
 from niwaki.inputs.modules import modules
 from niwaki.lang.compiled import translated
+from niwaki.methods.room import RUN
 from niwaki.result import parts
 from niwaki.shell import picking
 
@@ -107,6 +109,7 @@ class Origin:
 
     def rerolled(self, asked: nw.Search, particles: int | None, threads: int | None) -> nw.Result:
         """The result with other parts, once for each run of the search that was asked for."""
+        check_room("--runs", asked.runs, RUN, "run")
         with translated(asked.model.name):
             trace = asked.task.replay(self.sample.choices, asked.seed)
         start = nw.Sample.of_trace(trace, asked, asked.seed)

@@ -1,4 +1,4 @@
-"""The command line as a program: errors without a traceback, and the exit codes.
+"""The command line as a program: errors without a traceback, the streams, and the exit codes.
 
 Exit codes: 0 done, 1 a model that does not compile (`check`), 2 an error with a message, 130 stopped by Ctrl-C (after
 results are written).
@@ -6,13 +6,16 @@ results are written).
 
 from __future__ import annotations
 
+import errno
 import gc
 import io
+import os
 import sys
 import warnings
+from contextlib import suppress
 from typing import Any, NoReturn
 
-from niwaki.errors import NiwakiError
+from niwaki.errors import FileError, NiwakiError
 from niwaki.shell.app import app
 from niwaki.shell.clock import Clock
 
@@ -21,6 +24,7 @@ __all__ = ["app", "main"]
 
 def main() -> NoReturn:
     """Run the command line; errors that we raise on purpose have no traceback."""
+    _open_closed()
     Clock.of_process = True
     # What is loaded stays: looking for garbage among it takes a tenth of the time to load it.
     gc.set_threshold(50_000)
@@ -28,14 +32,44 @@ def main() -> NoReturn:
         make_lenient(stream)
     warnings.showwarning = _warned  # type: ignore[assignment]
     try:
+        code = _ended()
+        sys.stdout.flush()
+    except OSError as error:
+        code = _refused(error)
+    raise SystemExit(code)
+
+
+def _ended() -> Any:
+    """Run the command line; its exit code."""
+    try:
         app(standalone_mode=True)
+    except SystemExit as ended:
+        return ended.code
     except NiwakiError as error:
-        print(error, file=sys.stderr)
-        raise SystemExit(2) from None
+        _say(str(error))
+        return 2
     except KeyboardInterrupt:
-        print("stopped", file=sys.stderr)
-        raise SystemExit(130) from None
-    raise SystemExit(0)
+        _say("stopped")
+        return 130
+    return 0
+
+
+def _refused(error: OSError) -> int:
+    """Say what the system refused: to write to stdout, or what no command has turned into a message of its own."""
+    place = error.filename or "standard output"
+    try:
+        sys.stdout.flush()
+    except OSError:
+        # What is left of the output would be tried once more, and fail, at the end of Python.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if error.errno != errno.EPIPE:
+        _say(str(FileError("system-refused", place, reason=error.strerror or str(error))))
+    return 2
+
+
+def _say(text: str) -> None:
+    with suppress(OSError):
+        print(text, file=sys.stderr)
 
 
 def make_lenient(stream: Any) -> None:
@@ -48,7 +82,15 @@ def make_lenient(stream: Any) -> None:
 
 
 def _warned(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    print(f"warning: {message}", file=sys.stderr)
+    _say(f"warning: {message}")
+
+
+def _open_closed() -> None:
+    """Streams that were closed when the program began lead nowhere, and no file gets their numbers."""
+    for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
+        if getattr(sys, name) is None:
+            os.dup2(os.open(os.devnull, os.O_RDWR), number)
+            setattr(sys, name, os.fdopen(number, mode))
 
 
 if __name__ == "__main__":

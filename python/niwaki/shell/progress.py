@@ -6,7 +6,7 @@ import math
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from rich.console import Console
 
@@ -31,7 +31,9 @@ def said(title: str, keeps: bool = True) -> Iterator[Callable[[str], None]]:
         nonlocal last
         if time.monotonic() - last >= EVERY:
             last = time.monotonic()
-            print(f"{title}: {text}", file=sys.stderr, flush=True)
+            # A search does not end because nobody can be told how far it is.
+            with suppress(OSError):
+                print(f"{title}: {text}", file=sys.stderr, flush=True)
 
     yield show
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -52,7 +53,7 @@ def is_known(name: str) -> bool:
 
 def present(folder: Path) -> str:
     """The names of results that are in a folder, for people; empty where it has none."""
-    if not folder.is_dir():
+    if not os.path.isdir(folder):
         return ""
     names = [place.name for place in folder.iterdir() if place.name in {RUN, *OTHERS} or is_known(place.name)]
     first = sorted(names, key=lambda name: (name != RUN, name))

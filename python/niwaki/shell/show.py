@@ -11,7 +11,9 @@ import typer
 
 import niwaki as nw
 from niwaki import draw, methods, search, shell
+from niwaki.draw.limits import PIXEL
 from niwaki.errors import InputError
+from niwaki.errors.memory import check_room
 from niwaki.methods import Forward
 from niwaki.shell import arguments, controls
 from niwaki.shell.app import ModelName, app, counted
@@ -37,7 +39,8 @@ def show(
 ) -> None:
     """Draw runs of MODEL side by side, as they come, with no target: what the model makes."""
     clock = Clock()
-    methods.at_least_one("--count", count)
+    cell = (CELL[0] // 2, CELL[1] // 2) if quick else CELL
+    check_room("--count", methods.at_least_one("--count", count), cell[0] * cell[1] * PIXEL, "picture")
     draw.picture.check_image(output)
     with clock.part("compile"):
         found = shell.references.find(model)
@@ -53,9 +56,7 @@ def show(
         return
     with clock.part("picture"):
         style = {} if found.entry is None or found.entry.draws is None else {"style": found.entry.draws}
-        sheet: dict[str, Any] = {"size": CELL, "samples": SAMPLES, **style}
-        if quick:
-            sheet |= {"size": (CELL[0] // 2, CELL[1] // 2), "samples": 1}
+        sheet: dict[str, Any] = {"size": cell, "samples": 1 if quick else SAMPLES, **style}
         shown = [(number, one) for number, one in enumerate(result, 1) if one.primitives]
         captions = [f"#{number}   seed {one.seed}" for number, one in shown]
         scenes = [one.scene for _, one in shown]

@@ -5,6 +5,7 @@ Nothing is allocated before: the searches here ask for 10^9 of everything, with 
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -16,6 +17,7 @@ import pytest
 from niwaki import draw, letters
 from niwaki import kernels as k
 from niwaki.color import Drawing
+from niwaki.draw import limits
 from niwaki.errors import InputError, NiwakiError, memory
 from niwaki.shell.main import app
 from niwaki.words import box
@@ -143,11 +145,16 @@ def test_powers_that_no_real_number_holds() -> None:
         "color robot -n 1000000000",
         "letters A --width 1000000",
         "letters A -n 1000000000",
+        "letters A --tries 100000000",
+        "grow coin --runs 1000000000",
+        "show coin -n 1000000000",
+        "guide train vines --targets scribbles --rounds 1000000000",
     ],
 )
 def test_the_shell_refuses_the_same(line: str, tmp_path: Path) -> None:
     done = CliRunner().invoke(app, [*line.split(), "-o", str(tmp_path / "out")])
     assert isinstance(done.exception, NiwakiError), done.output
+    assert done.exception.code in ("no-room", "bad-setting")
     assert done.exception.code in ("no-room", "bad-setting")
 
 
@@ -202,3 +209,84 @@ except nw.NiwakiError as error:
         [sys.executable, "-c", text], capture_output=True, text=True, timeout=60, check=False
     )
     assert done.stdout == "memory-full\n", done.stderr
+
+
+def test_a_picture_by_rays_is_held_against_free_memory(monkeypatch: Any) -> None:
+    sample = nw.run(stone, seed=1).best
+    monkeypatch.setattr(memory, "free_memory", lambda: 300_000_000)
+    with pytest.raises(InputError, match="no-room.*`size` asks for 691,200"):
+        sample.picture()
+    assert sample.picture(size=(320, 240)).size == (320, 240)
+    monkeypatch.setattr(limits, "TRIANGLE", 10**8)
+    with pytest.raises(InputError, match="no-room.*`triangles`"):
+        sample.picture(size=(32, 24))
+
+
+def test_what_a_picture_takes_is_no_more_than_was_counted() -> None:
+    # A picture that is full, with rays for each pixel where it changes: none of its pixels is left out.
+    grew = int(ran(PICTURE, "1000").stdout)
+    assert 0.5 * limits.TRACED < grew / 1000**2 < limits.TRACED
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not keep this limit")
+@pytest.mark.parametrize("limit", range(450_000, 800_000, 50_000))
+@pytest.mark.parametrize("threads", [1, 8])
+def test_a_picture_never_ends_the_process(limit: int, threads: int) -> None:
+    done = ran(SAVED, str(limit), RAYON_NUM_THREADS=str(threads))
+    assert done.returncode in (0, 1), done.stderr
+    assert done.returncode == 0 or "error[" in done.stderr or "MemoryError" in done.stderr
+
+
+#: The growth of a process by a picture that is full, bytes.
+PICTURE = """
+import resource, sys
+import niwaki as nw
+from niwaki.words import box
+
+scene = nw.draw.scene.Scene([("floor", [nw._engine.Shape.box((0.0, 0.0, 0.0), (9.0, 1.0, 9.0))])])
+camera = ((0.0, 9.0, 0.1), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 26.0)
+peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+nw.draw.picture.picture(scene, size=(8, 8), camera=camera)
+before = peak()
+size = int(sys.argv[1])
+nw.draw.picture.picture(scene, size=(size, size), camera=camera)
+print(peak() - before)
+"""
+
+#: A picture of the usual size under a limit of the address space, kilobytes.
+SAVED = """
+import resource, sys
+import niwaki as nw
+
+scene = nw.draw.scene.Scene([("block", [nw._engine.Shape.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])])
+most = int(sys.argv[1]) * 1024
+resource.setrlimit(resource.RLIMIT_AS, (most, most))
+nw.draw.picture.picture(scene)
+"""
+
+
+def ran(text: str, *words: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", text, *words],
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(one for one in sys.path if one), **variables},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize("value", ["1025", "1000000000", "-1", "two", "1.5", "9" * 5000])
+def test_the_threads_of_the_environment_are_bounded(value: str, monkeypatch: Any) -> None:
+    monkeypatch.setenv("RAYON_NUM_THREADS", value)
+    for work in (lambda: nw.run(stone, nw.smc(5), seed=1), lambda: nw.run(stone, seed=1).best.picture()):
+        with pytest.raises(InputError, match="`RAYON_NUM_THREADS` cannot be"):
+            work()
+    monkeypatch.setenv("RAYON_NUM_THREADS", "2")
+    assert len(nw.run(stone, nw.smc(5), seed=1)) == 5
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not keep this limit")
+def test_threads_that_the_system_does_not_give_have_a_message() -> None:
+    text = SAVED.replace("nw.draw.picture.picture(scene)", "nw._engine.machine()")
+    done = ran(text, "700000", RAYON_NUM_THREADS="1000")
+    assert "error[no-threads]" in done.stderr, done.stderr

@@ -136,6 +136,14 @@ FILES = (
         cure="a folder that exists",
     ),
     Message(
+        "system-refused",
+        "the system refused what this command needs",
+        why="{reason}",
+        help="check that the disk has room, and that you may read and write there; files that were written are whole",
+        example="niwaki models > /dev/full",
+        cure="niwaki models > models.txt",
+    ),
+    Message(
         "polygon",
         "this file holds no polygon that can be used",
         why="{reason}",

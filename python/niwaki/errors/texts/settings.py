@@ -41,6 +41,14 @@ SETTINGS = (
         cure="run(model, method=smc(10**4))",
     ),
     Message(
+        "no-threads",
+        "the system does not give the threads of this search",
+        why="asked for: {asked}; it says: {reason}",
+        help="use fewer `threads`, or RAYON_NUM_THREADS=1 in the environment; or raise the limits of the shell (`ulimit -a`)",
+        example="niwaki grow spaceship --threads 1000, under `ulimit -v 1000000`",
+        cure="niwaki grow spaceship --threads 2",
+    ),
+    Message(
         "machine-limit",
         "the model is too large for the machine",
         why="the compiler says: {found}",
