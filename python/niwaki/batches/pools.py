@@ -140,7 +140,7 @@ class Workers:
         self._own = self._started()
 
     def end_orphans(self) -> None:
-        """End what workers of our own pool have started that are gone: a child of a fork keeps open what tells of it."""
+        """End what lost workers of our own pool have started: a child of a fork keeps open what tells of the loss."""
         for leader, process in self._leaders().items():
             if not process.is_alive():
                 end_group(leader)

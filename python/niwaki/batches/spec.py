@@ -1,7 +1,8 @@
 """What a batch consists of: cases, which are searches without a seed, and seeds. Each case is searched by each seed.
 
 A spec is written once and is not changed: its name has the hash of its bytes, which is computed again wherever it is
-read. Another spec in the same folder has the same cases and other seeds. The results depend on the engine and on the bits that a machine computes, so both are part of it.
+read. Another spec in the same folder has the same cases and other seeds. The results depend on the engine and on the
+bits that a machine computes, so both are part of it.
 """
 
 from __future__ import annotations
@@ -268,7 +269,9 @@ class Spec:
         """
         try:
             if place.name != cls.name_of(text):
-                raise InputError("bad-batch", path=place, reason="its bytes are not those that its name is the hash of")
+                raise InputError(
+                    "bad-batch", path=place, reason="its bytes are not those that its name is the hash of"
+                )
             data = decoded(text)
             check_format(data, FORMAT)
             read = fitted(data, SpecData)

@@ -23,6 +23,7 @@ from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.inputs import bytes_of
 
+
 def specs(folder: Path) -> list[Spec]:
     """The specs of a folder, all with the same cases; none where there is no batch.
 

@@ -13,8 +13,8 @@ LARGEST = 16_384
 #: Bytes of a pixel of a picture: as it is drawn, as it is kept, and as it is written.
 PIXEL = 12
 
-#: Bytes that the ray caster takes for a pixel that shows something, and for a triangle; with what Python keeps. Measured as the
-#: growth of the memory of a process by pictures that are full, of 1 and of 4000 shapes, and rounded up.
+#: Bytes that the ray caster takes for a pixel that shows something, and for a triangle; with what Python keeps.
+#: Measured as the growth of the memory of a process by pictures that are full, of 1 and of 4000 shapes, and rounded up.
 TRACED, TRIANGLE = 480, 320
 
 #: Bytes of the address space that a thread of the engine reserves: its stack, and a segment of the allocator.

@@ -81,7 +81,12 @@ def usual_threads() -> int | None:
     if text in ("", "0"):
         return None
     if not (text.isascii() and text.isdecimal() and len(text) <= 4 and int(text) <= THREADS):
-        raise bad(VARIABLE, text, f"a whole number from 1 to {THREADS}", "such a number, or leave it out for all cores")
+        raise bad(
+            VARIABLE,
+            text,
+            f"a whole number from 1 to {THREADS}",
+            "such a number, or leave it out for all cores",
+        )
     return int(text)
 
 

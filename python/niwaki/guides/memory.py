@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from dataclasses import asdict
 
 from niwaki import _engine
+from niwaki.errors.schema import fitted
 from niwaki.guides.report import Round
 from niwaki.methods import Guide
+from niwaki.search.checkpoint import understood
 from niwaki.search.keeping import Keeper, Stage
 
 
@@ -28,11 +30,14 @@ class Memory:
     def done(self, number: int) -> tuple[Guide | None, Round] | None:
         """The guide of a round that is done, and the round; the guide that was given has the number -1."""
         data = None if self.keeper is None else self.keeper.get(f"{number}/done")
-        if data is None:
+        if self.keeper is None or data is None:
             return None
-        tables = {name: [tuple(one) for one in data["round"][name]] for name in ("losses", "bounds", "lost")}
-        now = Round(**data["round"] | tables)
-        return None if data["guide"] is None else Guide(base64.b85decode(data["guide"])), now
+        with understood(self.keeper.path):
+            tables = {
+                name: [tuple(one) for one in data["round"][name]] for name in ("losses", "bounds", "lost")
+            }
+            now = Round(**data["round"] | tables)
+            return None if data["guide"] is None else Guide(base64.b85decode(data["guide"])), now
 
     def leave(self, number: int, guide: Guide | None, now: Round) -> None:
         """Keep what a round gave, in place of what it needed to go on."""
@@ -46,7 +51,8 @@ class Memory:
     def traces(self, number: int) -> Sequence[str | None]:
         """The runs of the searches of a round that are done, as data; None for those that gave no trace."""
         if self.keeper is not None and number not in self._texts:
-            self._texts[number] = self.keeper.get(f"{number}/traces") or []
+            with understood(self.keeper.path):
+                self._texts[number] = fitted(self.keeper.get(f"{number}/traces") or [], list[str | None])
         return tuple(self._texts.get(number, ()))
 
     def add(self, number: int, run: _engine.Run | None) -> None:

@@ -10,7 +10,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -21,12 +22,16 @@ from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.errors.settings import bad, is_number
 from niwaki.inputs import bytes_of
+from niwaki.search.data import MALFORMED
 
 #: The version of the format, and of what the parts hold.
 FORMAT = 1
 
 #: The first words of the file.
 MAGIC = "niwaki checkpoint"
+
+#: Characters of what an error says that are shown.
+LONGEST = 200
 
 #: Values of at most so many characters are named where two searches differ.
 SHORT = 40
@@ -133,6 +138,24 @@ class Stored:
             return cls(str(table["kind"]), dict(table["about"]), table["note"], parts)
         except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise refused(f"its table is not that of a checkpoint: {error!r}") from error
+
+
+@contextmanager
+def understood(path: Path) -> Iterator[None]:
+    """Inside, what a checkpoint holds is read; what no search has written there is an error about the file.
+
+    Raises
+    ------
+    InputError
+        `bad-checkpoint`.
+    """
+    try:
+        yield
+    except (*MALFORMED, _engine.EngineFault) as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split())[:LONGEST]
+        raise InputError(
+            "bad-checkpoint", detail=f"`{path}`: a part of it is none of a search ({said})"
+        ) from error
 
 
 def opened(path: Path, kind: str, about: Mapping[str, Any]) -> Stored:

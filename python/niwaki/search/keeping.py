@@ -15,8 +15,9 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import FileError
+from niwaki.errors.schema import fitted
 from niwaki.result.progress import EngineWatch
-from niwaki.search.checkpoint import Checkpoint, opened
+from niwaki.search.checkpoint import Checkpoint, opened, understood
 
 #: The time between two writes is at least so many times that of one.
 SHARE = 50.0
@@ -59,7 +60,8 @@ class Keeper:
     def get(self, name: str) -> Any:
         """A part that was put; None where there is none."""
         part = self.stored.parts.get(name)
-        return None if part is None else json.loads(part)
+        with understood(self.path):
+            return None if part is None else json.loads(part)
 
     def drop(self, name: str) -> None:
         """Forget the parts of a stage."""
@@ -119,13 +121,16 @@ class Stage:
     def __init__(self, keeper: Keeper, name: str) -> None:
         self.keeper, self.name = keeper, name
         own = f"{name}/part/"
-        left = {
-            int(one.removeprefix(own)): part.decode()
-            for one, part in keeper.stored.parts.items()
-            if one.startswith(own)
-        }
-        self.engine = _engine.Checkpoint(left)
-        self.before: tuple[float, float] = tuple(keeper.get(f"{name}/seconds") or (0.0, 0.0))
+        with understood(keeper.path):
+            left = {
+                int(one.removeprefix(own)): part.decode()
+                for one, part in keeper.stored.parts.items()
+                if one.startswith(own)
+            }
+            self.engine = _engine.Checkpoint(left)
+            self.before: tuple[float, float] = fitted(
+                keeper.get(f"{name}/seconds") or (0.0, 0.0), tuple[float, float]
+            )
         self._began = time.perf_counter(), time.process_time()
         self._asked: float | None = None
 

@@ -8,11 +8,14 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import exp
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.memory import check_room
+from niwaki.errors.schema import Unfit, fitted
 from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
@@ -33,7 +36,7 @@ from niwaki.result.info import (
 )
 from niwaki.result.normals import ViInfo
 from niwaki.result.progress import EngineWatch, Watch, watcher
-from niwaki.search.checkpoint import Checkpoint
+from niwaki.search.checkpoint import Checkpoint, understood
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeping import Keeper, Stage
 from niwaki.search.worth import SearchWarning, check_kinds, check_worth
@@ -47,6 +50,15 @@ SHOWN = 6
 
 #: Of so many samples or more, fewer effective ones than this are a collapse of their weights.
 MANY, COLLAPSED = 20, 2.0
+
+
+class Left(Struct):
+    """What a run gave, in a checkpoint: runs as data with their seconds, and what a `Result` has beside them."""
+
+    samples: list[tuple[str, float, float]]
+    info: dict[str, Any] | None
+    invalid: dict[str, int]
+    seconds: tuple[float, float]
 
 
 def keeper(search: Search, checkpoint: Checkpoint) -> Keeper:
@@ -71,7 +83,8 @@ def carried_out(
     if search.choices is not None and not starts(search.method):
         return given(search)
     once = once or searched
-    check_room("runs", search.runs, RUN, "run")
+    if search.runs > 1:
+        check_room("runs", search.runs, RUN, "run")
     guides = [one for one in search.method.text()[1] if isinstance(one, Guide)]
     for guide in guides:
         _check_guide(search, guide)
@@ -178,17 +191,18 @@ def _leave(
 def _left(keeper: Keeper | None, name: str, search: Search, seed: int) -> Result | None:
     """What a run gave, in the checkpoint; None where it is not there."""
     data = None if keeper is None else keeper.get(name)
-    if data is None:
+    if keeper is None or data is None:
         return None
-    samples = [Sample(search.task.run_of_data(run), search, seed, *spent) for run, *spent in data["samples"]]
-    return Result(
-        search,
-        samples,
-        seed,
-        info=restored_info(data["info"]),
-        invalid=data["invalid"],
-        seconds=tuple(data["seconds"]),
-    )
+    with understood(keeper.path):
+        left = fitted(data, Left)
+        runs = [Sample(search.task.run_of_data(run), search, seed, *spent) for run, *spent in left.samples]
+        if not runs:
+            raise Unfit("$.samples", "at least one run", "none")
+        for one in runs:
+            # Whether it is a run of this model.
+            _ = one.choices
+        info = restored_info(left.info)
+    return Result(search, runs, seed, info=info, invalid=left.invalid, seconds=left.seconds)
 
 
 def _lost(error: InputError | ModelFault) -> str:

@@ -16,6 +16,7 @@ from niwaki import result as results
 from niwaki import shell
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
+from niwaki.errors.schema import fitted
 from niwaki.shell import (
     arguments,
     asking,
@@ -99,8 +100,7 @@ def grow(
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
     clock = Clock()
     if resume is not None:
-        search_left, found, flags, checkpoint = resuming.left(context, resume, "grow")
-        wanted = Wanted.of_data(flags)
+        search_left, found, wanted, checkpoint = resuming.left(context, resume, "grow", Wanted.of_data)
         with held_folder(resume) as folder:
             with clock.part("search"):
                 with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
@@ -201,7 +201,9 @@ class Wanted:
     @classmethod
     def of_data(cls, data: dict[str, Any]) -> Wanted:
         """Read from JSON what `dataclasses.asdict` gave."""
-        return cls(**{**data, "files": writing.Files.of_data(data["files"])})
+        writing.Files.of_data(data["files"])
+        wanted: Wanted = fitted(data, cls)
+        return wanted
 
 
 def _end(

@@ -147,4 +147,8 @@ def _hashed(folder: Path, files: dict[str, str | None]) -> dict[str, str | None]
 
 
 def _digest(place: Path) -> str:
-    return hashlib.sha256(place.read_bytes()).hexdigest()
+    try:
+        return hashlib.sha256(place.read_bytes()).hexdigest()
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise FileError("file-unreadable", place, suffix="a file", reason=reason) from error

@@ -7,16 +7,19 @@ removed when all files of the result are written.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import typer
+from msgspec import Struct
+from msgspec.structs import asdict
 
 from niwaki import Checkpoint, Result, Search, gallery
 from niwaki.errors import InputError
-from niwaki.search.checkpoint import Stored
+from niwaki.errors.schema import fitted
+from niwaki.search.checkpoint import Stored, understood
 from niwaki.shell.references import ModelReference
 
 #: The checkpoint's name in the folder.
@@ -37,6 +40,26 @@ Model = Annotated[
     str | None,
     typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.", show_default=False),
 ]
+
+
+#: The flags about files, as a command has them.
+Flags = TypeVar("Flags")
+
+
+class Own(Struct):
+    """What the shell notes in a checkpoint."""
+
+    command: str
+    model: str
+    file_hash: str | None
+    flags: dict[str, Any]
+
+
+class Note(Struct):
+    """The note of a checkpoint: what the command that searches has noted, and the search."""
+
+    own: Own | None
+    search: dict[str, Any]
 
 
 def required(context: typer.Context, model: str | None) -> str:
@@ -74,9 +97,9 @@ def begun(folder: Path, command: str, found: ModelReference, **flags: Any) -> Ch
 
 
 def left(
-    context: typer.Context, folder: Path, command: str
-) -> tuple[Search, ModelReference, dict[str, Any], Checkpoint]:
-    """The search that a folder holds, its model, the flags about files, and the checkpoint to go on from.
+    context: typer.Context, folder: Path, command: str, read: Callable[[dict[str, Any]], Flags]
+) -> tuple[Search, ModelReference, Flags, Checkpoint]:
+    """The search that a folder holds, its model, the flags about files as `read` gives them, and the checkpoint.
 
     Raises
     ------
@@ -96,16 +119,17 @@ def left(
     place = folder / NAME
     if not place.is_file():
         raise InputError("no-checkpoint", path=place)
-    note = Stored.read(place).note
-    own = note["own"] or {}
-    if own.get("command") != command:
-        other = f"niwaki {own['command']}" if own else "Python"
-        raise InputError(
-            "bad-checkpoint", detail=f"`{place}` was written by {other}, not by niwaki {command}"
-        )
-    search = Search.of_data(note["search"])
-    known = ModelReference(own["model"], search.model, gallery.entry(own["model"]), own["file_hash"])
-    return search, known, own["flags"], Checkpoint(place, note=own)
+    with understood(place):
+        note: Note = fitted(Stored.read(place).note, Note)
+        own = note.own
+        if own is None or own.command != command:
+            other = f"niwaki {own.command}" if own else "Python"
+            raise InputError(
+                "bad-checkpoint", detail=f"`{place}` was written by {other}, not by niwaki {command}"
+            )
+        search = Search.of_data(note.search)
+        known = ModelReference(own.model, search.model, gallery.entry(own.model), own.file_hash)
+        return search, known, read(own.flags), Checkpoint(place, note=asdict(own))
 
 
 @contextmanager

@@ -17,6 +17,7 @@ from niwaki import kernels, shell
 from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
+from niwaki.errors.schema import fitted
 from niwaki.methods import Mh
 from niwaki.shell import arguments, folders, pictures, resuming, settings
 from niwaki.shell.app import Folder, Megabytes, app
@@ -57,13 +58,17 @@ def sample(
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     if resume is not None:
-        search_left, found, flags, checkpoint = resuming.left(context, resume, "sample")
+        search_left, found, drawn, checkpoint = resuming.left(
+            context,
+            resume,
+            "sample",
+            lambda flags: pictures.Pictures(fitted(flags["picture"], bool), fitted(flags["quick"], bool)),
+        )
         left = search_left.method
         proposals = left.steps * left.chains if isinstance(left, Mh) else 0
         with held_folder(resume) as folder:
             with sampling_line(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
                 result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
-            drawn = pictures.Pictures(flags["picture"], flags["quick"])
             _end(result, found, folder, drawn, as_json, checkpoint)
         return
     found = shell.references.find(resuming.required(context, model))

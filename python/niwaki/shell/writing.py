@@ -17,6 +17,7 @@ import typer
 import niwaki as nw
 from niwaki import draw
 from niwaki.errors import InputError, NiwakiError
+from niwaki.errors.schema import Unfit, fitted, shown
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
 DRAWINGS = ("svg",)
@@ -102,9 +103,18 @@ class Files:
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any]) -> Files:
-        """The files of `dataclasses.asdict`, read from JSON."""
-        fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in data.items()}
-        return cls(**fields)
+        """The files of `dataclasses.asdict`, read from JSON.
+
+        Raises
+        ------
+        Unfit
+            They are none.
+        """
+        found: Files = fitted(data, cls)
+        # They become parts of names.
+        if unknown := [name for name in found.formats if name not in FORMATS]:
+            raise Unfit("$.formats", f"formats among {', '.join(FORMATS)}", shown(unknown[0]))
+        return found
 
     def names(self, number: int | None = None) -> list[str]:
         """The names of the files: of the best, or of the result of that number."""

@@ -1,5 +1,5 @@
-"""Claim: whatever the disk refuses, a batch ends with a message that says so, keeps each result that was whole, and goes
-on to the bytes of one that was left alone.
+"""Claim: whatever the disk refuses, a batch ends with a message that says so, keeps each result that was whole, and
+goes on to the bytes of one that was left alone.
 """
 
 from __future__ import annotations

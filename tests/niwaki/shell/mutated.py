@@ -1,11 +1,21 @@
-"""JSON with one thing changed: a value, a name, a list, or the text itself."""
+"""JSON with one thing changed: a value, a name, a list, or the text itself; and what reading it ends in."""
 
 from __future__ import annotations
 
 import copy
 import json
 import random
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Any
+
+from niwaki.errors import NiwakiError
+
+#: The most that a file may take: seconds of the processor, and bytes by which the memory of the process grows.
+SECONDS, MEMORY = 5.0, 10**9
 
 #: What stands where something else was expected.
 HOSTILE: list[Any] = [
@@ -60,3 +70,32 @@ def mutated(data: Any, chance: random.Random) -> tuple[str, bytes]:
             )
         text = text[: chance.randint(0, len(text))] if chance.random() < 0.3 else text
     return f"{what} at {key!r}", bytes(text)
+
+
+def tracebacks(tries: Iterable[tuple[str, bytes]], read: Callable[[Path], object], place: Path) -> list[str]:
+    """What reading ended in, where it was neither success nor a message; also what took long, or much memory."""
+    found = []
+    for what, text in tries:
+        place.write_bytes(text)
+        start, before = time.process_time(), peak()
+        try:
+            read(place)
+        except NiwakiError as error:
+            str(error)
+        except BaseException as error:
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            found.append(f"{what}: {type(error).__name__}: {error} ({last.filename}:{last.lineno})")
+        if time.process_time() - start > SECONDS:
+            found.append(f"{what}: {time.process_time() - start:.1f} s")
+        if peak() - before > MEMORY:
+            found.append(f"{what}: {(peak() - before) / 1e6:.0f} MB")
+    return found
+
+
+def peak() -> int:
+    """The most memory that this process has had, bytes; 0 where the system does not say."""
+    try:
+        import resource
+    except ImportError:
+        return 0
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)

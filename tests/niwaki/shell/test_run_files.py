@@ -5,8 +5,6 @@ from __future__ import annotations
 import base64
 import json
 import random
-import time
-import traceback
 import warnings
 import zlib
 from collections.abc import Callable, Iterable
@@ -17,7 +15,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from mutated import mutated
+from mutated import mutated, tracebacks
 from niwaki import box, emit, flip, gaussian, kernels, model, uniform
 from niwaki.errors import NiwakiError
 from niwaki.shell import run_files
@@ -106,24 +104,6 @@ def replay(place: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         run_files.replayed(data, path=place)
-
-
-def tracebacks(tries: Iterable[tuple[str, bytes]], read: Callable[[Path], object], place: Path) -> list[str]:
-    """What reading ended in, where it was neither success nor a message; also what took long."""
-    found = []
-    for what, text in tries:
-        place.write_bytes(text)
-        start = time.process_time()
-        try:
-            read(place)
-        except NiwakiError as error:
-            str(error)
-        except BaseException as error:
-            last = traceback.extract_tb(error.__traceback__)[-1]
-            found.append(f"{what}: {type(error).__name__}: {error} ({last.filename}:{last.lineno})")
-        if time.process_time() - start > 5.0:
-            found.append(f"{what}: {time.process_time() - start:.1f} s")
-    return found
 
 
 def attempts(count: int, chance: random.Random) -> Iterable[tuple[str, bytes]]:

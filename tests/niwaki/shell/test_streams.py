@@ -1,4 +1,4 @@
-"""Claim: where a command cannot write, to stdout or to its folder, there is a message and no traceback; files are whole.
+"""Claim: where a command cannot write, to stdout or to its folder, there is a message and no traceback.
 
 Each command of the shell is tried, one after the other in a process of their own.
 """
@@ -97,9 +97,7 @@ def there(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name, folder in (("grow", "grown"), ("batch run", "batch")):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            done = CliRunner().invoke(
-                app, [*COMMANDS[name].format(place).split(), "-o", str(place / folder)]
-            )
+            done = CliRunner().invoke(app, [*COMMANDS[name].format(place).split(), "-o", str(place / folder)])
         assert done.exit_code == 0, done.output
     return place
 
@@ -111,8 +109,7 @@ def run(mode: str, there: Path, folder: Path) -> dict[str, Any]:
         [sys.executable, "-W", "ignore", "-c", PROGRAM, mode, words],
         cwd=folder,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(one for one in sys.path if one)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        capture_output=True,
         timeout=300,
         check=True,
     )
