@@ -17,12 +17,12 @@ def check_seed(seed: int) -> int:
     return seed
 
 
-def check_lock(lock: Any) -> None:
-    """An error unless it is None, or values by address."""
-    is_one = isinstance(lock, Mapping) and all(isinstance(address, str) for address in lock)
-    if lock is not None and not is_one:
+def check_values(name: str, given: Any) -> None:
+    """An error unless the setting is None, or values by address."""
+    is_one = isinstance(given, Mapping) and all(isinstance(address, str) for address in given)
+    if given is not None and not is_one:
         raise bad(
-            "lock", lock, "values of choices by address", '`{"width": 2.0}`, or `result.held("wing[1]")`'
+            name, given, "values of choices by address", '`{"width": 2.0}`, or `result.held("wing[1]")`'
         )
 
 

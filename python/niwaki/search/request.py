@@ -39,7 +39,7 @@ from niwaki.result import Result, Sample
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import drag, searching
 from niwaki.search.checkpoint import Checkpoint
-from niwaki.search.checks import check_lock, check_polish, check_seed, check_threads, fresh
+from niwaki.search.checks import check_polish, check_seed, check_threads, check_values, fresh
 from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
 from niwaki.search.schema import ModelData, SearchData
 from niwaki.targets.sketches import Score
@@ -117,7 +117,8 @@ class Search:
         object.__setattr__(self, "model", as_model(self.model))
         object.__setattr__(self, "args", tuple(self.args))
         check_seed(self.seed)
-        check_lock(self.lock)
+        check_values("choices", self.choices)
+        check_values("lock", self.lock)
         for name, kind, suggestion in (
             ("method", Method, "`smc(particles=300)`"),
             ("score", Score, "`no_self_intersection() * match_volume(target)`"),
