@@ -70,35 +70,51 @@ def is_file(place: Path) -> bool:
         return False
 
 
-def write_whole(place: Path, data: bytes) -> Path:
+def write_whole(place: Path, data: bytes, private: bool = False) -> Path:
     """Write a file so that readers see all of it or none, also after the power fails.
 
     The bytes go to a file of their own in the same folder, to the disk, and then take the name. So of two writers, in
     threads or in processes, one leaves its file. Where anything fails the file that was there stays.
 
-    A link is followed, and a file that is there keeps its permissions.
+    Parameters
+    ----------
+    place
+        The file. A link is followed, and a file that is there keeps its permissions.
+    data
+        Its bytes.
+    private
+        Whether the file is for this user alone: a new file takes the place of whatever has the name, also of a link,
+        and where the system has permissions nobody else may read it.
 
     Raises
     ------
     FileError
         `file-unwritable`: no folder, no permission, no room, or the place is not a regular file.
     """
-    with written_beside(place, data) as take_place:
+    with written_beside(place, data, private) as take_place:
         take_place()
     return place
 
 
+def write_all(number: int, data: bytes) -> None:
+    """Write all bytes to an open file: the system may take fewer at a time."""
+    left = memoryview(data)
+    while left:
+        left = left[os.write(number, left) :]
+
+
 @contextmanager
-def written_beside(place: Path, data: bytes) -> Iterator[Callable[[], None]]:
+def written_beside(place: Path, data: bytes, private: bool = False) -> Iterator[Callable[[], None]]:
     """Write a file beside its place, on the disk; the function that is given puts it there, in one step."""
     temporary: Path | None = None
     try:
-        # A link keeps pointing to the file: what it points to is replaced, not the link.
-        real = Path(os.path.realpath(place))
-        mode = _replaceable(real)
+        # A link keeps pointing to the file: what it points to is replaced, not the link. A private file replaces it.
+        real = place if private else Path(os.path.realpath(place))
+        mode = None if private else _replaceable(real)
         temporary = real.with_name(f"{PART[0]}{secrets.token_hex(8)}{PART[1]}")
         # The system gives the permissions that it gives to any new file; `O_EXCL`: the file is ours alone.
-        number = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+        number = os.open(temporary, flags, 0o600 if private else 0o666)
         with os.fdopen(number, "wb") as file:
             if mode is not None:
                 os.chmod(temporary, mode)

@@ -144,7 +144,8 @@ def serve() -> None:
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     asked = json.loads(sys.stdin.buffer.readline())
-    _bound(int(asked["seconds"]), int(asked["memory"]))
+    # It cannot write into files.
+    bound(cpu=int(asked["seconds"]), fsize=0, core=0, **{"as": int(asked["memory"])})
     data = sys.stdin.buffer.read()
     try:
         found = getattr(import_module(asked["module"]), asked["name"])(data, **asked["settings"])
@@ -175,17 +176,12 @@ def _answer(out: IO[bytes], found: Arrays) -> None:
         out.write(value.tobytes())
 
 
-def _bound(seconds: int, memory: int) -> None:
-    """Limit what this process may take; it cannot write into files."""
+def bound(**limits: int) -> None:
+    """Limit what this process may take, by the names of limits of the system: `cpu=60` for RLIMIT_CPU."""
     if resource is None:
         return
-    for name, most in (
-        ("RLIMIT_CPU", seconds),
-        ("RLIMIT_AS", memory),
-        ("RLIMIT_FSIZE", 0),
-        ("RLIMIT_CORE", 0),
-    ):
-        kind = getattr(resource, name, None)
+    for name, most in limits.items():
+        kind = getattr(resource, f"RLIMIT_{name.upper()}", None)
         if kind is not None:
             _, hard = resource.getrlimit(kind)
             most = most if hard == resource.RLIM_INFINITY else min(most, hard)

@@ -50,6 +50,8 @@ LIMITS = {
     "checkpoint": Limit(2_000 * MB, "bytes", "a training of a million traces of twenty choices"),
     "batch": Limit(2_000 * MB, "bytes", "a thousand cases, each with a mesh of 40,000 triangles"),
     "run": Limit(256 * MB, "bytes", "a thousand runs of ten thousand choices"),
+    "session": Limit(1 * MB, "bytes", "a session's name takes 50"),
+    "journal": Limit(1_000 * MB, "bytes", "fifty thousand steps, each with a gallery of fifty results"),
     "preset": Limit(1 * MB, "bytes", "a model has tens of arguments"),
     "model": Limit(16 * MB, "bytes", "a program that a person writes takes some kB"),
     "font": Limit(64 * MB, "bytes", "the largest common fonts, of Chinese, take 20 MB"),

@@ -65,9 +65,10 @@ def run_file(
         _run[private] = name, place
         with _importable(place):
             exec(code, module.__dict__)
-    except NiwakiError:
+    except (NiwakiError, KeyboardInterrupt):
         raise
-    except Exception as error:
+    except BaseException as error:
+        # Also SystemExit: a file that ends the program has not said which models it has.
         line = _last_line(error, place)
         raise InputError(
             "model-file-failed", path=place, reason=f"{type(error).__name__}: {error}{line}"

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from niwaki.studio.messages import Problem
+import sys
+import traceback
+
+from niwaki.errors import NiwakiError
+from niwaki.errors.source import Span
+from niwaki.studio.messages import Place, Problem
 
 
 class Refused(Exception):  # noqa: N818 - it is what happens to a command
@@ -11,3 +16,30 @@ class Refused(Exception):  # noqa: N818 - it is what happens to a command
     def __init__(self, code: str, text: str) -> None:
         super().__init__(text)
         self.problem = Problem(code, text)
+
+
+def problem(error: BaseException) -> Problem:
+    """An error as the page shows it: the shell's text, and the place if it has one.
+
+    An error of the system has its own words. One that nobody expected is written to the terminal, for a report.
+    """
+    if isinstance(error, Refused):
+        return error.problem
+    if isinstance(error, OSError) and error.strerror:
+        where = "" if error.filename is None else f": {error.filename}"
+        return Problem("system", f"the system refuses: {error.strerror}{where}")
+    if not isinstance(error, NiwakiError):
+        traceback.print_exception(error, file=sys.stderr)
+        return Problem("failed", f"{type(error).__name__}: {error}")
+    span = getattr(error, "span", None)
+    stack = getattr(error, "stack", ())
+    if span is None and stack:
+        span = stack[-1].span
+    return Problem(error.code, str(error), placed(span))
+
+
+def placed(span: Span | None) -> Place | None:
+    """A span as plain data."""
+    if span is None:
+        return None
+    return Place(span.file.path, span.line, span.column, span.end_line, span.end_column)

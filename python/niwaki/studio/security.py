@@ -78,6 +78,9 @@ class Guard:
             # Before it is accepted: the handshake is answered with 403.
             await send({"type": "websocket.close", "code": 1008})
         else:
+            if refused.status_code >= 400:
+                # Who is not known does not stay.
+                refused.headers["Connection"] = "close"
             await refused(scope, receive, guarded)
 
     def _refused(self, scope: Scope) -> Response | None:

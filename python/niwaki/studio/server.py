@@ -26,7 +26,10 @@ from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, R
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from niwaki.errors import NiwakiError
+from niwaki.errors.files import PART
 from niwaki.studio.messages import AnyCommand, Failed, Problem
+from niwaki.studio.refused import problem
 from niwaki.studio.security import Guard
 from niwaki.studio.session import Session, obey
 from niwaki.studio.window import Window
@@ -44,6 +47,8 @@ TYPES = {
 COMMAND, UPLOAD, PATIENCE = 1 << 20, 64 << 20, 60.0
 #: Seconds in which a mesh has to be read.
 READING = 60.0
+#: Meshes and drawings that are taken and read at one time.
+READERS = 2
 #: Windows and scripts at one time.
 WINDOWS = 32
 
@@ -63,9 +68,15 @@ def application(session: Session, port: int) -> Guard:
     async def file(request: Request) -> Response:
         name = request.path_params["hash"]
         folder = session.journal.folder / "files" / name
-        if not re.fullmatch("[0-9a-f]{64}", name) or not folder.is_dir():
+        known = re.fullmatch("[0-9a-f]{64}", name) and folder.is_dir()
+        # A part of a file that a full disk has stopped is none.
+        place = (
+            next((one for one in folder.iterdir() if not one.name.startswith(PART[0])), None)
+            if known
+            else None
+        )
+        if place is None:
             return PlainTextResponse("no such file\n", 404)
-        place = next(folder.iterdir())
         return FileResponse(place, filename=place.name, content_disposition_type="attachment")
 
     async def upload(request: Request) -> Response:
@@ -74,8 +85,13 @@ def application(session: Session, port: int) -> Guard:
             kinds = f"a mesh is one of {', '.join(MESHES)}, a drawing one of {', '.join(DRAWINGS)}"
             return _refused(415, "file-format", kinds)
         declared = request.headers.get("content-length", "0")
-        if not declared.isdecimal() or int(declared) > UPLOAD:
+        if not declared.isdecimal() or len(declared) > 20 or int(declared) > UPLOAD:
             return _too_large()
+        # Those that come meanwhile wait, and their bytes with them.
+        async with readers:
+            return await taken(request, suffix)
+
+    async def taken(request: Request, suffix: str) -> Response:
         body = bytearray()
         try:
             async with asyncio.timeout(PATIENCE):
@@ -89,9 +105,22 @@ def application(session: Session, port: int) -> Guard:
             return _refused(400, "cut-short", "it was cut short")
         return await _read(bytes(body), suffix, session.journal.folder / "uploads")
 
+    readers = asyncio.Semaphore(READERS)
     routes: list[Any] = [Route(path, page) for path in PAGE]
     routes += [Route("/file/{hash}", file), Route("/upload", upload, methods=["POST"])]
-    return Guard(Starlette(routes=[*routes, WebSocketRoute("/socket", _socket(session))]), port)
+    routes.append(WebSocketRoute("/socket", _socket(session)))
+    return Guard(
+        Starlette(
+            routes=routes, exception_handlers=dict.fromkeys((OSError, NiwakiError, Exception), _failed)
+        ),
+        port,
+    )
+
+
+async def _failed(request: Request, error: Exception) -> Response:
+    """The answer to a request whose work failed, such as by a full disk."""
+    told = problem(error)
+    return _refused(507 if isinstance(error, OSError | NiwakiError) else 500, told.code, told.text)
 
 
 def _socket(session: Session) -> Any:
@@ -103,26 +132,38 @@ def _socket(session: Session) -> Any:
             return
         await connection.accept()
         window = Window()
-        sending = asyncio.create_task(_send(connection, window))
+        work = {
+            asyncio.create_task(_send(connection, window)),
+            asyncio.create_task(_receive(connection, window, session)),
+            asyncio.create_task(window.overrun.wait()),
+        }
         try:
-            while True:
-                text = await connection.receive_text()
-                try:
-                    if len(text) > COMMAND:
-                        raise msgspec.ValidationError("the message is too long")
-                    command = _decode(text)
-                except (msgspec.MsgspecError, UnicodeError) as error:
-                    window.tell(Failed(_id_of(text), Problem("bad-message", f"{error}")))
-                    continue
-                await obey(session, window, command)
-        except (WebSocketDisconnect, KeyError, RuntimeError):
-            # A binary message, or the end.
-            pass
+            await asyncio.wait(work, return_when=asyncio.FIRST_COMPLETED)
         finally:
             session.windows.discard(window)
-            sending.cancel()
+            for one in work:
+                one.cancel()
+            await asyncio.gather(*work, return_exceptions=True)
 
     return socket
+
+
+async def _receive(connection: WebSocket, window: Window, session: Session) -> None:
+    """Carry out what comes, until the end or a message that is none."""
+    while True:
+        try:
+            text = await connection.receive_text()
+        except (WebSocketDisconnect, KeyError, RuntimeError):
+            # The end, or a binary message.
+            return
+        try:
+            if len(text) > COMMAND:
+                raise msgspec.ValidationError("the message is too long")
+            command = _decode(text)
+        except (msgspec.MsgspecError, UnicodeError, RecursionError) as error:
+            window.tell(Failed(_id_of(text), Problem("bad-message", f"{error}")))
+            continue
+        await obey(session, window, command)
 
 
 async def _send(connection: WebSocket, window: Window) -> None:
@@ -131,7 +172,6 @@ async def _send(connection: WebSocket, window: Window) -> None:
             await connection.send_text(data)
         else:
             await connection.send_bytes(data)
-    await connection.close(1013)
 
 
 def _id_of(text: str) -> int:
@@ -159,9 +199,11 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
             async with asyncio.timeout(READING):
                 said, _ = await reader.communicate()
         except TimeoutError:
-            reader.kill()
-            await reader.wait()
             return _refused(422, "too-slow", f"it could not be read within {READING:.0f} s")
+        finally:
+            if reader.returncode is None:
+                reader.kill()
+                await reader.wait()
         if reader.returncode != 0 or not said.strip():
             return _refused(
                 422, "mesh-too-large", "it could not be read within the memory that a mesh may take"

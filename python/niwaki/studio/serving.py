@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-import resource
 import socket
 import sys
 import webbrowser
@@ -14,9 +13,11 @@ from typing import Any
 
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from watchfiles import awatch
 
 from niwaki.errors import InputError
+from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.studio.security import Guard
 from niwaki.studio.server import COMMAND, application
@@ -24,33 +25,63 @@ from niwaki.studio.session import Session, begin, reload
 
 #: Connections at one time, and seconds in which each has to ask something.
 CONNECTIONS, FIRST_WORD = 256, 15.0
+#: Bytes of a socket that wait for its other end, beside one message; seconds to read the rest after its end.
+UNREAD, GRACE = 1 << 20, 5.0
 
 
 class Patient(H11Protocol):
-    """A connection that is closed when it asks nothing for long, or when there are too many."""
+    """A connection that is closed when it asks nothing for long.
+
+    Where there are too many, that goes which has been silent for longest: whoever asks at once is answered.
+    """
 
     def connection_made(self, transport: Any) -> None:
         """Count it, and wait for its first request."""
         super().connection_made(transport)
-        if len(self.connections) > CONNECTIONS:
-            transport.close()
-            return
+        self._since = self.loop.time()
         self._patience = self.loop.call_later(FIRST_WORD, self._lose_patience)
+        if len(self.connections) > CONNECTIONS:
+            silent = [one for one in self.connections if isinstance(one, Patient) and one._is_silent]
+            min(silent, key=lambda one: one._since).transport.close()
+
+    @property
+    def _is_silent(self) -> bool:
+        """Whether it has asked nothing so far."""
+        return getattr(self, "cycle", None) is None and not self.transport.is_closing()
 
     def _lose_patience(self) -> None:
-        if getattr(self, "cycle", None) is None and not self.transport.is_closing():
+        if self._is_silent:
             self.transport.close()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Wait no more."""
-        if hasattr(self, "_patience"):
-            self._patience.cancel()
+        self._patience.cancel()
         super().connection_lost(exc)
 
     def handle_websocket_upgrade(self, event: Any) -> None:
         """A socket may be silent."""
         self._patience.cancel()
         super().handle_websocket_upgrade(event)
+
+
+class Reading(WebSocketsSansIOProtocol):
+    """A socket that ends, with what it should still be sent, when its other end does not read."""
+
+    def handle_ping(self) -> None:
+        """Answer; answers that nobody reads are not kept."""
+        super().handle_ping()
+        if self.transport.get_write_buffer_size() > UNREAD:
+            self.transport.abort()
+
+    def keepalive_timeout(self) -> None:
+        """It has not answered for long."""
+        super().keepalive_timeout()
+        self.transport.abort()
+
+    async def run_asgi(self) -> None:
+        """Serve it; what it has not read a while after that is dropped."""
+        await super().run_asgi()
+        self.loop.call_later(GRACE, self.transport.abort)
 
 
 def listening(port: int) -> socket.socket:
@@ -95,10 +126,20 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, 
     FileError
         `folder-in-use`: another studio has this session.
     """
-    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, 4096)), hard))
+    _allow_files()
     with contextlib.suppress(KeyboardInterrupt), held_folder(folder):
         asyncio.run(_serve([_whole(one) for one in models], folder, port, browser, trust))
+
+
+def _allow_files() -> None:
+    """Let this process have as many connections as it takes; Windows has no such limit."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    with contextlib.suppress(OSError, ValueError):
+        resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, 4096)), hard))
 
 
 def _whole(reference: str) -> str:
@@ -119,7 +160,7 @@ async def _serve(models: list[str], folder: Path, port: int, browser: bool, trus
     config = uvicorn.Config(
         guard,
         http=Patient,
-        ws="websockets-sansio",
+        ws=Reading,
         ws_max_size=COMMAND,
         ws_per_message_deflate=False,
         log_level="error",
@@ -131,10 +172,8 @@ async def _serve(models: list[str], folder: Path, port: int, browser: bool, trus
         date_header=False,
     )
     server = uvicorn.Server(config)
-    key = folder / "key"
-    key.touch(0o600)
-    key.write_text(f"http://127.0.0.1:{port} {guard.key}\n")
-    watching = asyncio.create_task(_watch(session, models))
+    write_whole(folder / "key", f"http://127.0.0.1:{port} {guard.key}\n".encode(), private=True)
+    watching = session.start(_watch(session, models))
     beginning = asyncio.create_task(begin(session))
     telling = asyncio.create_task(_tell(guard, port, browser))
     try:
@@ -171,4 +210,5 @@ async def _watch(session: Session, models: list[str]) -> None:
     async for changes in awatch(*{path.parent for path in paths}, debounce=100, step=20, recursive=False):
         changed = {Path(place) for _, place in changes} & paths
         if changed:
-            await reload(session, changed)
+            # Beside this: a file that still loads is left for its newest state.
+            session.start(reload(session, changed))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from pathlib import Path
 
@@ -11,7 +10,6 @@ import pytest
 pytest.importorskip("msgspec")
 
 from niwaki import studio
-from niwaki.errors import InputError
 from niwaki.studio.journal import Journal
 from studio_process import serving
 
@@ -87,15 +85,6 @@ def test_a_last_line_that_is_cut_short_is_left_out(session, tmp_path, cut):
     assert session().document().model == "c"
 
 
-def test_a_line_that_is_wrong_is_named(session, tmp_path):
-    journal = session()
-    steps(journal, "a")
-    with open(tmp_path / "journal.jsonl", "a") as file:
-        file.write(json.dumps({"nothing": 1}) + "\n")
-    with pytest.raises(InputError, match="line 2"):
-        session()
-
-
 def test_a_session_of_the_first_format_is_opened_with_its_results_and_its_way_back(tmp_path):
     pytest.importorskip("starlette")
     shutil.copytree(STORED, tmp_path / "stored")
@@ -118,25 +107,3 @@ def test_a_session_of_the_first_format_is_opened_with_its_results_and_its_way_ba
             one.ask("redo")
         one.ask("run")
         assert one.view["results"][0]["key"] == second["key"] and len(one.view["results"]) > 1
-
-
-@pytest.mark.parametrize(
-    ("name", "text", "reason"),
-    [
-        ("session.json", '{"format": 2, "session": "a"}', "it has format 2, this version reads 1"),
-        ("session.json", '{"session": "a"}', "it has format None"),
-        (
-            "journal.jsonl",
-            '{"step":1,"parent":0,"name":"set","changes":{"results":3}}\n',
-            "a step of it is not one of this version",
-        ),
-        ("journal.jsonl", "[]\n", "line 1"),
-    ],
-)
-def test_a_session_that_cannot_be_opened_says_why(tmp_path, name, text, reason):
-    shutil.copytree(STORED, tmp_path / "stored")
-    (tmp_path / "stored" / name).write_text(text)
-    with pytest.raises(InputError, match=reason):
-        opened = Journal(tmp_path / "stored")
-        opened.close()
-        opened.document()

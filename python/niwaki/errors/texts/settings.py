@@ -114,6 +114,16 @@ SETTINGS = (
         cure="niwaki replay out/run.json",
     ),
     Message(
+        "bad-session",
+        "`{path}` cannot be opened as a part of a studio's session",
+        why="{reason}",
+        help="{cure}",
+        example="a session.json that a text editor has saved empty",
+        cure="the file as the studio wrote it, or without it: the studio then gives the session another name",
+        about="A session's files are checked before anything is done with them. A last line of `journal.jsonl` that is damaged is left out; "
+        "what cannot be left out without losing steps is named, with what to do.",
+    ),
+    Message(
         "bad-checkpoint",
         "this checkpoint cannot be gone on with",
         why="a search goes on from the whole file that this version of Niwaki wrote",

@@ -15,6 +15,7 @@ from niwaki.studio.messages.document import (
     Key,
     Length,
     Light,
+    Number,
     Obstacles,
     Point,
     RulesAsk,
@@ -31,7 +32,7 @@ Side = Annotated[float, Meta(gt=0.0, le=1e5)]
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
     """What a client asks."""
 
-    id: int = 0
+    id: Number = 0
 
 
 class Hello(Command, tag="hello"):

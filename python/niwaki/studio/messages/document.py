@@ -14,7 +14,9 @@ Point = tuple[Length, Length, Length]
 Addresses = Annotated[list[Address], Meta(max_length=10_000)]
 Color = Annotated[str, Meta(pattern="^#[0-9a-fA-F]{6}$")]
 Count = Annotated[int, Meta(ge=1, le=48)]
-Seed = Annotated[int, Meta(ge=0, lt=2**53)]
+#: Whole numbers that a page's script can hold.
+Number = Annotated[int, Meta(ge=0, lt=2**53)]
+Seed = Number
 Strength = Annotated[float, Meta(ge=0.0, le=1.0)]
 Effort = Annotated[float, Meta(gt=0.0, le=64.0)]
 #: Values of choices by address, as `niwaki.search.data.Writer` writes them.
@@ -166,8 +168,8 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
 class Key(Struct, frozen=True, forbid_unknown_fields=True):
     """One result: the number of its run, and its place there."""
 
-    run: Annotated[int, Meta(ge=0)]
-    number: Annotated[int, Meta(ge=0)] = 0
+    run: Number
+    number: Number = 0
 
 
 class Outcome(Struct, frozen=True):

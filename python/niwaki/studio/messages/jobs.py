@@ -245,8 +245,16 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
     seconds: float = 0.0
 
 
+class Loading(Struct, tag_field="kind", tag="loading"):
+    """A file of models begins to run; said again with the line where it is; without a path it has ended."""
+
+    path: str = ""
+    line: int = 0
+
+
 AnyReport = (
     Answer
+    | Loading
     | Progressed
     | Shape
     | Described

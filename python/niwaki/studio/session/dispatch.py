@@ -2,16 +2,16 @@
 
 A function that returns nothing has done its work: the window's next command finds it done. A function that has to wait
 for a worker is `async`: it goes on beside other commands, and returns the worker's answer. A command that cannot be
-carried out is refused by raising `Refused`.
+carried out is refused by raising `Refused`; any other error is told as well.
 """
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
 from niwaki.studio import messages as m
+from niwaki.studio.refused import Refused, problem
 from niwaki.studio.session import (
     dragging,
     exporting,
@@ -24,7 +24,7 @@ from niwaki.studio.session import (
     setting,
     showing,
 )
-from niwaki.studio.session.state import Refused, Session
+from niwaki.studio.session.state import Session
 from niwaki.studio.window import Window
 
 Work = Callable[[Session, Window, Any], Awaitable[m.Answer | None] | None]
@@ -55,7 +55,7 @@ COMMANDS: dict[type[m.Command], Work] = {
 
 
 async def obey(session: Session, window: Window, command: m.AnyCommand) -> None:
-    """Carry a command out; what it cannot do it says to the window that asked."""
+    """Carry a command out; it is answered in any case, and what it cannot do it says to the window that asked."""
     await session.ready.wait()
     try:
         if isinstance(command, m.Hello):
@@ -63,26 +63,20 @@ async def obey(session: Session, window: Window, command: m.AnyCommand) -> None:
                 raise Refused("protocol", f"this studio speaks protocol {m.PROTOCOL}")
             session.welcome(window, command.id)
             return
+        if session.is_busy and not isinstance(command, m.Stop):
+            raise Refused("busy", "the studio has too much to do; wait until some of it is done")
         rest = COMMANDS[type(command)](session, window, command)
-    except Refused as refused:
-        window.tell(m.Failed(command.id, refused.problem))
+    except Exception as error:
+        window.tell(m.Failed(command.id, problem(error)))
         return
     if rest is None:
         window.tell(m.Done(command.id))
-    else:
-        session.start(_finished(window, command.id, rest))
+        return
 
+    def ended(answer: m.Answer) -> None:
+        if answer.problem is not None:
+            window.tell(m.Failed(command.id, answer.problem))
+        else:
+            window.tell(m.Done(command.id, answer.interrupted))
 
-async def _finished(window: Window, command: int, rest: Awaitable[m.Answer | None]) -> None:
-    """Tell the window how the rest of a command has ended."""
-    try:
-        answer = await rest or m.Answer()
-    except Refused as refused:
-        answer = m.Answer(problem=refused.problem)
-    except asyncio.CancelledError:
-        # Another search has taken the place of this one.
-        answer = m.Answer(interrupted=True)
-    if answer.problem is not None:
-        window.tell(m.Failed(command, answer.problem))
-    else:
-        window.tell(m.Done(command, answer.interrupted))
+    session.start(rest, ended)

@@ -15,7 +15,19 @@ from niwaki.studio.window import Window, newest
 
 
 async def begin(session: Session) -> None:
-    """Learn which models there are, and show the session's own."""
+    """Learn which models there are, and show the session's own; then commands can be carried out."""
+
+    def begun(answer: m.Answer) -> None:
+        session.problem = answer.problem or session.problem
+        session.ready.set()
+
+    await session.start(_begun(session), begun)
+    if session.document.model is not None:
+        reference = session.document.model
+        await session.searcher.do(m.Load(reference=reference, file=session.drawing_file(reference)))
+
+
+async def _begun(session: Session) -> None:
     # The first search finds its process started, and the model read.
     session.start(session.searcher.do(m.ListModels(files=[])))
     answer = await session.desk.do(m.ListModels(files=session.files))
@@ -28,10 +40,6 @@ async def begin(session: Session) -> None:
     if session.document.model is None and session.models:
         session.step("model", {"model": session.models[0].reference})
     await load(session, keep=session.problem)
-    session.ready.set()
-    if session.document.model is not None:
-        reference = session.document.model
-        await session.searcher.do(m.Load(reference=reference, file=session.drawing_file(reference)))
 
 
 def choose_model(session: Session, window: Window, command: m.ChooseModel) -> None:
@@ -103,6 +111,8 @@ async def load_ghost(session: Session, window: Window | None) -> None:
 
 async def reload(session: Session, paths: set[Path]) -> None:
     """Models whose files have changed: read again, and the picked result run again with its choices."""
+    for worker in (session.desk, session.searcher):
+        await worker.drop(paths)
     reference = session.document.model
     if reference is None or Path(reference.rpartition(":")[0] or reference) not in paths:
         return

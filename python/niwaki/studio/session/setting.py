@@ -11,6 +11,9 @@ from niwaki.studio.session import loading, reshaping
 from niwaki.studio.session.state import Refused, Session
 from niwaki.studio.window import Window
 
+#: Arguments of a model.
+ARGUMENTS = 200
+
 
 def set_ask(session: Session, window: Window, command: m.SetAsk) -> None:
     """Say what the scene should be like."""
@@ -36,6 +39,8 @@ def set_values(session: Session, window: Window, command: m.Set) -> None:
         changes["settings"] = settings
     if command.arguments is not None:
         changes["arguments"] = {**session.document.arguments, **command.arguments}
+        if len(changes["arguments"]) > ARGUMENTS:
+            raise Refused("too-many", f"a model has at most {ARGUMENTS} arguments")
     if changes:
         session.step("set", changes)
     if command.arguments is not None and session.document.picked is not None:

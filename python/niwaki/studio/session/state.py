@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import re
 from collections import OrderedDict
-from collections.abc import Coroutine
+from collections.abc import Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +14,19 @@ import msgspec
 from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.journal import Journal
-from niwaki.studio.process import Worker
+from niwaki.studio.process import Stamp, Worker
 from niwaki.studio.refused import Refused as Refused
+from niwaki.studio.refused import problem
 from niwaki.studio.window import Window, newest
 
 #: The name of a drawing that was sent.
 DRAWING = re.compile(r"[0-9a-f]{64}\.(svg|png|webp|bmp|gif|tif|tiff|jpg|jpeg)")
 #: Bytes of shapes that are kept ready.
 SHAPES = 256 << 20
+#: Commands that wait for a worker at one time.
+WORK = 4_000
+#: Seconds that what has to be quick may take.
+PATIENCE = 300.0
 
 
 class Session:
@@ -66,7 +71,9 @@ class Session:
         self.windows: set[Window] = set()
         self.files = files
         words = [*(["--trust"] if trust else []), *files]
-        self.searcher, self.desk = Worker(*words), Worker(*words)
+        slow: dict[str, Stamp] = {}
+        self.searcher = Worker(*words, slow=slow)
+        self.desk = Worker(*words, patience=PATIENCE, slow=slow)
         self.ready = asyncio.Event()
         self.models: list[m.ModelInfo] = []
         self.targets: list[str] = []
@@ -92,12 +99,50 @@ class Session:
         await asyncio.gather(self.searcher.kill(), self.desk.kill())
         self.journal.close()
 
-    def start(self, work: Coroutine[Any, Any, m.Answer | None]) -> asyncio.Task[Any]:
-        """Do work beside what else is done."""
-        task = asyncio.create_task(work)
+    def start(
+        self, work: Awaitable[m.Answer | None], told: Callable[[m.Answer], None] | None = None
+    ) -> asyncio.Task[m.Answer]:
+        """Do work beside what else is done; however it ends, somebody is told.
+
+        Parameters
+        ----------
+        work
+            What is done; an error of it is an answer with a problem, and one that is cancelled is interrupted.
+        told
+            Gets the answer; every window sees its problem, where it is left out.
+        """
+
+        async def done() -> m.Answer:
+            try:
+                answer = await work or m.Answer()
+            except asyncio.CancelledError:
+                # Another search has taken the place of this one.
+                answer = m.Answer(interrupted=True)
+            except Exception as error:
+                answer = m.Answer(problem=problem(error))
+            (told or self._complain)(answer)
+            return answer
+
+        def ended(task: asyncio.Task[m.Answer]) -> None:
+            self._tasks.discard(task)
+            if asyncio.iscoroutine(work):
+                # It was never begun where its task was cancelled at once.
+                work.close()
+
+        task = asyncio.create_task(done())
         self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        task.add_done_callback(ended)
         return task
+
+    def _complain(self, answer: m.Answer) -> None:
+        if answer.problem is not None:
+            for window in self.windows:
+                window.tell(m.Failed(0, answer.problem))
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether so much waits to be done that nothing more is begun."""
+        return len(self._tasks) >= WORK
 
     # ---- what windows see
 
@@ -128,6 +173,8 @@ class Session:
         """Give a window the whole state."""
         self.windows.add(window)
         window.tell(m.State(command, session=self.journal.name, rev=self._rev, view=self.view()))
+        if self.journal.loss:
+            window.tell(m.Failed(0, m.Problem("step-lost", self.journal.loss)))
         for kind, data in self.ghosts.items():
             window.put(data, kind)
 

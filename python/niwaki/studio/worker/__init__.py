@@ -1,6 +1,7 @@
 """The process that does the work of a session: it alone imports models, runs them and reads what users sent.
 
 - `loop`     jobs in, reports out; the flag that stops a search
+- `loading`  files of models that are run
 - `models`   models by reference
 - `offers`   what can be chosen
 - `asks`     what is asked, as a target and a score

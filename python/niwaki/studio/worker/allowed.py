@@ -18,6 +18,7 @@ from niwaki.inputs.modules import prefer
 from niwaki.shell.trust import hosts, trusted
 from niwaki.studio.refused import Refused
 from niwaki.studio.worker import models
+from niwaki.studio.worker.loading import loading
 
 _trust: list[bool] = [False]
 
@@ -51,7 +52,8 @@ def modules(data: dict[str, Any]) -> tuple[str, ...]:
         prefer(named.resolve())
         return tuple(sorted(module for module in needed if run_modules(module)))
     try:
-        return trusted(data, None, _trust[0])
+        with loading(named):
+            return trusted(data, None, _trust[0])
     except InputError as error:
         if error.code != "untrusted-file":
             raise

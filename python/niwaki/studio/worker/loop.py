@@ -10,19 +10,26 @@ import os
 import queue
 import sys
 import threading
-import traceback
 import warnings
 from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import msgspec
 
-from niwaki.errors import NiwakiError
-from niwaki.errors.source import Span
 from niwaki.studio import messages
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
-from niwaki.studio.refused import Refused
-from niwaki.studio.worker import allowed, differences, drag, kinds, offers, rewriting, structures, values
+from niwaki.studio.refused import problem
+from niwaki.studio.worker import (
+    allowed,
+    differences,
+    drag,
+    kinds,
+    loading,
+    offers,
+    rewriting,
+    structures,
+    values,
+)
 
 #: Sends a report, with the bytes of a mesh where it has one.
 Send = Callable[..., None]
@@ -58,15 +65,18 @@ def main() -> None:
             sink.write(LENGTH.pack(len(data)) + data)
             sink.flush()
 
+    loading.send = send
     while True:
         job = waiting.get()
         stopped.job = job.id
         try:
             answer = done(job, send, stopped)
-        except KeyboardInterrupt:
-            answer = messages.Answer(interrupted=True)
-        except Exception as error:
-            answer = messages.Answer(problem=problem(error))
+        except BaseException as error:
+            # Only who asked for it stops a search: a host function that raises the same has failed.
+            is_stopped = isinstance(error, KeyboardInterrupt) and job.id in stopped.stopping
+            answer = (
+                messages.Answer(interrupted=True) if is_stopped else messages.Answer(problem=problem(error))
+            )
         answer.id = job.id
         stopped.job = None
         send(answer)
@@ -129,24 +139,3 @@ def _done(job: messages.AnyJob, send: Send, stopped: Stopped) -> Any:
             return differences.find(job, send)
         case messages.WriteFile():
             return kinds.written(job.source, job.number).write(job)
-
-
-def problem(error: BaseException) -> messages.Problem:
-    """An error as the page shows it: the shell's text, and the place if it has one."""
-    if isinstance(error, Refused):
-        return error.problem
-    if not isinstance(error, NiwakiError):
-        traceback.print_exception(error, file=sys.stderr)
-        return messages.Problem("failed", f"{type(error).__name__}: {error}")
-    span = getattr(error, "span", None)
-    stack = getattr(error, "stack", ())
-    if span is None and stack:
-        span = stack[-1].span
-    return messages.Problem(error.code, str(error), placed(span))
-
-
-def placed(span: Span | None) -> messages.Place | None:
-    """A span as plain data."""
-    if span is None:
-        return None
-    return messages.Place(span.file.path, span.line, span.column, span.end_line, span.end_column)

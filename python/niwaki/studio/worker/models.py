@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from niwaki.lang.models import Model
 from niwaki.shell.references import ModelReference, find
 from niwaki.studio.messages import ModelInfo, Parameter
 from niwaki.studio.refused import Refused
+from niwaki.studio.worker.loading import loading
 
 #: What the references of our structures begin with.
 STACK = "stack:"
@@ -43,7 +45,8 @@ def reference(name: str) -> ModelReference:
         stamp = found.st_mtime_ns, found.st_size, found.st_ino
     known = _kept.get(name)
     if known is None or known[0] != stamp:
-        known = _kept[name] = (stamp, _structure(name) or find(name))
+        with loading(place) if stamp is not None else nullcontext():
+            known = _kept[name] = (stamp, _structure(name) or find(name))
     return known[1]
 
 

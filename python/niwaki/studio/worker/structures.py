@@ -152,6 +152,8 @@ def regrow(job: Regrow, send: Any) -> Answer:
 def judge(job: JudgeRun, send: Any) -> Answer:
     """Whether a structure stands: what holds each block, and where it is let go, what falls."""
     one = runs.sample(job.source, job.number)
+    if not is_structure(job.source, job.number):
+        raise Refused("no-structure", "this result is no structure of blocks")
     structure = stacks.Structure.of(one)
     parts = _parts(structure, one.scene)
     balance, carried = stacks.balanced(structure), stacks.carried(structure)

@@ -7,19 +7,31 @@ HASH.json        its true bounds, and how many triangles it has
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
+import msgspec
 import numpy as np
 import trimesh
+from msgspec import Meta, Struct
 from numpy.typing import NDArray
 
-from niwaki.errors.files import write_whole
+from niwaki.errors import NiwakiError
+from niwaki.errors.files import is_file, write_whole
+from niwaki.errors.schema import Unfit, decoded, fitted
+from niwaki.inputs import bytes_of
 from niwaki.targets.target import Target
 
 #: The ghost of a target has no more triangles than about this.
 GHOST_TRIANGLES = 60_000
+
+
+class About(Struct):
+    """What HASH.json says of the mesh itself; corners of its bounds in scene units."""
+
+    bounds: tuple[tuple[float, float, float], tuple[float, float, float]]
+    triangles: Annotated[int, Meta(ge=0, lt=2**53)]
 
 
 @dataclass(frozen=True)
@@ -50,19 +62,31 @@ class Ghost:
     def save(self, mesh: Path) -> None:
         """Keep it beside its mesh."""
         light = trimesh.Trimesh(self.vertices, self.faces, process=False)
-        light.export(mesh.with_suffix(".light.stl"), file_type="stl")
-        about = {"bounds": self.bounds.tolist(), "triangles": self.triangles}
-        write_whole(mesh.with_suffix(".json"), json.dumps(about).encode())
+        write_whole(mesh.with_suffix(".light.stl"), stl(light))
+        low, high = self.bounds.tolist()
+        about = About((tuple(low), tuple(high)), self.triangles)
+        write_whole(mesh.with_suffix(".json"), msgspec.json.encode(about))
 
     @classmethod
     def beside(cls, mesh: Path) -> Ghost | None:
-        """The ghost that is kept beside a mesh, where there is one."""
-        if not mesh.with_suffix(".json").is_file():
+        """The ghost that is kept beside a mesh, where there is one that can be used; else it is made again."""
+        place = mesh.with_suffix(".json")
+        if not is_file(place):
             return None
-        about = json.loads(mesh.with_suffix(".json").read_text())
-        light = trimesh.load_mesh(mesh.with_suffix(".light.stl"), process=False)
-        faces = np.asarray(light.faces, dtype=np.int64)
-        return cls(np.asarray(light.vertices), faces, np.array(about["bounds"]), about["triangles"])
+        try:
+            about = fitted(decoded(bytes_of(place, "session")), About)
+            light = Target.load(mesh.with_suffix(".light.stl"))
+        except (Unfit, NiwakiError):
+            return None
+        return cls(
+            np.asarray(light.vertices), np.asarray(light.faces), np.array(about.bounds), about.triangles
+        )
+
+
+def stl(mesh: trimesh.Trimesh) -> bytes:
+    """The bytes of a mesh as binary STL."""
+    data: Any = mesh.export(file_type="stl")
+    return bytes(data)
 
 
 def thinned(

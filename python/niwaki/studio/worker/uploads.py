@@ -9,8 +9,6 @@ on standard output says what it is, or why it cannot be used.
 from __future__ import annotations
 
 import json
-import resource
-import shutil
 import sys
 import warnings
 from pathlib import Path
@@ -21,7 +19,10 @@ import trimesh
 import niwaki as nw
 from niwaki.color import Drawing
 from niwaki.errors import NiwakiError
-from niwaki.studio.worker.thinning import GHOST_TRIANGLES, Ghost
+from niwaki.errors.files import write_whole
+from niwaki.inputs import bytes_of
+from niwaki.inputs.child import bound
+from niwaki.studio.worker.thinning import GHOST_TRIANGLES, Ghost, stl
 
 MESHES = (".obj", ".stl", ".ply", ".glb", ".gltf")
 #: Bytes of memory and seconds of processor time that reading a mesh may take.
@@ -32,9 +33,7 @@ TRIANGLES = 3_000_000
 
 def main(source: str, sink: str) -> None:
     """Read, check, and write again."""
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    bound(cpu=SECONDS, core=0, **{"as": MEMORY})
     try:
         if Path(source).suffix.lower() not in MESHES:
             print(json.dumps(_drawing(source, sink)))
@@ -48,7 +47,7 @@ def main(source: str, sink: str) -> None:
             )
             return
         mesh = trimesh.Trimesh(target.vertices, target.faces, process=False)
-        mesh.export(sink, file_type="stl")
+        write_whole(Path(sink), stl(mesh))
         if len(target.faces) > GHOST_TRIANGLES:
             Ghost.of(target).save(Path(sink))
         found = {
@@ -70,7 +69,7 @@ def _drawing(source: str, sink: str) -> dict[str, Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         found = Drawing.load(source)
-    shutil.copyfile(source, sink)
+    write_whole(Path(sink), bytes_of(source, "image"))
     hidden = [f"no pixel shows {', '.join(found.hidden)}"] if found.hidden else []
     return {"regions": len(found.names), "notes": hidden}
 

@@ -1,0 +1,161 @@
+"""A file of models that does not end, or that ends its process: a message, and a fresh process."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Coroutine
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("starlette")
+
+from niwaki.studio import messages as m
+from niwaki.studio import process
+from niwaki.studio.process import Worker
+from niwaki.studio.session import Session, begin, reload
+from studio_process import PILE
+
+#: What a file does when it is loaded: what the message says of it.
+ENDINGS = {
+    "raise SystemExit(3)": "SystemExit: 3 (line 1)",
+    "import sys\nsys.exit()": "SystemExit",
+    "raise KeyboardInterrupt": "it raises KeyboardInterrupt",
+    "raise GeneratorExit": "GeneratorExit",
+    "class Odd(BaseException): pass\nraise Odd('x')": "Odd: x",
+    "import os\nos._exit(0)": "the process that ran it has ended",
+    "import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)": "the process that ran it has ended",
+    "import os\nos.close(1); os.closerange(3, 50)": "",
+}
+
+
+def alive(work: Coroutine[Any, Any, None]) -> None:
+    """Do work that must not wait for ever."""
+
+    async def bounded() -> None:
+        async with asyncio.timeout(60):
+            await work
+
+    asyncio.run(bounded())
+
+
+def test_a_file_that_loops_is_ended_with_its_line_and_a_fresh_process_goes_on(tmp_path, monkeypatch):
+    monkeypatch.setattr(process, "LOADING", 2.0)
+    place = tmp_path / "pile.py"
+
+    async def work() -> None:
+        worker = Worker(str(place))
+        try:
+            for text, line in (("x = 1\nwhile True:\n    pass\n", 2), ("import time\ntime.sleep(1e6)\n", 2)):
+                place.write_text(text)
+                answer = await worker.do(m.ListModels(files=[str(place)]))
+                assert answer.problem is not None and answer.problem.code == "model-file-failed"
+                told = answer.problem.text
+                assert f"it was ended at line {line}" in told or f"at line {line + 1}" in told
+                assert str(place) in told
+                # The same state is not waited for again, whoever asks.
+                monkeypatch.setattr(process, "LOADING", 1e6)
+                again = await worker.do(m.Load(reference=str(place)))
+                assert again.problem is not None and again.problem.code == "model-file-failed"
+                monkeypatch.setattr(process, "LOADING", 2.0)
+                assert (await worker.do(m.ListModels(files=[]))).models
+            place.write_text(PILE)
+            answer = await worker.do(m.Load(reference=str(place)))
+            assert answer.problem is None and answer.models[0].parameters
+        finally:
+            await worker.kill()
+
+    alive(work())
+
+
+@pytest.mark.parametrize("text", ENDINGS)
+def test_a_file_that_ends_its_process_is_named_and_the_gallery_stays(tmp_path, text):
+    place = tmp_path / "pile.py"
+    place.write_text(text + "\n")
+
+    async def work() -> None:
+        session = Session(tmp_path / "session", [str(place)])
+        try:
+            await begin(session)
+            assert session.problem is not None and session.problem.code == "model-file-failed"
+            assert ENDINGS[text] in session.problem.text and str(place) in session.problem.text
+            assert len(session.models) > 10 and session.models[0].reference == str(place)
+            place.write_text(PILE)
+            await reload(session, {place})
+            assert session.problem is None and session.model is not None and session.model.parameters
+        finally:
+            await session.end()
+
+    alive(work())
+
+
+def test_a_file_that_is_mended_while_it_loads_is_not_waited_for(tmp_path, monkeypatch):
+    monkeypatch.setattr(process, "LOADING", 1e6)
+    place = tmp_path / "pile.py"
+    place.write_text(PILE)
+
+    async def work() -> None:
+        session = Session(tmp_path / "session", [str(place)])
+        try:
+            await begin(session)
+            place.write_text("while True: pass\n")
+            first = session.start(reload(session, {place}))
+            while session.desk._loading.path != str(place) or not session.desk._loading.line:
+                await asyncio.sleep(0.02)
+            place.write_text(PILE)
+            await reload(session, {place})
+            await first
+            assert session.problem is None and session.model is not None and session.model.parameters
+        finally:
+            await session.end()
+
+    alive(work())
+
+
+def test_a_host_function_that_does_not_end_does_not_hold_the_desk_for_ever(tmp_path):
+    place = tmp_path / "pile.py"
+    text = PILE.replace("from niwaki import", "import niwaki\nfrom niwaki import")
+    text = text.replace(
+        "@model", "@niwaki.host\ndef slow() -> float:\n    while True:\n        pass\n\n\n@model", 1
+    )
+    place.write_text(text.replace("    for i in range(count):", "    slow()\n    for i in range(count):", 1))
+    ask = m.Question(str(place), {}, m.Ask(target=m.TargetAsk("box")), m.Settings(count=1))
+
+    async def work() -> None:
+        worker = Worker(str(place), patience=4.0)
+        try:
+            assert (await worker.do(m.Load(reference=str(place)))).problem is None
+            job = m.Grow(question=ask, run=0, seed=1, file=str(tmp_path / "0.json"))
+            answer = await worker.do(job)
+            assert answer.problem is not None and answer.problem.code == "too-slow"
+            assert (await worker.do(m.Load(reference=ask.model))).problem is None
+        finally:
+            await worker.kill()
+
+    alive(work())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="groups of processes are Unix")
+def test_what_a_file_has_started_ends_with_its_process(tmp_path, monkeypatch):
+    monkeypatch.setattr(process, "LOADING", 2.0)
+    place, said = tmp_path / "pile.py", tmp_path / "child"
+    place.write_text(
+        "import subprocess, pathlib\n"
+        "child = subprocess.Popen(['sleep', '1000'])\n"
+        f"pathlib.Path({str(said)!r}).write_text(str(child.pid))\n"
+        "while True: pass\n"
+    )
+
+    async def work() -> None:
+        worker = Worker(str(place))
+        try:
+            assert (await worker.do(m.Load(reference=str(place)))).problem is not None
+        finally:
+            await worker.kill()
+        child = Path(f"/proc/{said.read_text()}/stat")
+        while child.exists() and child.read_text().rpartition(")")[2].split()[0] != "Z":
+            await asyncio.sleep(0.02)
+
+    alive(work())
