@@ -22,7 +22,7 @@ SOURCES = HERE / "niwaki_blender"
 LOCK = HERE.parent.parent / "requirements" / "core.txt"
 
 #: Packages that the worker imports, beside NumPy.
-NEEDED = ("lazy-loader", "msgspec", "packaging", "pillow", "trimesh", "typing-extensions")
+NEEDED = ("lazy-loader", "mapbox-earcut", "msgspec", "packaging", "pillow", "trimesh", "typing-extensions")
 #: Blender's first version with each Python, and the first that has another.
 BLENDERS = {"3.11": ("4.2.0", "5.1.0"), "3.13": ("5.1.0", None)}
 #: Blender's names of platforms, and which wheels serve them.

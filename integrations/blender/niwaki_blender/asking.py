@@ -39,7 +39,7 @@ class Mesh:
     def target(self, origin: Triple = (0.0, 0.0, 0.0)) -> nw.Target:
         """The solid, in scene units from an origin."""
         with warnings.catch_warnings():
-            # Holes are closed by majority; Blender's own checks show them.
+            # Blender's own checks show holes.
             warnings.simplefilter("ignore")
             return nw.Target(axes.to_scene(self.vertices - origin), self.faces, self.name)
 

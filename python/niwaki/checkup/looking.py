@@ -18,7 +18,7 @@ from niwaki.errors.extras import EXTRAS, install
 from niwaki.errors.memory import UNKNOWN, free_memory
 
 #: What the core needs and tells its version.
-CORE = ("numpy", "pillow", "trimesh", "msgspec", "typer", "rich", "lazy-loader")
+CORE = ("numpy", "pillow", "trimesh", "mapbox_earcut", "msgspec", "typer", "rich", "lazy-loader")
 #: A requirement of the package's metadata: the package, its least version, and what it is for.
 _REQUIREMENT = re.compile(r"""([\w.-]+)>=([\w.]+)[^;]*; extra == ["']([\w-]+)["']""")
 

@@ -66,6 +66,11 @@ LIMITS = {
     "spaces": Limit(64, "namespaces", "drawing programs declare about ten"),
     "styles": Limit(2 * MB, "comparisons of shapes and selectors", "2 seconds"),
     "corners": Limit(10_000, "corners", "each edge is compared with each; a room has tens"),
+    "comparisons": Limit(
+        64 * MB,
+        "comparisons of corners",
+        "2 seconds; cutting a concave polygon may compare each corner with each",
+    ),
     "dots": Limit(64, "dots of a key in a line", "the time of TOML's reader grows with their square"),
     "rule-regions": Limit(4_000, "regions named by rules", "256 regions, each in 15 rules"),
     # Depth.

@@ -1,12 +1,17 @@
-"""JSON and TOML from a person's files, as plain values."""
+"""JSON, TOML and plain numbers from a person's files, as plain values."""
 
 from __future__ import annotations
 
+import codecs
 import json
 import re
 import tomllib
+import warnings
 from os import PathLike
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from niwaki.inputs.guard import library
 from niwaki.inputs.limits import check
@@ -42,6 +47,24 @@ def toml_of(text: str, place: str | PathLike[str] | None, what: str = ".toml") -
             check("dots", re.sub(r'"(?:[^"\\]|\\.)*"|\'[^\']*\'|\d\.\d', "", line).count("."), place)
     with library(place, what):
         return tomllib.loads(text)
+
+
+def numbers_of(text: bytes, kind: type[np.generic]) -> NDArray[Any] | None:
+    """The numbers of a text with blanks between them; nothing where there is anything else."""
+    with warnings.catch_warnings():
+        # NumPy warns where it stops in the middle.
+        warnings.simplefilter("error")
+        try:
+            return np.fromstring(text, kind, sep=" ") if text.strip() else np.empty(0, kind)
+        except (ValueError, DeprecationWarning):
+            return None
+
+
+def lines_of(data: bytes) -> bytes:
+    r"""A text whose lines all end in ``\n``, without a mark of its byte order."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        data = data.decode("utf-16", "replace").encode()
+    return data.removeprefix(codecs.BOM_UTF8).replace(b"\r\n", b"\n").replace(b"\r", b"\n")
 
 
 def _whole(digits: str) -> int | float:

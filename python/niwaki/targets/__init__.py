@@ -2,9 +2,12 @@
 
 target     meshes: the volume to fill, and surfaces that shadows fall on
 reading    meshes from files
-triangles  those that the library trimesh reads
-gltf       the triangles of glTF files
-pieces     the objects of a file as one mesh
+obj        the triangles of OBJ files
+stl        those of STL files
+ply        those of PLY files
+gltf       those of glTF files
+polygons   polygons as triangles
+pieces     what these readers share
 memory     whether there is enough memory for a mesh
 drawing    drawings to grow into, with the point where a model starts
 drawings   drawings of our own, by name

@@ -5,5 +5,4 @@ from . import fit as fit
 from . import images as images
 from . import pixels as pixels
 from . import reading as reading
-from . import triangles as triangles
 from . import views as views

@@ -1,7 +1,9 @@
 """The triangles of glTF 2.0 files, .glb and .gltf, each mesh as its nodes place it.
 
-Only positions, indices and nodes are read; materials, images and animations are not opened. Every count and every place
-is held against the bytes that are there before anything is allocated.
+Only shapes are read, as the file shows them at rest: positions, moved by weights and bones; indices, nodes and
+instances. Materials, images and animations are not opened. Every count and every place is held against the bytes that
+are there before anything is allocated. trimesh keeps no such limits, and passes over fans, instances, sparse
+accessors, targets, bones and required extensions.
 """
 
 from __future__ import annotations
@@ -9,7 +11,8 @@ from __future__ import annotations
 import base64
 import binascii
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
+from dataclasses import dataclass, field
 from typing import Any
 from urllib.parse import unquote_to_bytes, urlsplit
 
@@ -18,18 +21,21 @@ from numpy.typing import NDArray
 
 from niwaki.inputs.limits import beyond, check, limit
 from niwaki.inputs.texts import json_of
-
-Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
+from niwaki.targets import polygons
+from niwaki.targets.pieces import Arrays, Unreadable
 
 _MAGIC, _JSON, _BIN = 0x46546C67, 0x4E4F534A, 0x004E4942
+_COLUMNS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _INDICES = (5121, 5123, 5125)
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _HUGE = 1 << 40
-
-
-class Unreadable(Exception):
-    """Why a file is no glTF that can be read."""
+#: Sets of four joints that a vertex may have.
+_SETS = 4
+_INSTANCES = "EXT_mesh_gpu_instancing"
+#: Extensions that a file may require: those that are read, and those that change how surfaces look.
+_KNOWN = (_INSTANCES, "KHR_mesh_quantization")
+_LOOKS = ("KHR_lights_", "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_")
 
 
 def parsed(data: bytes, suffix: str, beside: Callable[[str], bytes]) -> list[Arrays]:
@@ -59,6 +65,7 @@ def parsed(data: bytes, suffix: str, beside: Callable[[str], bytes]) -> list[Arr
     version = _table(tree.get("asset", {}), "`asset`").get("version", "2.0")
     if not str(version).startswith("2"):
         raise Unreadable(f"it is glTF {version!s:.20}; only version 2 is read")
+    _check_required(tree)
     return _File(tree, chunk, beside).placed()
 
 
@@ -66,39 +73,47 @@ class _File:
     """A file taken apart."""
 
     def __init__(self, tree: dict[str, Any], chunk: bytes, beside: Callable[[str], bytes]) -> None:
-        self.nodes, self.meshes = _tables(tree, "nodes"), _tables(tree, "meshes")
+        self.nodes, self.meshes, self.skins = (_tables(tree, name) for name in ("nodes", "meshes", "skins"))
         self.scenes, self.scene = _tables(tree, "scenes"), tree.get("scene", 0)
         self.accessors, self.views = _tables(tree, "accessors"), _tables(tree, "bufferViews")
         check("nodes", len(self.nodes), None)
         self.buffers = [
             _buffer(one, chunk if k == 0 else b"", beside) for k, one in enumerate(_tables(tree, "buffers"))
         ]
-        self.read: dict[int, list[Arrays]] = {}
 
     def placed(self) -> list[Arrays]:
         """Every mesh of every node."""
         found: list[Arrays] = []
         allowed = 4 * sum(map(len, self.buffers)) + limit("copies")
         numbers = 0
-        for mesh, matrix in self.walk():
-            if mesh not in self.read:
-                self.read[mesh] = list(self.primitives(mesh))
-            for vertices, faces in self.read[mesh]:
-                numbers += len(vertices) + faces.size
-                if numbers > allowed:
-                    raise beyond("copies", f"its {len(self.nodes):,} nodes place more", None)
-                if len(found) == limit("nodes"):
-                    raise beyond("nodes", f"it places more than {len(found):,} meshes", None)
-                if not np.array_equal(matrix, np.eye(4)):
-                    with np.errstate(all="ignore"):
-                        vertices = vertices @ matrix[:3, :3].T + matrix[:3, 3]
-                        # A mirror image turns its triangles over.
-                        faces = faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else faces
-                found.append((vertices, faces))
+        matrices = dict(self.walk())
+        read: dict[str, list[_Part]] = {}
+        for number, matrix in matrices.items():
+            node = self.nodes[number]
+            if "mesh" not in node:
+                continue
+            mesh = _index(node["mesh"], self.meshes, "mesh")
+            weights = node.get("weights", self.meshes[mesh].get("weights", []))
+            key = f"{mesh} {weights}"
+            if key not in read:
+                read[key] = list(self.primitives(mesh, _list(weights, "`weights`")))
+            if "skin" in node:
+                skin = self.skins[_index(node["skin"], self.skins, "skin")]
+                parts, places = [part.bent(self.bones(skin, matrices)) for part in read[key]], [np.eye(4)]
+            else:
+                parts, places = read[key], [matrix @ one for one in self.instances(node)]
+            for place in places:
+                for part in parts:
+                    numbers += len(part.vertices) + part.faces.size
+                    if numbers > allowed:
+                        raise beyond("copies", f"its {len(self.nodes):,} nodes place more", None)
+                    if len(found) == limit("nodes"):
+                        raise beyond("nodes", f"it places more than {len(found):,} meshes", None)
+                    found.append(part.placed(place))
         return found
 
     def walk(self) -> Iterator[tuple[int, NDArray[np.float64]]]:
-        """The mesh and the place of each node, parents before their children, in order."""
+        """The number and the place of each node, parents before their children, in order."""
         if self.scenes:
             roots = _list(self.scenes[_index(self.scene, self.scenes, "scene")].get("nodes", []), "`nodes`")
         else:
@@ -117,11 +132,47 @@ class _File:
             with np.errstate(all="ignore"):
                 matrix = above @ _matrix(node)
             waiting += [(child, matrix) for child in reversed(_list(node.get("children", []), "`children`"))]
-            if "mesh" in node:
-                yield _index(node["mesh"], self.meshes, "mesh"), matrix
+            yield number, matrix
 
-    def primitives(self, mesh: int) -> Iterator[Arrays]:
-        """Vertices and faces of each part of a mesh that has triangles."""
+    def instances(self, node: dict[str, Any]) -> NDArray[np.float64]:
+        """Where a node has its mesh, below its own place, (n, 4, 4): once, or at each of its instances."""
+        given = _table(node.get("extensions", {}), "`extensions`").get(_INSTANCES)
+        if given is None:
+            return np.eye(4)[None]
+        places = _table(_table(given, f"`{_INSTANCES}`").get("attributes"), "`attributes` of its instances")
+        columns = {
+            name: self.numbers(places[name], kind, _TYPES)
+            for name, kind in (("TRANSLATION", "VEC3"), ("ROTATION", "VEC4"), ("SCALE", "VEC3"))
+            if name in places
+        }
+        counts = sorted({len(column) for column in columns.values()})
+        if len(counts) != 1:
+            raise Unreadable(
+                f"a node's instances have {counts} places, turns and scales, expected one number of each"
+            )
+        check("nodes", counts[0], None)
+        rows = {name.lower(): column.tolist() for name, column in columns.items()}
+        return np.array(
+            [_matrix(dict(zip(rows, one, strict=True))) for one in zip(*rows.values(), strict=True)]
+        ).reshape(-1, 4, 4)
+
+    def bones(self, skin: dict[str, Any], matrices: dict[int, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """What each joint of a skin does to a vertex at rest, (n, 4, 4)."""
+        joints = [_index(one, self.nodes, "node") for one in _list(skin.get("joints", []), "`joints`")]
+        if missing := [one for one in joints if one not in matrices]:
+            raise Unreadable(f"the joint {missing[0]} of a skin is in no scene")
+        found = np.array([matrices[one] for one in joints]).reshape(-1, 4, 4)
+        if "inverseBindMatrices" not in skin:
+            return found
+        # Files have the columns of a matrix one after another.
+        rest = self.numbers(skin["inverseBindMatrices"], "MAT4", _TYPES).reshape(-1, 4, 4).transpose(0, 2, 1)
+        if len(rest) < len(found):
+            raise Unreadable(f"a skin has {len(found)} joints and {len(rest)} matrices")
+        with np.errstate(all="ignore"):
+            return np.asarray(found @ rest[: len(found)])
+
+    def primitives(self, mesh: int, weights: list[Any]) -> Iterator[_Part]:
+        """Each part of a mesh that has triangles."""
         for one in _tables(self.meshes[mesh], "primitives"):
             mode = one.get("mode", _TRIANGLES)
             if mode not in (_TRIANGLES, _STRIP, _FAN):
@@ -129,51 +180,136 @@ class _File:
             places = _table(one.get("attributes", {}), "`attributes`")
             if "POSITION" not in places:
                 continue
-            vertices = self.numbers(places["POSITION"], 3).astype(np.float64)
+            vertices = self.numbers(places["POSITION"], "VEC3", _TYPES).astype(np.float64)
+            for weight, target in zip(weights, _tables(one, "targets"), strict=False):
+                if weight and "POSITION" in target:
+                    moved = self.numbers(target["POSITION"], "VEC3", _TYPES)
+                    with np.errstate(all="ignore"):
+                        vertices = vertices + _floats([weight], 1, "weights") * _as_many(moved, vertices)
             if "indices" in one:
-                flat = self.numbers(one["indices"], 1).reshape(-1).astype(np.int64)
+                flat = self.numbers(one["indices"], "SCALAR", _INDICES).reshape(-1).astype(np.int64)
             else:
                 flat = np.arange(len(vertices))
-            yield vertices, _triangles(flat, mode)
+            part = _Part(vertices, _triangles(flat, mode))
+            for k in range(_SETS):
+                if f"JOINTS_{k}" in places and f"WEIGHTS_{k}" in places:
+                    part.joints.append(
+                        _as_many(self.numbers(places[f"JOINTS_{k}"], "VEC4", _INDICES), vertices)
+                    )
+                    part.weights.append(
+                        _as_many(self.numbers(places[f"WEIGHTS_{k}"], "VEC4", _TYPES), vertices)
+                    )
+            yield part
 
-    def numbers(self, given: Any, columns: int) -> NDArray[Any]:
-        """The numbers of an accessor, (count, columns): positions, or indices of one column."""
+    def numbers(self, given: Any, kind: str, codes: Container[int]) -> NDArray[Any]:
+        """The numbers of an accessor of a kind, (count, columns)."""
         accessor = self.accessors[_index(given, self.accessors, "accessor")]
-        expected = "VEC3" if columns == 3 else "SCALAR"
-        kind, code = accessor.get("type"), accessor.get("componentType")
-        if (
-            kind != expected
-            or not isinstance(code, int)
-            or code not in (_TYPES if columns == 3 else _INDICES)
-        ):
-            raise Unreadable(f"accessor {given} has type {kind!s:.20} {code!s:.20}, expected {expected}")
-        if "bufferView" not in accessor or "sparse" in accessor:
-            raise Unreadable("its meshes are compressed (Draco) or sparse; export them without compression")
-        view = self.views[_index(accessor["bufferView"], self.views, "bufferView")]
+        code = accessor.get("componentType")
+        if accessor.get("type") != kind or not isinstance(code, int) or code not in codes:
+            shown = f"{accessor.get('type')!s:.20} {code!s:.20}"
+            raise Unreadable(f"accessor {given} has type {shown}, expected {kind}")
+        shape = _whole(accessor.get("count"), "count"), _COLUMNS[kind]
+        dtype = np.dtype(_TYPES[code])
+        if "bufferView" in accessor:
+            found = self.rows(accessor, shape, dtype, f"accessor {given}")
+        elif "sparse" in accessor:
+            check("copies", shape[0], None)
+            found = np.zeros(shape, dtype)
+        else:
+            raise Unreadable("its meshes are compressed (Draco); export them without compression")
+        if "sparse" in accessor:
+            found = found.copy()
+            given = _table(accessor["sparse"], "`sparse`")
+            count = _whole(given.get("count"), "count")
+            where, what = (_table(given.get(name), f"`{name}` of `sparse`") for name in ("indices", "values"))
+            if where.get("componentType") not in _INDICES:
+                raise Unreadable(
+                    f"the indices of a sparse accessor have type {where.get('componentType')!s:.20}"
+                )
+            rows = self.rows(
+                where, (count, 1), np.dtype(_TYPES[where["componentType"]]), "a sparse accessor"
+            )[:, 0]
+            if count and rows.max() >= len(found):
+                raise Unreadable(f"a sparse accessor names row {rows.max():,} of {len(found):,}")
+            found[rows] = self.rows(what, (count, shape[1]), dtype, "a sparse accessor")
+        if dtype.kind != "f" and accessor.get("normalized") is True:
+            return np.asarray(np.maximum(found / np.iinfo(dtype).max, -1.0))
+        return found
+
+    def rows(
+        self, table: dict[str, Any], shape: tuple[int, int], dtype: np.dtype[Any], name: str
+    ) -> NDArray[Any]:
+        """Rows of a view that a table names."""
+        view = self.views[_index(table.get("bufferView"), self.views, "bufferView")]
         if any("meshopt" in name for name in _table(view.get("extensions", {}), "`extensions`")):
             raise Unreadable("its meshes are compressed (meshopt); export them without compression")
         buffer = self.buffers[_index(view.get("buffer"), self.buffers, "buffer")]
-        dtype = np.dtype(_TYPES[code])
+        count, columns = shape
         row = columns * dtype.itemsize
         start, length = (
             _whole(view.get("byteOffset", 0), "byteOffset"),
             _whole(view.get("byteLength"), "byteLength"),
         )
-        count, offset = (
-            _whole(accessor.get("count"), "count"),
-            _whole(accessor.get("byteOffset", 0), "byteOffset"),
-        )
+        offset = _whole(table.get("byteOffset", 0), "byteOffset")
         stride = _whole(view.get("byteStride", row), "byteStride")
         if start + length > len(buffer):
             raise Unreadable(f"a view ends at byte {start + length:,} of a buffer that has {len(buffer):,}")
         if count == 0:
             return np.empty((0, columns), dtype)
         if stride < row or offset + (count - 1) * stride + row > length:
-            raise Unreadable(f"accessor {given} names {count:,} rows, and its view has {length:,} bytes")
-        found = np.ndarray((count, columns), dtype, buffer, start + offset, (stride, dtype.itemsize))
-        if dtype.kind != "f" and columns == 3 and accessor.get("normalized") is True:
-            return np.maximum(found / np.iinfo(dtype).max, -1.0)
-        return found
+            raise Unreadable(f"{name} names {count:,} rows, and its view has {length:,} bytes")
+        return np.ndarray((count, columns), dtype, buffer, start + offset, (stride, dtype.itemsize))
+
+
+@dataclass
+class _Part:
+    """A part of a mesh, and how much each joint of a skin moves its vertices, four joints in each set."""
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    joints: list[NDArray[Any]] = field(default_factory=list)
+    weights: list[NDArray[Any]] = field(default_factory=list)
+
+    def bent(self, bones: NDArray[np.float64]) -> _Part:
+        """The part as its bones hold it."""
+        if not self.joints:
+            return self
+        whole = np.zeros((len(self.vertices), 3, 4))
+        with np.errstate(all="ignore"):
+            for joints, weights in zip(self.joints, self.weights, strict=True):
+                for k in range(4):
+                    # A weight of zero may name any joint.
+                    used = np.where(weights[:, k] > 0, joints[:, k], 0).astype(np.int64)
+                    if len(used) and used.max() >= len(bones):
+                        raise Unreadable(f"a vertex names joint {used.max()} of {len(bones)}")
+                    whole += weights[:, k, None, None] * bones[used, :3]
+            vertices = np.einsum("vij,vj->vi", whole[:, :, :3], self.vertices) + whole[:, :, 3]
+        return _Part(vertices, self.faces)
+
+    def placed(self, matrix: NDArray[np.float64]) -> Arrays:
+        """Its vertices and faces at a place."""
+        if np.array_equal(matrix, np.eye(4)):
+            return self.vertices, self.faces
+        with np.errstate(all="ignore"):
+            vertices = self.vertices @ matrix[:3, :3].T + matrix[:3, 3]
+            # A mirror image turns its triangles over.
+            return vertices, self.faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else self.faces
+
+
+def _as_many(found: NDArray[Any], vertices: NDArray[Any]) -> NDArray[Any]:
+    if len(found) != len(vertices):
+        raise Unreadable(f"a mesh has {len(vertices):,} vertices, and {len(found):,} rows about them")
+    return found
+
+
+def _check_required(tree: dict[str, Any]) -> None:
+    """Refuse what a file cannot be read without and we do not know."""
+    for name in _list(tree.get("extensionsRequired", []), "`extensionsRequired`"):
+        if not isinstance(name, str) or not (name in _KNOWN or name.startswith(_LOOKS)):
+            reason = f"it cannot be read without the extension {name!a:.60}, which is not known here"
+            if "draco" in str(name) or "meshopt" in str(name):
+                reason = f"its meshes are compressed ({name!a:.60}); export them without compression"
+            raise Unreadable(reason)
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:
@@ -259,17 +395,13 @@ def _matrix(node: dict[str, Any]) -> NDArray[np.float64]:
 
 
 def _triangles(flat: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
-    if mode == _TRIANGLES:
-        if len(flat) % 3:
-            raise Unreadable(f"{len(flat)} indices make no triangles")
-        return flat.reshape(-1, 3)
-    if len(flat) < 3:
-        return np.empty((0, 3), np.int64)
+    if mode == _STRIP:
+        return polygons.strips(flat)
     if mode == _FAN:
-        return np.stack([np.full(len(flat) - 2, flat[0]), flat[1:-1], flat[2:]], axis=1)
-    found = np.stack([flat[:-2], flat[1:-1], flat[2:]], axis=1)
-    found[1::2] = found[1::2, [1, 0, 2]]
-    return found
+        return np.stack([np.broadcast_to(flat[:1], flat[2:].shape), flat[1:-1], flat[2:]], axis=1)
+    if len(flat) % 3:
+        raise Unreadable(f"{len(flat)} indices make no triangles")
+    return flat.reshape(-1, 3)
 
 
 def _table(value: Any, name: str) -> dict[str, Any]:

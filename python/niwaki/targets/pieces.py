@@ -1,27 +1,30 @@
-"""The objects of a file as one mesh."""
+"""What the readers of meshes share: why a file is no mesh, and its objects as one mesh."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from niwaki.errors import FileError
+Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
-def joined(
-    parts: list[tuple[NDArray[np.float64], NDArray[np.int64]]], suffix: str
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+class Unreadable(Exception):
+    """Why a file is no mesh that can be read."""
+
+
+def joined(parts: list[Arrays]) -> Arrays:
     """All parts as one; refused where a face names a vertex that its part does not have."""
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
     for vertices, faces in parts:
-        if vertices.shape[1:] != (3,) or faces.shape[1:] != (3,):
-            reason = f"its rows have {vertices.shape[-1]} coordinates and {faces.shape[-1]} corners, expected 3 and 3"
-            raise FileError("file-unreadable", None, suffix=suffix, reason=reason)
-        if len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
-            wrong = int(faces.min() if faces.min() < 0 else faces.max())
-            reason = f"a face names vertex {wrong + 1} of {len(vertices)}"
-            raise FileError("file-unreadable", None, suffix=suffix, reason=reason)
+        check_corners(faces, len(vertices))
     return (
         np.concatenate([vertices for vertices, _ in parts]),
         np.concatenate([faces + start for (_, faces), start in zip(parts, starts, strict=False)]),
     )
+
+
+def check_corners(corners: NDArray[np.int64], count: int) -> None:
+    """Refuse a corner that is none of `count` vertices, numbered from 0."""
+    wrong = corners[(corners < 0) | (corners >= count)]
+    if len(wrong):
+        raise Unreadable(f"a face names vertex {wrong[0]}, and there are {count}, counted from 0")

@@ -1,7 +1,7 @@
 """Targets: the volumes that a scene should fill, and receivers of shadows, from OBJ, STL, PLY and GLB files or arrays.
 
 Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file
-with several objects is one target; its closed parts may overlap.
+with several objects is one target; its closed parts may overlap. What is enclosed is filled, cavities as well.
 """
 
 from __future__ import annotations
@@ -114,6 +114,9 @@ class Mesh:
 class Target(Mesh):
     """A triangle mesh to fill.
 
+    Whatever the outside does not reach is filled, also a cavity: a surface inside of another makes no hole, on
+    whichever side it faces. How a flat polygon is cut into triangles makes no difference.
+
     Parameters
     ----------
     vertices : (n, 3) float64
@@ -149,7 +152,8 @@ class Target(Mesh):
         if self.open_edges:
             warnings.warn(
                 f"{name}: the mesh is not closed: {self.open_edges} open edges; "
-                "inside and outside are decided by majority, so close the holes if the fill looks wrong",
+                "through a hole wider than a voxel the outside comes in, and only the surface is filled; "
+                "close the holes if the fill looks wrong",
                 TargetWarning,
                 stacklevel=_outside(),
             )
