@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(TESTS / part) for part in ("fuzz", "niwaki/inputs")]
+sys.path[:0] = [str(TESTS / part) for part in ("fuzz", "niwaki/inputs", "niwaki/targets")]
 
 from reports import Report, report  # noqa: E402
 from test_mutations import APART, KINDS, attempt  # noqa: E402

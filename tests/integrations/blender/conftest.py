@@ -2,4 +2,4 @@
 
 from importlib.util import find_spec
 
-collect_ignore = [] if find_spec("bpy") else ["inside_blender.py"]
+collect_ignore = [] if find_spec("bpy") else ["inside_blender.py", "meshes_in_blender.py"]

@@ -24,6 +24,7 @@ import niwaki
 import numpy as np
 import pytest
 import trimesh
+from mesh_corpus import CASES
 from niwaki.color import Drawing, Rules
 from niwaki.errors import NiwakiError
 from niwaki.letters import glyphs
@@ -137,13 +138,25 @@ def saved(reader: Callable[[Path], object]) -> Callable[[Path, bytes], object]:
 def seeds() -> dict[str, tuple[bytes, str, Callable[[Path, bytes], object]]]:
     """By kind: a real file, its suffix, and what reads it."""
     glb = exported("glb")
+    trap = {case.name: case.data for case in CASES}
     return {
         "stl": (exported("stl"), ".stl", mesh(".stl")),
         "stl-text": (exported("stl_ascii"), ".stl", mesh(".stl")),
+        "stl-quads": (trap["stl: facets of four corners"], ".stl", mesh(".stl")),
         "obj": (b"mtllib a.mtl\no one\nusemtl red\nvt 0 0\n" + exported("obj"), ".obj", mesh(".obj")),
+        "obj-concave": (trap["obj: a U"] + trap["obj: a frame"], ".obj", mesh(".obj")),
         "ply": (exported("ply"), ".ply", mesh(".ply")),
         "ply-text": (exported("ply", encoding="ascii"), ".ply", mesh(".ply")),
+        "ply-lists": (
+            trap["ply: binary_big_endian, doubles and numbers around lists"],
+            ".ply",
+            mesh(".ply"),
+        ),
+        "ply-strips": (trap["ply: strips"], ".ply", mesh(".ply")),
         "glb": (glb, ".glb", mesh(".glb")),
+        "glb-instances": (trap["gltf: turned instances"], ".glb", mesh(".glb")),
+        "glb-sparse": (trap["gltf: sparse"], ".glb", mesh(".glb")),
+        "glb-bones": (trap["gltf: bones"], ".glb", mesh(".glb")),
         "gltf": (embedded(), ".gltf", mesh(".gltf")),
         "png": (picture("PNG", "RGBA"), ".png", image_of),
         "png-palette": (picture("PNG", "P", transparency=0), ".png", image_of),
@@ -175,8 +188,9 @@ def seeds() -> dict[str, tuple[bytes, str, Callable[[Path, bytes], object]]]:
 
 
 KINDS = (
-    "stl stl-text obj ply ply-text glb gltf png png-palette png-16 jpeg jpeg-scans webp webp-lossless gif bmp tiff svg "
-    "svg-heavy rules camera room-svg room-json guide font"
+    "stl stl-text stl-quads obj obj-concave ply ply-text ply-lists ply-strips glb glb-instances glb-sparse glb-bones "
+    "gltf png png-palette png-16 jpeg jpeg-scans webp webp-lossless gif bmp tiff svg svg-heavy rules camera room-svg "
+    "room-json guide font"
 ).split()
 #: Kinds whose inputs start a process, and a slow one: a short run takes few.
 APART = ("tiff", "svg-heavy", "font")

@@ -1,0 +1,84 @@
+"""Claim: Blender reads the files of the corpus of meshes (tests/niwaki/targets/mesh_corpus.py) as Niwaki does.
+
+`make test-blender` runs this on the Python that has `bpy`. Files that Niwaki refuses are not asked about: Blender's
+importers leave out what they cannot read.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+
+sys.path.append(str(Path(__file__).parents[2] / "niwaki/targets"))
+from mesh_corpus import CASES, Case  # noqa: E402
+
+#: What Blender reads in another way, and how.
+OTHERWISE = {
+    "obj: mark of UTF-8": "reads no first line",
+    "obj: UTF-16": "reads no line",
+    "obj: lines of old Macs": "reads no line",
+    "obj: a path with a backslash": "joins the lines",
+    "obj: faces before vertices": "wants vertices first",
+    "ply: lines of old Macs": "reads no head",
+    "ply: mark of UTF-8": "reads no head",
+    "ply: empty lines": "counts empty lines",
+    "ply: all in one line": "wants lines",
+    "ply: strips in two lists": "wants one list",
+    "ply: a list in vertices": "leaves it out",
+    "stl: lines of old Macs": "reads no line",
+    "stl: capitals": "reads small letters only",
+    "stl: binary with 6 bytes behind": "wants the exact length",
+    "stl: binary with words behind": "wants the exact length",
+}
+
+
+def read(path: Path) -> None:
+    """Import a file with its coordinates as they are."""
+    axes: dict[str, Any] = {"forward_axis": "Y", "up_axis": "Z"}
+    if path.suffix in (".glb", ".gltf"):
+        bpy.ops.import_scene.gltf(filepath=str(path))
+    else:
+        getattr(bpy.ops.wm, f"{path.suffix[1:]}_import")(filepath=str(path), **axes)
+
+
+def triangles() -> np.ndarray:
+    """The triangles of all objects, as they are shown, (n, 3, 3)."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    found = [np.empty((0, 3, 3))]
+    for one in graph.object_instances:
+        if one.object.type != "MESH":
+            continue
+        mesh = one.object.to_mesh()
+        mesh.calc_loop_triangles()
+        points = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.vertices.foreach_get("co", points)
+        corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
+        mesh.loop_triangles.foreach_get("vertices", corners)
+        matrix = np.array(one.matrix_world)
+        placed = points.reshape(-1, 3).astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
+        faces = corners.reshape(-1, 3)
+        # A mirror image turns its triangles over.
+        found.append(placed[faces if np.linalg.det(matrix[:3, :3]) > 0 else faces[:, ::-1]])
+    return np.concatenate(found)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [case for case in CASES if not case.refused and case.name not in OTHERWISE],
+    ids=lambda case: case.slug,
+)
+def test_blender_gives_the_same_answer(case: Case, tmp_path: Path) -> None:
+    bpy.ops.wm.read_homefile(use_empty=True)
+    for name, data in (*case.beside, (f"case{case.suffix}", case.data)):
+        (tmp_path / name).write_bytes(data)
+    read(tmp_path / f"case{case.suffix}")
+    corners = triangles()
+    if case.suffix in (".glb", ".gltf"):
+        # Blender has z up.
+        corners = np.stack([corners[..., 0], corners[..., 2], -corners[..., 1]], axis=-1)
+    assert case.agrees(corners)
