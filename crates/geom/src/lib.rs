@@ -19,6 +19,7 @@ mod coarse;
 pub mod convex;
 pub mod error;
 pub mod fine;
+mod folds;
 pub mod hull;
 pub mod intersect;
 pub mod limb;

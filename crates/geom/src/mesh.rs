@@ -2,16 +2,28 @@
 
 use crate::bounds::Aabb;
 use crate::error::GeomError;
+use crate::folds::{Fold, folds};
+use crate::once::Once;
 use crate::vector::Vec3;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
 
 /// Triangles over shared vertices. Every index is in range and every coordinate finite.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(try_from = "Arrays")]
 pub struct TriMesh {
     vertices: Vec<Vec3>,
     triangles: Vec<[u32; 3]>,
+    /// Once a fill has asked.
+    #[serde(skip)]
+    folds: OnceLock<Arc<[Fold]>>,
+}
+
+impl PartialEq for TriMesh {
+    fn eq(&self, other: &TriMesh) -> bool {
+        self.vertices == other.vertices && self.triangles == other.triangles
+    }
 }
 
 /// A mesh before it is checked.
@@ -51,7 +63,7 @@ impl TriMesh {
             let message = format!("face {i} is {:?}, but there are only {count} vertices", triangles[i]);
             return Err(GeomError::new("bad-shape", message));
         }
-        Ok(TriMesh { vertices, triangles })
+        Ok(TriMesh { vertices, triangles, folds: OnceLock::new() })
     }
 
     /// The vertices.
@@ -81,20 +93,32 @@ impl TriMesh {
 
     /// The mesh with every vertex moved by `f`.
     pub fn map(&self, f: impl Fn(Vec3) -> Vec3) -> TriMesh {
-        TriMesh { vertices: self.vertices.iter().map(|v| f(*v)).collect(), triangles: self.triangles.clone() }
+        let vertices = self.vertices.iter().map(|v| f(*v)).collect();
+        TriMesh { vertices, triangles: self.triangles.clone(), folds: OnceLock::new() }
+    }
+
+    /// The mesh scaled, turned and moved by `f`. What is flat stays so, and is not looked for again.
+    pub fn placed(&self, f: impl Fn(Vec3) -> Vec3) -> TriMesh {
+        self.folds();
+        TriMesh { folds: self.folds.clone(), ..self.map(f) }
+    }
+
+    /// Its flat parts that lie over themselves.
+    pub(crate) fn folds(&self) -> &[Fold] {
+        self.folds.once(|| folds(self).into())
+    }
+
+    /// For each vertex the number of the first one at its place.
+    pub(crate) fn merged(&self) -> Vec<u32> {
+        let mut first: HashMap<[u64; 3], u32> = HashMap::new();
+        // Adding zero turns -0.0 into 0.0, so that the two are one vertex.
+        let key = |v: &Vec3| v.to_array().map(|c| (c + 0.0).to_bits());
+        (0..).zip(&self.vertices).map(|(i, v)| *first.entry(key(v)).or_insert(i)).collect()
     }
 
     /// Number of edges not shared by exactly two triangles, after merging equal vertices: zero for a closed mesh.
     pub fn open_edges(&self) -> usize {
-        let mut first: HashMap<[u64; 3], u32> = HashMap::new();
-        // Adding zero turns -0.0 into 0.0, so that the two are one vertex.
-        let key = |v: Vec3| v.to_array().map(|c| (c + 0.0).to_bits());
-        let merged: Vec<u32> = self
-            .vertices
-            .iter()
-            .enumerate()
-            .map(|(i, v)| *first.entry(key(*v)).or_insert(i as u32))
-            .collect();
+        let merged = self.merged();
         let mut uses: HashMap<(u32, u32), usize> = HashMap::new();
         for t in &self.triangles {
             let t = t.map(|v| merged[v as usize]);

@@ -422,7 +422,7 @@ impl Shape {
     pub fn world_mesh(&self) -> WorldMesh {
         let (Inner { solid, number, .. }, placement) = (&*self.0, self.placement());
         let compute = || match (solid, self.convex()) {
-            (Solid::Mesh(mesh), _) => Ok(mesh.map(|p| placement.apply(p))),
+            (Solid::Mesh(mesh), _) => Ok(mesh.placed(|p| placement.apply(p))),
             (solid, _) if solid.is_flat() => {
                 flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
             }

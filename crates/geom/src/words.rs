@@ -150,7 +150,7 @@ impl Shape {
                 format!("the scale is {scale}, expected a positive number"),
             ));
         }
-        let mesh = if scale == 1.0 { mesh.clone() } else { Arc::new(mesh.map(|p| p * scale)) };
+        let mesh = if scale == 1.0 { mesh.clone() } else { Arc::new(mesh.placed(|p| p * scale)) };
         Shape::placed(Solid::Mesh(mesh), center, Mat3::IDENTITY, look)
     }
 }

@@ -224,3 +224,140 @@ fn overshoot_is_the_sum_over_six_sides_and_comes_back() {
     sketch.remove(&rod);
     assert_eq!(sketch.overshoot(), 0.0);
 }
+
+/// A prism over an outline, its ends cut by `cut` into triangles of the outline's corners (or of others, from `more`).
+fn prism(outline: &[[f64; 2]], more: &[[f64; 2]], cut: &[[u32; 3]], turn: &Mat3) -> TriMesh {
+    let count = outline.len() as u32;
+    let all: Vec<[f64; 2]> = outline.iter().chain(more).copied().collect();
+    let above = all.len() as u32;
+    let level = |z: f64| all.iter().map(move |[x, y]| turn.apply(vec3(*x, *y, z)));
+    let vertices = level(-0.7).chain(level(0.9)).collect();
+    let mut faces: Vec<[u32; 3]> = cut.iter().map(|[a, b, c]| [*c, *b, *a]).collect();
+    faces.extend(cut.iter().map(|t| t.map(|v| v + above)));
+    for k in 0..count {
+        let next = (k + 1) % count;
+        faces.extend([[k, next, next + above], [k, next + above, k + above]]);
+    }
+    TriMesh::new(vertices, faces).unwrap()
+}
+
+fn fan(count: usize, first: usize) -> Vec<[u32; 3]> {
+    let at = |k: usize| ((first + k) % count) as u32;
+    (1..count - 1).map(|k| [at(0), at(k), at(k + 1)]).collect()
+}
+
+fn cells(mesh: &TriMesh, grid: &Grid) -> Vec<bool> {
+    let [nx, ny, _] = grid.dims();
+    let voxels = Voxels::of_mesh(mesh, grid).unwrap();
+    (0..grid.len()).map(|i| voxels.contains([i % nx, i / nx % ny, i / nx / ny])).collect()
+}
+
+#[test]
+fn cells_do_not_depend_on_how_a_polygon_is_cut() {
+    // Stars around their middle: triangles from the middle cover them, a fan from a corner lies over itself.
+    let mut dice = Dice::new(19);
+    let (mut folded, mut beyond) = (0, 0);
+    for scene in 0..150 {
+        let count = 4 + dice.below(12);
+        let reach: Vec<f64> = (0..count).map(|_| dice.uniform(0.3, 2.0)).collect();
+        let corner = |k: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
+            [reach[k] * cos, reach[k] * sin]
+        };
+        let outline: Vec<[f64; 2]> = (0..count).map(corner).collect();
+        let middle: Vec<[u32; 3]> =
+            (0..count).map(|k| [count as u32, k as u32, ((k + 1) % count) as u32]).collect();
+        let axis = dice.point(1.0).unit().unwrap();
+        let turn = Mat3::rotation(axis, if scene % 3 == 0 { 0.0 } else { dice.uniform(0.0, 6.0) });
+        let whole = prism(&outline, &[[0.0, 0.0]], &middle, &turn);
+        let grid = Grid::around(&whole.aabb(), dice.uniform(0.12, 0.4)).unwrap();
+        let right = cells(&whole, &grid);
+        for first in 0..count {
+            let cut = fan(count, first);
+            let mesh = prism(&outline, &[], &cut, &turn);
+            assert!(cells(&mesh, &grid) == right, "scene {scene}, fan from {first} of {count}");
+            let area = |t: &[u32; 3]| {
+                let [a, b, c] = t.map(|v| outline[v as usize]);
+                (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            };
+            folded += usize::from(cut.iter().any(|t| area(t) < -1e-3));
+            if first == 0 {
+                beyond += plainly(&mesh, &grid).iter().zip(&right).filter(|(p, r)| p != r).count();
+            }
+        }
+    }
+    // The triangles alone touch more.
+    assert!(folded > 500 && beyond > 500, "{folded} {beyond}");
+}
+
+#[test]
+fn a_placed_mesh_that_lies_over_itself_fills_the_cells_of_its_outline() {
+    let outline = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [1.0, 3.0]];
+    let right = Arc::new(prism(&outline, &[], &fan(4, 1), &Mat3::IDENTITY));
+    let wrong = Arc::new(prism(&outline, &[], &fan(4, 0), &Mat3::IDENTITY));
+    let mut dice = Dice::new(23);
+    for _ in 0..40 {
+        let rotation = Some(Mat3::rotation(dice.point(1.0).unit().unwrap(), dice.uniform(0.0, 6.0)));
+        let look = niwaki_geom::Look { rotation, ..Default::default() };
+        let (center, scale) = (dice.point(1.0), dice.uniform(0.3, 2.0));
+        let grid = some_grid(&mut dice);
+        let [a, b] =
+            [&right, &wrong].map(|mesh| ours(&Shape::mesh(mesh, center, scale, &look).unwrap(), &grid));
+        assert!(a == b && a.iter().any(|filled| *filled));
+    }
+}
+
+#[test]
+fn sheets_with_two_sides_and_faces_that_touch_are_kept() {
+    let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    let corners: Vec<Vec3> = square.iter().map(|[x, y]| vec3(*x, *y, 0.3 * x)).collect();
+    let front = vec![[0, 1, 2], [0, 2, 3]];
+    let both: Vec<[u32; 3]> = front.iter().copied().chain([[1, 0, 3], [1, 3, 2]]).collect();
+    let [sheet, leaf] = [front, both].map(|faces| TriMesh::new(corners.clone(), faces).unwrap());
+    let grid = Grid::around(&sheet.aabb(), 0.11).unwrap();
+    assert_eq!(cells(&sheet, &grid), plainly(&sheet, &grid));
+    assert_eq!(cells(&leaf, &grid), cells(&sheet, &grid));
+    // Two boxes share an edge and a part of a face: what is between them is inside.
+    let cube =
+        |low: Vec3, high: Vec3| Shape::cuboid((low + high) * 0.5, high - low, &Default::default()).unwrap();
+    let boxes = [cube(Vec3::ZERO, vec3(1.0, 2.0, 1.0)), cube(vec3(1.0, 0.0, 0.0), vec3(2.0, 1.0, 1.0))];
+    let mut joined = (Vec::new(), Vec::new());
+    for shape in &boxes {
+        let mesh = shape.world_mesh();
+        joined.1.extend(mesh.triangles().iter().map(|t| t.map(|v| v + joined.0.len() as u32)));
+        joined.0.extend_from_slice(mesh.vertices());
+    }
+    let joined = TriMesh::new(joined.0, joined.1).unwrap();
+    let grid = Grid::around(&joined.aabb(), 0.13).unwrap();
+    assert_eq!(cells(&joined, &grid), plainly(&joined, &grid));
+}
+
+/// A box around a smaller one that faces inwards, or outwards.
+fn hollow(inwards: bool) -> TriMesh {
+    let cube = |size: f64| {
+        let shape = Shape::cuboid(Vec3::ZERO, vec3(size, size, size), &Default::default()).unwrap();
+        (shape.world_mesh().vertices().to_vec(), shape.world_mesh().triangles().to_vec())
+    };
+    let ((mut vertices, mut faces), (inner, more)) = (cube(4.0), cube(2.4));
+    let start = vertices.len() as u32;
+    vertices.extend(inner);
+    faces.extend(
+        more.iter()
+            .map(|[a, b, c]| [*a, *b, *c].map(|v| v + start))
+            .map(|[a, b, c]| if inwards { [a, c, b] } else { [a, b, c] }),
+    );
+    TriMesh::new(vertices, faces).unwrap()
+}
+
+#[test]
+fn a_cavity_is_filled_on_whichever_side_its_surface_faces() {
+    // Above 2^24 cells as well, where a mesh beyond the domain is cut to it: here the domain is within the cavity.
+    let within = Shape::cuboid(Vec3::ZERO, vec3(1.0, 1.0, 1.0), &Default::default()).unwrap();
+    for (domain, voxel) in [(hollow(true).aabb(), 0.2), (*within.aabb(), 0.2), (*within.aabb(), 0.013)] {
+        let grid = Grid::around(&domain, voxel).unwrap();
+        let [inwards, outwards] = [true, false].map(|side| Voxels::of_mesh(&hollow(side), &grid).unwrap());
+        assert_eq!(inwards.count(), outwards.count());
+        let [nx, ny, nz] = grid.dims();
+        assert!(inwards.contains([nx / 2, ny / 2, nz / 2]));
+    }
+}

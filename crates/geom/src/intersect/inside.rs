@@ -7,6 +7,7 @@
 use crate::mesh::TriMesh;
 use crate::shape::Shape;
 use crate::vector::Vec3;
+use std::f64::consts::TAU;
 
 /// How far below a face a sample lies, as a share of the solid's thickness.
 const DEPTH: f64 = 1e-3;
@@ -17,9 +18,37 @@ pub fn contains(shape: &Shape, point: Vec3) -> bool {
 }
 
 /// True when a closed mesh contains `point`.
-pub fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
+fn inside_mesh(mesh: &TriMesh, point: Vec3) -> bool {
     let angle: f64 = mesh.corners().map(|t| solid_angle(t.map(|p| p - point))).sum();
-    angle.abs() > std::f64::consts::TAU
+    angle.abs() > TAU
+}
+
+/// For each triangle the part that it belongs to: triangles with a vertex in common, by its place, are of one part.
+pub fn parts(mesh: &TriMesh) -> Vec<usize> {
+    let merged = mesh.merged();
+    let mut above: Vec<usize> = (0..merged.len()).collect();
+    let first = |above: &mut Vec<usize>, mut v: usize| {
+        while above[v] != v {
+            above[v] = above[above[v]];
+            v = above[v];
+        }
+        v
+    };
+    for t in mesh.triangles() {
+        let [a, b, c] = t.map(|v| first(&mut above, merged[v as usize] as usize));
+        let lowest = a.min(b).min(c);
+        [a, b, c].into_iter().for_each(|v| above[v] = lowest);
+    }
+    mesh.triangles().iter().map(|t| first(&mut above, merged[t[0] as usize] as usize)).collect()
+}
+
+/// True when a mesh or one of its parts contains `point`: a part that faces inwards makes no hole in the part around it.
+pub fn inside_part(mesh: &TriMesh, parts: &[usize], point: Vec3) -> bool {
+    let mut angles = vec![0.0; mesh.vertices().len()];
+    for (t, part) in mesh.corners().zip(parts) {
+        angles[*part] += solid_angle(t.map(|p| p - point));
+    }
+    angles.iter().any(|angle: &f64| angle.abs() > TAU) || angles.iter().sum::<f64>().abs() > TAU
 }
 
 /// Solid angle of a triangle seen from the origin, steradians, positive when its inner side faces the origin.

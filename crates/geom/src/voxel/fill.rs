@@ -5,7 +5,7 @@
 
 use super::grid::Grid;
 use super::surface::{Bits, in_grid, mark};
-use crate::intersect::inside::inside_mesh;
+use crate::intersect::inside::{inside_part, parts};
 use crate::mesh::TriMesh;
 use crate::vector::Vec3;
 
@@ -14,8 +14,11 @@ const MOST_CELLS: f64 = 16_777_216.0;
 
 /// Cells that a closed mesh fills. Cells outside of the grid may be among them; `None` when all are outside.
 ///
+/// A cavity is filled: whatever the outside does not reach is inside, on whichever side its surface faces. The outside reaches
+/// through holes that are wider than a cell.
+///
 /// A mesh that is far larger than the domain is cut to the domain and one layer around it. Regions that reach
-/// the cut are outside or inside by the mesh's winding number.
+/// the cut are inside when the mesh or one of its parts winds around them.
 pub fn solid(mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     solid_up_to(MOST_CELLS, mesh, grid)
 }
@@ -33,13 +36,14 @@ fn solid_up_to(most_cells: f64, mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
         return None;
     }
     let cells: f64 = (0..3).map(|a| high[a] as f64 - low[a] as f64 + 1.0).product();
-    let cut = cells > most_cells;
-    if cut {
+    let whole = (low, high);
+    if cells > most_cells {
         for a in 0..3 {
             low[a] = low[a].max(-1);
             high[a] = high[a].min(grid.dims()[a] as i64);
         }
     }
+    let cut = (low, high) != whole;
     let mut bits = Bits::empty(low, high);
     mark(mesh, grid, &mut bits);
     let region = Region::new(&bits, low[0], high[0]);
@@ -47,11 +51,15 @@ fn solid_up_to(most_cells: f64, mesh: &TriMesh, grid: &Grid) -> Option<Bits> {
     if cut {
         outside.fill(0);
         let mut inside = outside.clone();
+        let parts = parts(mesh);
         // Free cells next to each other have no surface between their middles: one test is enough for a whole region.
         while let Some((word, bit)) = region.first_of_layer_beyond(&outside, &inside) {
             let middle = region.cell(&bits, word, bit).map(|i| i as f64 + 0.5);
-            let known =
-                if inside_mesh(mesh, grid.to_world(Vec3::from(middle))) { &mut inside } else { &mut outside };
+            let known = if inside_part(mesh, &parts, grid.to_world(Vec3::from(middle))) {
+                &mut inside
+            } else {
+                &mut outside
+            };
             known[word] |= 1 << bit;
             region.flood(known);
         }

@@ -2,9 +2,12 @@
 //!
 //! Triangle against box by separating axes (Akenine-Moeller 2001): the box's three normals, the triangle's, and the
 //! nine products of edges, in grid coordinates where the cell is a unit cube.
+//!
+//! How a flat part was cut into triangles makes no difference, even where they lie over one another ([`crate::folds`]).
 
 use super::CellBox;
 use super::grid::{Grid, TOUCH};
+use crate::folds::Fold;
 use crate::mesh::TriMesh;
 use crate::vector::{Vec3, vec3};
 
@@ -97,23 +100,102 @@ pub(super) fn in_grid(corners: [Vec3; 3], grid: &Grid) -> ([Vec3; 3], [i64; 3], 
     (t, first, last)
 }
 
-/// Sets every cell of `bits` that a triangle of `mesh` touches.
+/// Sets every cell of `bits` that the surface of `mesh` touches: its triangles, and of flat parts that lie over themselves
+/// what their border encloses.
 pub fn mark(mesh: &TriMesh, grid: &Grid, bits: &mut Bits) {
+    let mut folded = vec![false; if mesh.folds().is_empty() { 0 } else { mesh.triangles().len() }];
+    mesh.folds().iter().flat_map(|fold| &fold.triangles).for_each(|i| folded[*i as usize] = true);
+    for (i, corners) in mesh.corners().enumerate() {
+        if !folded.get(i).is_some_and(|folded| *folded) {
+            visit(corners, grid, bits, |bits, _, [x, y, z]| bits.set(x, y, z));
+        }
+    }
+    for fold in mesh.folds() {
+        mark_fold(mesh, fold, grid, bits);
+    }
+}
+
+/// Calls `f` with each cell of the box of `bits` that a triangle touches, and the triangle in grid coordinates.
+fn visit(
+    corners: [Vec3; 3],
+    grid: &Grid,
+    bits: &mut Bits,
+    mut f: impl FnMut(&mut Bits, &[Vec3; 3], [i64; 3]),
+) {
     let end: [i64; 3] = std::array::from_fn(|a| bits.low[a] + bits.dims[a] as i64 - 1);
-    for corners in mesh.corners() {
-        let (t, first, last) = in_grid(corners, grid);
-        let axes = separating_axes(&t);
-        for z in first[2].max(bits.low[2])..=last[2].min(end[2]) {
-            for y in first[1].max(bits.low[1])..=last[1].min(end[1]) {
-                for x in first[0].max(bits.low[0])..=last[0].min(end[0]) {
-                    let middle = vec3(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
-                    if axes.iter().all(|axis| axis.meets(middle)) {
-                        bits.set(x, y, z);
-                    }
+    let (t, first, last) = in_grid(corners, grid);
+    let axes = separating_axes(&t);
+    for z in first[2].max(bits.low[2])..=last[2].min(end[2]) {
+        for y in first[1].max(bits.low[1])..=last[1].min(end[1]) {
+            for x in first[0].max(bits.low[0])..=last[0].min(end[0]) {
+                let middle = vec3(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
+                if axes.iter().all(|axis| axis.meets(middle)) {
+                    f(bits, &t, [x, y, z]);
                 }
             }
         }
     }
+}
+
+/// Sets the cells of a flat part by its border. Where a cell does not touch it, the border winds around all of the part's
+/// plane in the cell as often as around one point there.
+fn mark_fold(mesh: &TriMesh, fold: &Fold, grid: &Grid, bits: &mut Bits) {
+    let at = |v: u32| mesh.vertices()[v as usize];
+    for [a, b] in &fold.border {
+        visit([at(*a), at(*b), at(*b)], grid, bits, |bits, _, [x, y, z]| bits.set(x, y, z));
+    }
+    let border: Vec<[Vec3; 2]> = fold.border.iter().map(|edge| edge.map(|v| grid.to_grid(at(v)))).collect();
+    // The border's area, seen from anywhere.
+    let area =
+        border.iter().fold(Vec3::ZERO, |sum, [a, b]| sum + (*a - border[0][0]).cross(*b - border[0][0]));
+    let axis = (0..3).max_by(|i, j| area[*i].abs().total_cmp(&area[*j].abs())).unwrap_or(0);
+    for i in &fold.triangles {
+        visit(mesh.triangles()[*i as usize].map(at), grid, bits, |bits, t, [x, y, z]| {
+            if !bits.get(x, y, z) && point_in(t, [x, y, z]).is_none_or(|p| winds(&border, p, axis)) {
+                bits.set(x, y, z);
+            }
+        });
+    }
+}
+
+/// A point of a triangle in a cell, both in grid coordinates: the mean of the corners of what is left of it (Sutherland &
+/// Hodgman 1974).
+fn point_in(t: &[Vec3; 3], cell: [i64; 3]) -> Option<Vec3> {
+    let mut corners = t.to_vec();
+    for a in 0..3 {
+        for (sign, at) in [(1.0, cell[a] as f64), (-1.0, -(cell[a] + 1) as f64)] {
+            let inside = |p: &Vec3| sign * p[a] - at + PLANE;
+            let mut left = Vec::with_capacity(corners.len() + 1);
+            for (k, p) in corners.iter().enumerate() {
+                let q = &corners[(k + 1) % corners.len()];
+                let (here, there) = (inside(p), inside(q));
+                if here >= 0.0 {
+                    left.push(*p);
+                }
+                if (here >= 0.0) != (there >= 0.0) {
+                    left.push(*p + (*q - *p) * (here / (here - there)));
+                }
+            }
+            corners = left;
+        }
+    }
+    let count = corners.len() as f64;
+    (count > 0.0).then(|| corners.into_iter().fold(Vec3::ZERO, |sum, p| sum + p) * (1.0 / count))
+}
+
+/// True when a border winds around a point, seen along an axis.
+fn winds(border: &[[Vec3; 2]], p: Vec3, axis: usize) -> bool {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut turns = 0;
+    for [a, b] in border {
+        let side = (b[u] - a[u]) * (p[v] - a[v]) - (b[v] - a[v]) * (p[u] - a[u]);
+        match (a[v] <= p[v], b[v] <= p[v]) {
+            (true, false) if side > 0.0 => turns += 1,
+            (false, true) if side < 0.0 => turns -= 1,
+            _ => (),
+        }
+    }
+    turns != 0
 }
 
 /// A direction, with the triangle's extent along it, widened by a unit cube's half extent.
