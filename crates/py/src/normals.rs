@@ -14,6 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 type Reals<'py> = Bound<'py, PyArray1<f64>>;
+type Table<'py> = Bound<'py, PyArray2<f64>>;
 
 /// Normals near a task's distribution, each with draws from it.
 #[pyclass(frozen, name = "Normals", module = "niwaki._engine")]
@@ -75,10 +76,24 @@ impl PyNormals {
         PyArray1::from_slice(py, &normal.x).reshape([normal.log_density.len(), normal.normal.dim()])
     }
 
-    /// Of each draw of a normal, over coordinates: its log density, and its log density under the normal, nats.
-    fn densities<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
+    /// Of each draw of a normal, over coordinates: its log density, and its log densities under the normal and under equal
+    /// shares of all normals, nats.
+    fn densities<'py>(
+        &self,
+        py: Python<'py>,
+        chain: usize,
+    ) -> PyResult<(Reals<'py>, Reals<'py>, Reals<'py>)> {
         let normal = self.normal(chain)?;
-        Ok((PyArray1::from_slice(py, &normal.log_density), PyArray1::from_slice(py, &normal.log_proposal)))
+        let of = |logs: &[f64]| PyArray1::from_slice(py, logs);
+        Ok((of(&normal.log_density), of(&normal.log_own), of(&normal.log_proposal)))
+    }
+
+    /// The standard normal numbers of a normal's draws, and the slopes of their log weights by these, both (draws, dim).
+    fn slopes<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Table<'py>, Table<'py>)> {
+        let normal = self.normal(chain)?;
+        let shape = [normal.log_density.len(), normal.normal.dim()];
+        let of = |numbers: &[f64]| PyArray1::from_slice(py, numbers).reshape(shape);
+        Ok((of(&normal.z)?, of(&normal.slopes)?))
     }
 
     /// Of each draw of a normal, by running it: log densities of the choices, and of factors and observations, nats.
@@ -108,7 +123,8 @@ impl PyNormals {
     }
 
     /// Of a normal: ``impossible`` draws, whether it ``converged``, the ``gradients`` taken, the step of a path that is its
-    /// ``best`` or None, and the step at which an ascent ``broke`` off or None.
+    /// ``best`` or None, the step at which an ascent ``broke`` off or None, and the ``path_bound`` of the normal from which
+    /// an ascent started, with its standard error, or None.
     fn counters<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<Bound<'py, PyDict>> {
         let (normal, facts) = (self.normal(chain)?, PyDict::new(py));
         facts.set_item("impossible", normal.impossible)?;
@@ -116,6 +132,7 @@ impl PyNormals {
         facts.set_item("gradients", normal.gradients)?;
         facts.set_item("best", normal.best)?;
         facts.set_item("broke", normal.broke.as_ref().map(|broke| broke.step))?;
+        facts.set_item("path_bound", normal.path_bound)?;
         Ok(facts)
     }
 

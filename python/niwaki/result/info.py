@@ -114,12 +114,13 @@ class EnumerationInfo(Info):
         Parameters
         ----------
         value
-            A value of the model.
+            A value of the model. Where the model has both, `1` is not `True`, and `0.0` not `-0.0`.
         """
+        same = [found for found, _ in self.table if repr(found) == repr(value)]
         unseen = -inf if self.log_unseen is None else self.log_unseen
         most = max([unseen, *(log for _, log in self.table)])
         seen = sum(exp(log - most) for _, log in self.table)
-        own = sum(exp(log - most) for found, log in self.table if found == value)
+        own = sum(exp(log - most) for found, log in self.table if (repr(found) == repr(value) if same else found == value))
         left = exp(unseen - most)
         return own / (seen + left), (own + left) / (seen + left)
 

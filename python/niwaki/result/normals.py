@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 
 #: Above this k, the weights are too uneven for estimates (Vehtari, Simpson, Gelman, Yao & Gabry 2024, section 3.2.4).
 UNEVEN = 0.7
+#: A normal whose bound is this far below that of another, nats, may hide a k of 0.7. Of normal models, a mean field whose
+#: weights have the shape k is below by `-(log(1 - k) + k) / 2` or more, in any number of coordinates.
+GAP = -0.5 * (math.log1p(-UNEVEN) + UNEVEN)
+#: A difference is seen where it is this many standard errors: false alarms are rarer than one in 700.
+CLEAR = 3.0
 #: Where this share of the draws is effective, weights hardly differ, and the shape of their tail does not matter.
 EVEN = 0.95
 
@@ -29,8 +34,10 @@ EVEN = 0.95
 class ViInfo(DrawnInfo):
     """Of `vi`: the normals, with the draws from them as numbers.
 
-    There is one normal, or with `family="pathfinder"` one for each path. Draws of density zero are counted, and are not
-    among the samples. `log_evidence` is estimated by the draws' weights.
+    There is one normal, or with `family="pathfinder"` one for each path. A draw's weight is the ratio of the model's density
+    to that of all normals together, `log p - log (1/n) sum_j q_j`. Draws of density zero are counted, and are not among the
+    samples. `log_evidence` is estimated by the draws' weights. The density of a normal over an angle is that of the normal
+    wound around the circle.
 
     Attributes
     ----------
@@ -43,9 +50,15 @@ class ViInfo(DrawnInfo):
         Its standard error, nats.
     k_hat : float
         Pareto's k of the weights. Above 0.7 the normal misses too much, and estimates by weight are not to be trusted;
-        unless nearly all draws are `effective`.
+        unless nearly all draws are `effective`. It sees only places where there are draws.
+    k_curvature : float
+        The k that the weights of the best normal would have if the model were the normal whose curvature the draws' slopes
+        show. So it tells of a tail that no draw has reached. NaN with fewer than four draws for each coordinate.
+    k_curvature_error : float
+        Its standard error.
     log_ratios : array of shape (n,)
-        `log p - log q` of the draws over coordinates, nats: the logs of the weights before they are smoothed.
+        `log p - log q` of the draws over coordinates, nats: the logs of the weights before they are smoothed. `q` is the
+        density of all normals together.
     bounds : list of array
         Of each normal, estimates of the bound by step, nats: of the ascent of the bound, or along the path.
     means : list of array of shape (dim,)
@@ -54,6 +67,10 @@ class ViInfo(DrawnInfo):
         Variances of independent coordinates, or the covariance.
     best_normal : int
         Which has the highest bound.
+    log_path_bound : float or None
+        The evidence bound of the path's normal at which an ascent started, nats, where all of its draws have a density.
+    path_bound_error : float or None
+        Its standard error, nats.
     converged : bool
         Whether the ascent ended by its tolerance.
     impossible : int
@@ -69,11 +86,15 @@ class ViInfo(DrawnInfo):
     log_evidence_bound: float
     bound_error: float
     k_hat: float
+    k_curvature: float
+    k_curvature_error: float
     log_ratios: Reals
     bounds: list[Reals]
     means: list[Reals]
     covariances: list[Reals]
     best_normal: int
+    log_path_bound: float | None
+    path_bound_error: float | None
     converged: bool
     impossible: int
     gradients: int
@@ -85,10 +106,16 @@ class ViInfo(DrawnInfo):
         """The results of the engine."""
         normals = range(found.chains)
         counts = [found.counters(one) for one in normals]
-        ratios = [p - q for p, q in (found.densities(one) for one in normals)]
-        bounds = [_bound(own, count["impossible"]) for own, count in zip(ratios, counts, strict=True)]
+        densities = [found.densities(one) for one in normals]
+        bounds = [
+            _bound(p - own, count["impossible"])
+            for (p, own, _), count in zip(densities, counts, strict=True)
+        ]
         best = int(np.argmax([mean for mean, _ in bounds]))
+        ratios = [p - together for p, _, together in densities]
         every = np.concatenate(ratios)
+        curvature = _curvature(*found.slopes(best))
+        path_bound = counts[best]["path_bound"] or (None, None)
         log_weights, k_hat = psis(every)
         lost = sum(count["impossible"] for count in counts)
         moments = [found.moments(one) for one in normals]
@@ -104,11 +131,15 @@ class ViInfo(DrawnInfo):
             log_evidence_bound=bounds[best][0],
             bound_error=bounds[best][1],
             k_hat=k_hat,
+            k_curvature=curvature[0],
+            k_curvature_error=curvature[1],
             log_ratios=every,
             bounds=[found.bounds(one) for one in normals],
             means=[mean for mean, _ in moments],
             covariances=[covariance for _, covariance in moments],
             best_normal=best,
+            log_path_bound=path_bound[0],
+            path_bound_error=path_bound[1],
             converged=all(count["converged"] for count in counts),
             impossible=lost,
             gradients=sum(count["gradients"] for count in counts),
@@ -162,13 +193,34 @@ class ViInfo(DrawnInfo):
                 f"{self.impossible} of {total} draws from the normal of `{name}` have density zero, so that its "
                 f"evidence bound is minus infinity; they are left out, and the weights of the others are right"
             )
-        if self.k_hat > UNEVEN and self.effective < EVEN * len(self.log_ratios):
+        why = self._missed(interrupted)
+        if why:
             wider = "" if method.family == "full-rank" else ' take `family="full-rank"`, or'
             say(
-                f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f}, above {UNEVEN}: the normal misses a part "
-                f"of the distribution, and estimates by weight are not to be trusted;{wider} use "
-                f"`nuts(metric=result.metric)` from `choices=result.best.choices`"
+                f"{why}: the normal misses a part of the distribution, and estimates by weight are not to be trusted;"
+                f"{wider} use `nuts(metric=result.metric)` from `choices=result.best.choices`"
             )
+
+    def _missed(self, interrupted: bool) -> str | None:
+        """How one sees that the normal misses a part of the distribution; None where one does not."""
+        name = self.search.model.name
+        if self.k_hat > UNEVEN and self.effective < EVEN * len(self.log_ratios):
+            return f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f}, above {UNEVEN}"
+        if self.k_curvature - CLEAR * self.k_curvature_error > UNEVEN:
+            return (
+                f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f} by the draws, but the slopes at the draws say "
+                f"that the distribution is much wider than the normal in some direction, where k is {self.k_curvature:.2f}"
+            )
+        if self.log_path_bound is None or self.path_bound_error is None or interrupted:
+            return None
+        gain = self.log_path_bound - self.log_evidence_bound
+        error = math.hypot(self.path_bound_error, self.bound_error)
+        if math.isfinite(gain) and gain - CLEAR * error > GAP:
+            return (
+                f"the evidence bound of `{name}` is {self.log_evidence_bound:.2f}, {gain:.2f} nats below that of the "
+                f"path's normal from which the ascent began"
+            )
+        return None
 
 
 def _bound(ratios: Reals, impossible: int) -> tuple[float, float]:
@@ -178,6 +230,34 @@ def _bound(ratios: Reals, impossible: int) -> tuple[float, float]:
     with np.errstate(over="ignore"):
         spread = float(ratios.std(ddof=1)) if len(ratios) > 1 else math.nan
         return float(ratios.mean()), spread / math.sqrt(len(ratios))
+
+
+def _curvature(z: Reals, slopes: Reals) -> tuple[float, float]:
+    """The k of the weights of a normal model, by the slopes of the log weights at the draws, and its standard error.
+
+    Of a normal model these slopes are a linear function of the draws, `slopes = B z` with `z` standard normal, and the log
+    weight grows like `k z^2 / 2` where it grows most: `k` is the largest eigenvalue of `B`. For any other model `B` is the
+    mean curvature. The direction is that of one half of the draws, the growth along it that of the other half, so that the
+    noise that chose the direction does not raise it.
+
+    Parameters
+    ----------
+    z, slopes
+        (n, dim): standard normal numbers of the draws, and the slopes of their log weights by these.
+    """
+    n, dim = z.shape
+    if n < 4 * (dim + 1) or not (np.isfinite(slopes).all() and dim):
+        return math.nan, math.nan
+    one, other = slice(0, None, 2), slice(1, None, 2)
+    centred = z[one] - z[one].mean(axis=0)
+    b = np.linalg.lstsq(centred, slopes[one], rcond=None)[0]
+    direction = np.linalg.eigh(b + b.T)[1][:, -1]
+    along, slope = z[other] @ direction, slopes[other] @ direction
+    along -= along.mean()
+    squares = float(np.square(along).sum())
+    k = float(along @ slope) / squares
+    rest = slope - slope.mean() - k * along
+    return k, math.sqrt(float(np.square(along * rest).sum())) / squares
 
 
 def _log_mean(logs: Reals, count: int) -> float | None:

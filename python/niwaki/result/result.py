@@ -362,7 +362,8 @@ class Result(Sequence[Sample]):
     def distribution(self) -> dict[Any, float]:
         """The probability of each value: exact for enumeration, weighted shares of the samples else.
 
-        Values that cannot be keys of a dict are replaced by their `repr`.
+        Values that cannot be keys of a dict are replaced by their `repr`, and so are values that Python holds for equal and
+        that are not the same: `True` and `1`, `0.0` and `-0.0`.
         """
         if isinstance(self.info, EnumerationInfo):
             total = self.log_evidence or 0.0
@@ -370,11 +371,17 @@ class Result(Sequence[Sample]):
         else:
             # An impossible run stopped before its end and has no value.
             rows = [(s.value, float(w)) for s, w in zip(self.samples, self.weights, strict=True) if w > 0.0]
-        found: dict[Any, float] = {}
+        values: dict[str, Any] = {}
+        shares: dict[str, float] = {}
         for value, share in rows:
-            key = value if _can_be_key(value) else repr(value)
-            found[key] = found.get(key, 0.0) + share
-        return found
+            name = repr(value)
+            values.setdefault(name, value)
+            shares[name] = shares.get(name, 0.0) + share
+        names = Counter(value for value in values.values() if _can_be_key(value))
+        return {
+            (value if _can_be_key(value) and names[value] == 1 else name): shares[name]
+            for name, value in values.items()
+        }
 
     def export(
         self, path: str | PathLike[str], *, scale: float | None = None, fuse: float | None = None

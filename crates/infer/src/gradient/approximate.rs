@@ -13,9 +13,9 @@ pub use crate::variational::Start;
 use crate::variational::ascent::{Broke, Settings, ascend, counts};
 use crate::variational::family::Family;
 use crate::variational::pathfinder::{NoPath, Path, pathfinder};
-use crate::variational::{Batch, LANES, Normal, Purpose, Row};
+use crate::variational::{Batch, LANES, Normal, Purpose, Row, mixture};
 use crate::{Failure, Task};
-use niwaki_grad::{Continuous, Live, Recorded, Wide};
+use niwaki_grad::{Continuous, Live, Recorded, Transform, Wide};
 use niwaki_math::Stream;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
@@ -62,8 +62,16 @@ pub struct Approximated {
     pub numbers: Vec<f64>,
     /// Their log densities over coordinates, nats.
     pub log_density: Vec<f64>,
-    /// Their log densities under the normal, nats.
+    /// Their log densities under the normal, nats: on the circle, where a coordinate is an angle.
+    pub log_own: Vec<f64>,
+    /// Their log densities under equal shares of all normals, nats: what their weights are taken with.
     pub log_proposal: Vec<f64>,
+    /// Their standard normal numbers by rows, `(n, dim)`.
+    pub z: Vec<f64>,
+    /// The slopes of their log weights, `log_density - log_own`, by those numbers, `(n, dim)`.
+    pub slopes: Vec<f64>,
+    /// The bound of the path's normal from which an ascent started, by other draws, and its standard error, nats.
+    pub path_bound: Option<(f64, f64)>,
     /// Draws of density zero, or without a finite density.
     pub impossible: usize,
     /// The estimates of the bound at each step, nats.
@@ -148,12 +156,14 @@ pub fn approximate(
     if plan.family.is_none() {
         let ends = followed.into_par_iter().map(|one| {
             let Followed { member, path, gradients } = one;
-            let best = Some(path.best);
-            let found =
-                Found { normal: path.normal, bounds: path.bounds, best, converged: true, broke: None };
+            let (best, angles) = (Some(path.best), angles(&member.recorded));
+            let normal = path.normal.in_order(&angles).unwrap_or(path.normal);
+            let found = Found { normal, bounds: path.bounds, best, converged: true, broke: None };
             drawn(plan, member, found, path.interrupted, gradients)
         });
-        return ends.collect::<Vec<_>>().into_iter().collect();
+        let mut all = ends.collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>, _>>()?;
+        weigh_together(&mut all);
+        return Ok(all);
     }
     let height = |one: &Followed| one.path.bounds[one.path.best];
     let best = (0..followed.len())
@@ -161,6 +171,59 @@ pub fn approximate(
     let gradients = followed.iter().map(|one| one.gradients).sum();
     let Followed { member, path, .. } = followed.swap_remove(best);
     Ok(vec![climbed(plan, member, &path.normal, gradients, &look)?])
+}
+
+/// The coordinates that are angles: with them the density repeats every turn.
+fn angles(recorded: &Recorded) -> Vec<usize> {
+    let angle = |choice: &&Continuous| choice.transform == Transform::Circle;
+    recorded.choices.iter().filter(angle).map(|choice| choice.first).collect()
+}
+
+/// Gives the draws of several normals their densities under all of them together.
+fn weigh_together(all: &mut [Approximated]) {
+    if all.len() < 2 {
+        return;
+    }
+    let angles = angles(&all[0].recorded);
+    let normals: Vec<&Normal> = all.iter().map(|one| &one.normal).collect();
+    let dim = normals[0].dim();
+    let together = |one: &Approximated| -> Vec<f64> {
+        let mut logs = Vec::with_capacity(one.log_own.len());
+        for some in one.x.chunks(LANES * dim.max(1)) {
+            let count = some.len() / dim.max(1);
+            // Empty lanes repeat the first draw.
+            let entry = |k: usize, l: usize| some[if l < count { l * dim } else { 0 } + k];
+            let x: Vec<Row> = (0..dim).map(|k| std::array::from_fn(|l| entry(k, l))).collect();
+            logs.extend_from_slice(&mixture::log_density(&normals, &angles, &x)[..count]);
+        }
+        logs
+    };
+    let logs: Vec<Vec<f64>> = all.par_iter().map(together).collect();
+    all.iter_mut().zip(logs).for_each(|(one, logs)| one.log_proposal = logs);
+}
+
+/// Draws by which a fit is compared with the normal of its path.
+const COMPARED: usize = 256;
+
+/// The bound of a normal, and its standard error, nats; `None` where a draw has no finite density.
+fn bound<P: Potential, W: crate::hamiltonian::lanes::Wide<LANES>>(
+    batch: &mut Batch<'_, P, W>,
+    normal: &Normal,
+    mut stream: Stream,
+) -> Result<Option<(f64, f64)>, Failure> {
+    let Some(normal) = normal.in_order(&batch.angles) else { return Ok(None) };
+    let none: Vec<Row> = vec![[0.0; LANES]; normal.dim()];
+    let (mut z, mut x, mut g, mut ratios) = (none.clone(), none.clone(), none, Vec::with_capacity(COMPARED));
+    for count in counts(COMPARED) {
+        normal.draw(&mut stream, &mut z, &mut x);
+        let values = batch.evaluate(&x, &mut g, count).map_err(|_| elsewhere())?;
+        let own = normal.log_density_around(&z, &batch.angles);
+        ratios.extend(values.iter().zip(own).take(count).map(|(p, q)| p - q));
+    }
+    let count = ratios.len() as f64;
+    let mean = ratios.iter().sum::<f64>() / count;
+    let variance = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    Ok(mean.is_finite().then_some((mean, (variance / count).sqrt())))
 }
 
 /// The deviations of the normal around a run, in coordinates.
@@ -200,7 +263,7 @@ fn follow(
     look: &(dyn Fn(u32) -> bool + Sync),
 ) -> Result<Followed, Failure> {
     let mut wide = Wide::<LANES>::new(&member.recorded.density);
-    let mut batch = Batch::new(&mut member.target, &mut wide);
+    let mut batch = Batch::new(&mut member.target, &mut wide).around(angles(&member.recorded));
     let found = pathfinder(&mut batch, &member.start, plan.seed, member.number as u64, &|step| look(step));
     let gradients = batch.gradients;
     match found {
@@ -220,7 +283,14 @@ fn climbed(
     let family = plan.family.unwrap_or(Family::MeanField);
     let settings = Settings { family, steps: plan.steps, samples: plan.samples, tolerance: plan.tolerance };
     let mut wide = Wide::<LANES>::new(&member.recorded.density);
-    let mut batch = Batch::new(&mut member.target, &mut wide);
+    let mut batch = Batch::new(&mut member.target, &mut wide).around(angles(&member.recorded));
+    let path_bound = match plan.start {
+        Start::Pathfinder => {
+            let stream = Stream::new(plan.seed, member.number as u64, Purpose::Compare as u128, 0);
+            bound(&mut batch, from, stream)?
+        }
+        Start::Run => None,
+    };
     let fit = ascend(&mut batch, from, &settings, plan.seed, member.number as u64, &|step| look(step));
     let gradients = gradients + batch.gradients;
     let fit = fit.map_err(|_| elsewhere())?;
@@ -231,7 +301,8 @@ fn climbed(
         converged: fit.converged,
         broke: fit.broke,
     };
-    drawn(plan, member, found, fit.interrupted, gradients)
+    let fitted = drawn(plan, member, found, fit.interrupted, gradients)?;
+    Ok(Approximated { path_bound, ..fitted })
 }
 
 /// A normal, and how it was found.
@@ -256,7 +327,9 @@ fn drawn(
     let dim = normal.dim();
     let mut stream = Stream::new(plan.seed, number as u64, Purpose::Draw as u128, 0);
     let none: Vec<Row> = vec![[0.0; LANES]; dim];
-    let (mut z, mut x, mut at, mut slope) = (none.clone(), none, vec![0.0; dim], vec![0.0; dim]);
+    let (mut z, mut x, mut at, mut slope) = (none.clone(), none.clone(), vec![0.0; dim], vec![0.0; dim]);
+    let (mut g, mut w, angles) = (none.clone(), none, angles(&recorded));
+    let turns = normal.turns(&angles);
     let at_broke = broke.as_ref().and_then(|broke| broke.x.as_ref());
     let fault = at_broke.and_then(|x| reason(&target, x));
     let mut result = Approximated {
@@ -264,7 +337,11 @@ fn drawn(
         x: vec![],
         numbers: vec![],
         log_density: vec![],
+        log_own: vec![],
         log_proposal: vec![],
+        z: vec![],
+        slopes: vec![],
+        path_bound: None,
         impossible: 0,
         bounds,
         best,
@@ -277,14 +354,17 @@ fn drawn(
     };
     for count in counts(plan.draws) {
         result.normal.draw(&mut stream, &mut z, &mut x);
-        let own = result.normal.log_density(&z);
+        let own = result.normal.log_density_around(&z, &angles);
+        let mut is_sound = [false; LANES];
         for l in 0..count {
             at.iter_mut().zip(&x).for_each(|(at, row)| *at = row[l]);
             // One by one: the path of the point gives the values for its coordinates.
             match evaluate(&mut target, &at, &mut slope) {
                 Ok(value) => {
+                    is_sound[l] = true;
+                    g.iter_mut().zip(&slope).for_each(|(row, slope)| row[l] = *slope);
                     result.log_density.push(value);
-                    result.log_proposal.push(own[l]);
+                    result.log_own.push(own[l]);
                     result.numbers.extend(target.recorded().numbers(&at));
                     result.x.extend_from_slice(&at);
                 }
@@ -292,7 +372,16 @@ fn drawn(
                 Err(_) => result.impossible += 1,
             }
         }
+        // By `z`, log p has the slope S^T g, and log q minus that which the turns leave of z.
+        let mut slopes = z.clone();
+        turns.slopes(&mut slopes);
+        result.normal.pull(&g, &mut w);
+        for l in (0..count).filter(|l| is_sound[*l]) {
+            result.z.extend(z.iter().map(|row| row[l]));
+            result.slopes.extend(w.iter().zip(&slopes).map(|(w, z)| w[l] + z[l]));
+        }
     }
+    result.log_proposal = result.log_own.clone();
     debug_assert_eq!(Potential::dim(&target), dim, "one number for each coordinate");
     Ok(result)
 }

@@ -100,7 +100,7 @@ pub fn ascend<P: Potential, W: Wide<LANES>>(
     number: u64,
     watch: &dyn Fn(u32) -> bool,
 ) -> Result<Fit, Elsewhere> {
-    let member = Member::new(settings.family, start);
+    let member = Member::new(settings.family, start, &batch.angles);
     let mut ascent = Ascent {
         adam: Adam::new(member.parameters.len()),
         slope: vec![0.0; member.parameters.len()],

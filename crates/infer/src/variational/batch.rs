@@ -37,6 +37,8 @@ pub struct Batch<'a, P, W> {
     pub target: &'a mut P,
     wide: &'a mut W,
     one: (Vec<f64>, Vec<f64>),
+    /// Its coordinates that are angles: with them its density repeats every turn.
+    pub angles: Vec<usize>,
     /// Gradients taken.
     pub gradients: u64,
     /// The last draw without a finite density or gradient.
@@ -47,7 +49,14 @@ impl<'a, P: Potential, W: Wide<LANES>> Batch<'a, P, W> {
     /// Of a target, and its density over lanes.
     pub fn new(target: &'a mut P, wide: &'a mut W) -> Self {
         let none = vec![0.0; target.dim()];
-        Batch { target, wide, one: (none.clone(), none), gradients: 0, refused: None }
+        let one = (none.clone(), none);
+        Batch { target, wide, one, angles: vec![], gradients: 0, refused: None }
+    }
+
+    /// The same, where these coordinates are angles.
+    #[must_use]
+    pub fn around(self, angles: Vec<usize>) -> Self {
+        Batch { angles, ..self }
     }
 
     /// Log densities of the first `count` draws, nats, with gradients in `g`. Of a draw with density zero the value is

@@ -12,10 +12,15 @@
 //! ```text
 //! h = S0^T grad log p(x) + L^-T z,   d mu = h,   d L = h z^T (lower part),   d omega_i = h_i L_ii z_i
 //! ```
+//!
+//! The `z` of an angle stands in `h` for the slope of its density on the circle ([`super::turns`]), and `S0` has its rows in
+//! that order. What is left out has mean zero there too: given the coordinates before an angle and the angle itself, the
+//! shares of its turns sum to one.
 
 use super::LANES;
 use super::batch::{Row, add};
 use super::normal::{Normal, Scale};
+use super::turns::Turns;
 
 /// Which normals there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +36,8 @@ pub enum Family {
 pub struct Member {
     family: Family,
     base: Normal,
+    /// The coordinates that are angles.
+    angles: Vec<usize>,
     /// `mu`, then `L` by rows up to its diagonal, which is there as `omega`; of a diagonal, `omega` alone.
     pub parameters: Vec<f64>,
 }
@@ -43,14 +50,32 @@ pub struct Memory {
 }
 
 impl Member {
-    /// The start itself; of a family of diagonals, the diagonal that is nearest to it.
-    pub fn new(family: Family, start: &Normal) -> Member {
+    /// The start itself; of a family of diagonals, the diagonal that is nearest to it. `angles` are the coordinates that
+    /// are angles.
+    pub fn new(family: Family, start: &Normal, angles: &[usize]) -> Member {
         let dim = start.dim();
         let (base, size) = match family {
             Family::MeanField => (start.nearest_diagonal(), dim),
-            Family::FullRank => (start.clone(), dim * (dim + 1) / 2),
+            Family::FullRank => {
+                let diagonal = || start.nearest_diagonal().in_order(angles);
+                let ordered = start.in_order(angles).or_else(diagonal);
+                (ordered.unwrap_or_else(|| start.clone()), dim * (dim + 1) / 2)
+            }
         };
-        Member { family, base, parameters: vec![0.0; dim + size] }
+        Member { family, base, angles: angles.to_vec(), parameters: vec![0.0; dim + size] }
+    }
+
+    /// The angles with their deviations: products of the diagonals of `S0` and `L`.
+    fn turns(&self) -> Turns {
+        let shape = &self.parameters[self.dim()..];
+        let mut turns = self.base.turns(&self.angles);
+        turns.0.iter_mut().for_each(|(at, deviation)| {
+            *deviation *= match self.family {
+                Family::MeanField => shape[*at].exp(),
+                Family::FullRank => shape[*at * (*at + 3) / 2].exp(),
+            };
+        });
+        turns
     }
 
     /// The number of coordinates.
@@ -98,7 +123,9 @@ impl Member {
         self.base.place(y, x);
         let standard =
             Normal { mean: vec![0.0; self.dim()], log_det: self.log_det(), scale: Scale::Diagonal(vec![]) };
-        standard.log_density(z)
+        let mut log_q = standard.log_density(z);
+        self.turns().add(z, &mut log_q);
+        log_q
     }
 
     /// Adds to `slope` the gradient of the bound, summed over the first `count` draws. `g` has the gradients of the log
@@ -112,18 +139,18 @@ impl Member {
         memory: &mut Memory,
     ) {
         let (dim, shape) = (self.dim(), &self.parameters[self.dim()..]);
-        let h = &mut memory.h;
+        let (h, w) = (&mut memory.h, &mut memory.y);
         self.base.pull(g, h);
+        w.copy_from_slice(z);
+        self.turns().slopes(w);
         match self.family {
             Family::MeanField => {
-                for ((h, z), omega) in h.iter_mut().zip(z).zip(shape) {
+                for ((h, z), omega) in h.iter_mut().zip(&*w).zip(shape) {
                     add(h, (-omega).exp(), z);
                 }
             }
             Family::FullRank => {
                 // L^T w = z, from the last row up; h += w.
-                let w = &mut memory.y;
-                w.copy_from_slice(z);
                 for i in (0..dim).rev() {
                     let row = &shape[i * (i + 1) / 2..][..=i];
                     let scale = (-row[i]).exp();
@@ -208,7 +235,7 @@ mod tests {
     }
 
     fn member(family: Family) -> Member {
-        let mut member = Member::new(family, &base());
+        let mut member = Member::new(family, &base(), &[]);
         let mut stream = Stream::new(3, 0, 0, 0);
         member.parameters.iter_mut().for_each(|p| *p = 0.3 * stream.normal());
         member
@@ -293,7 +320,7 @@ mod tests {
 
     #[test]
     fn where_the_normal_is_the_target_every_draw_has_no_slope() {
-        let (member, z) = (Member::new(Family::FullRank, &base()), draws());
+        let (member, z) = (Member::new(Family::FullRank, &base(), &[]), draws());
         let (mut x, mut memory) = (z.clone(), member.memory());
         member.place(&z, &mut x, &mut memory);
         // grad log p = -S^-T z; pulled back by S^T that is -z.

@@ -4,6 +4,8 @@
 //! `KL(q || p)`. The nearer `q` is, the higher the bound.
 //!
 //! * [`normal`]: a normal with a scale for each coordinate, a low-rank or a dense one: drawing, and its density;
+//! * [`turns`]: its density where coordinates are angles, on the circle;
+//! * [`mixture`]: several normals as one proposal;
 //! * [`batch`]: a target at several draws at once, and what becomes of draws that it refuses;
 //! * [`curvature`]: an inverse Hessian from the steps of an ascent;
 //! * [`pathfinder`]: an ascent, and the best of the normals along it (Zhang, Carpenter, Gelman & Vehtari 2022);
@@ -16,8 +18,10 @@ pub mod ascent;
 pub mod batch;
 pub mod curvature;
 pub mod family;
+pub mod mixture;
 pub mod normal;
 pub mod pathfinder;
+pub mod turns;
 
 pub use ascent::{Fit, Settings, Start};
 pub use batch::{Batch, Row};
@@ -38,4 +42,6 @@ pub enum Purpose {
     Path,
     /// Draws of the result.
     Draw,
+    /// Draws by which a fit is compared with the normal of its path.
+    Compare,
 }

@@ -4,6 +4,7 @@
 
 use super::LANES;
 use super::batch::{Row, add, dot};
+use super::turns::Turns;
 use crate::hamiltonian::metric::cholesky;
 use niwaki_math::Stream;
 
@@ -120,6 +121,81 @@ impl Normal {
         squares.map(|square| -0.5 * square - constant)
     }
 
+    /// The log density of draws on the circles of the angles, nats, by their `z`; see [`super::turns`]. The matrix is a
+    /// diagonal, or that of [`Normal::in_order`].
+    pub fn log_density_around(&self, z: &[Row], angles: &[usize]) -> Row {
+        let mut log = self.log_density(z);
+        self.turns(angles).add(z, &mut log);
+        log
+    }
+
+    /// The angles with their deviations, given the coordinates before them.
+    pub fn turns(&self, angles: &[usize]) -> Turns {
+        let (dim, first) = (self.dim(), self.dim() - angles.len());
+        let of = |(k, angle): (usize, &usize)| match &self.scale {
+            Scale::Diagonal(deviation) => (*angle, deviation[*angle]),
+            Scale::Dense(matrix) => (first + k, matrix[angle * dim + first + k]),
+            Scale::LowRank { .. } => unreachable!("angles are in order first"),
+        };
+        Turns(angles.iter().enumerate().map(of).collect())
+    }
+
+    /// The same normal, by numbers `z` each of which belongs to a coordinate given those before it, angles last: its matrix
+    /// is a lower triangle but for the order of its rows ([`order`]). Without angles as it is. `None` where rounding leaves
+    /// no triangle.
+    pub fn in_order(&self, angles: &[usize]) -> Option<Normal> {
+        if angles.is_empty() {
+            return Some(self.clone());
+        }
+        let (dim, covariance) = (self.dim(), self.covariance());
+        let order = order(dim, angles);
+        let is_diagonal = matches!(self.scale, Scale::Diagonal(_));
+        let entry = |i: usize, j: usize| match is_diagonal {
+            true => if i == j { covariance[i] } else { 0.0 },
+            false => covariance[i * dim + j],
+        };
+        let moved: Vec<f64> = order.iter().flat_map(|i| order.iter().map(|j| entry(*i, *j))).collect();
+        let triangle = cholesky(&moved)?;
+        let mut matrix = vec![0.0; dim * dim];
+        for (k, i) in order.iter().enumerate() {
+            matrix[i * dim..i * dim + k + 1].copy_from_slice(&triangle[k * dim..k * dim + k + 1]);
+        }
+        let log_det = (0..dim).map(|k| triangle[k * dim + k].ln()).sum();
+        Some(Normal { mean: self.mean.clone(), scale: Scale::Dense(matrix), log_det })
+    }
+
+    /// The `z` of positions: the inverse of [`Normal::place`]. A dense matrix is that of [`Normal::in_order`].
+    pub fn whiten(&self, x: &[Row], angles: &[usize], z: &mut [Row]) {
+        let dim = self.dim();
+        let away = |i: usize| x[i].map(|x| x - self.mean[i]);
+        match &self.scale {
+            Scale::Diagonal(deviation) => {
+                z.iter_mut().enumerate().for_each(|(i, z)| *z = away(i).map(|x| x / deviation[i]));
+            }
+            Scale::LowRank { deviation, basis, core } => {
+                z.iter_mut().enumerate().for_each(|(i, z)| *z = away(i).map(|x| x / deviation[i]));
+                let along: Vec<Row> = basis.iter().map(|column| dot(column, z)).collect();
+                let mut solved: Vec<Row> = Vec::with_capacity(along.len());
+                for (i, row) in along.iter().enumerate() {
+                    let (mut left, c) = (*row, &core[i * basis.len()..]);
+                    solved.iter().zip(c).for_each(|(known, c)| add(&mut left, -c, known));
+                    solved.push(left.map(|x| x / c[i]));
+                }
+                for ((column, solved), along) in basis.iter().zip(&mut solved).zip(&along) {
+                    add(solved, -1.0, along);
+                    z.iter_mut().zip(column).for_each(|(z, q)| add(z, *q, solved));
+                }
+            }
+            Scale::Dense(matrix) => {
+                for (k, i) in order(dim, angles).into_iter().enumerate() {
+                    let (mut left, row) = (away(i), &matrix[i * dim..]);
+                    z[..k].iter().zip(row).for_each(|(known, s)| add(&mut left, -s, known));
+                    z[k] = left.map(|x| x / row[k]);
+                }
+            }
+        }
+    }
+
     /// The normal of independent coordinates that is nearest: its deviations are the roots of the inverse of the
     /// precision's diagonal. (Of a dense one, with the deviations of the coordinates alone.)
     #[must_use]
@@ -206,6 +282,11 @@ impl Normal {
     }
 }
 
+/// The coordinates in the order of [`Normal::in_order`]: angles last.
+pub fn order(dim: usize, angles: &[usize]) -> Vec<usize> {
+    (0..dim).filter(|i| !angles.contains(i)).chain(angles.iter().copied()).collect()
+}
+
 /// `y = D z`.
 fn scaled(deviation: &[f64], z: &[Row], y: &mut [Row]) {
     y.copy_from_slice(z);
@@ -287,6 +368,32 @@ mod tests {
             }
         }
         c
+    }
+
+    #[test]
+    fn positions_lead_back_to_their_draws_and_the_order_keeps_the_covariance() {
+        let normal = low_rank();
+        let ordered = normal.in_order(&[1, 2]).expect("positive definite");
+        for (a, b) in ordered.covariance().iter().zip(normal.covariance()) {
+            assert!((a - b).abs() < 1e-12, "{a} {b}");
+        }
+        assert!((ordered.log_det - normal.log_det).abs() < 1e-12);
+        assert!((ordered.turns(&[1, 2]).0[1].1.powi(-2) - inverse_of(&expected(), 2)).abs() < 1e-9);
+        let mut z = vec![[0.0; LANES]; 4];
+        let mut stream = Stream::new(2, 0, 0, 0);
+        for one in [&normal, &ordered, &normal.nearest_diagonal()] {
+            let (mut x, mut back) = (z.clone(), z.clone());
+            one.draw(&mut stream, &mut z, &mut x);
+            one.whiten(&x, &[1, 2], &mut back);
+            assert!(z.iter().flatten().zip(back.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-10));
+        }
+    }
+
+    /// An entry of the diagonal of the inverse: one over the variance given all other coordinates.
+    fn inverse_of(covariance: &[f64], at: usize) -> f64 {
+        let order: Vec<usize> = (0..4).filter(|i| *i != at).chain([at]).collect();
+        let entry = |i: &usize| order.iter().map(|j| covariance[i * 4 + j]).collect::<Vec<_>>();
+        cholesky(&order.iter().flat_map(entry).collect::<Vec<_>>()).expect("positive definite")[15].powi(-2)
     }
 
     #[test]
