@@ -86,7 +86,9 @@ def test_it_says_what_it_found():
 
 
 def test_it_outlives_its_process():
-    result = nw.run(pair, method=nw.vi(draws=50), seed=1)
+    result, warned = said(pair, method=nw.vi(draws=50), seed=1)
+    # A mean field is too narrow for this pair: of 20,000 draws the evidence is 0.15 nats too low.
+    assert "slopes at the draws" in warned and result.k_hat < 0.7
     copy = pickle.loads(pickle.dumps(result))
     assert np.array_equal(copy.draws["x"], result.draws["x"]) and copy.k_hat == result.k_hat
     assert copy[3].choices == result[3].choices
