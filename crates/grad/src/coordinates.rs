@@ -9,6 +9,10 @@
 //! | simplex of `n` | `n - 1` sticks: `z_k = s(v_k - ln(n - 1 - k))` of what is left | `sum ln(z_k (1 - z_k) left_k)` |
 //! | vectors | `v` | 0 |
 //!
+//! Values stay inside their interval where the coordinate leaves the numbers of 64 bits: the program sees the last number,
+//! and the density is that of the coordinate, which has no end (`niwaki_math`, `distributions/ends.rs`). The circle is for
+//! targets that may repeat: over the line its density has no finite mass, over one turn its mass is one.
+//!
 //! The bounds may depend on other choices. The stick breaking is centred, so that zeros are the middle of the simplex
 //! (Stan reference manual, "Unit simplexes"). A choice that is held is the line, or vectors, whatever its support.
 
@@ -16,7 +20,9 @@ use crate::graph::{Graph, Id};
 use crate::operation::apply;
 use crate::record::{Recorded, Recorder, no_coordinates};
 use crate::scalar::Var;
-use niwaki_math::{Dist, Draw, Family, Interval, Scalar, Space, Support, logistic, logit};
+use niwaki_math::{
+    COORDINATES, Dist, Draw, Family, Interval, LEAST, Scalar, Space, Support, logistic,
+};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -122,6 +128,18 @@ impl Continuous {
     /// How many numbers its value has.
     pub fn width(&self) -> usize {
         self.values.len()
+    }
+
+    /// Whether a coordinate belongs to the last number inside an open interval, which stands for all coordinates beyond:
+    /// the direction of these.
+    pub fn beyond(&self, v: f64) -> Option<f64> {
+        let is_open = matches!(self.family.space(), Space::Positive | Space::Unit | Space::Components);
+        let high = match self.transform {
+            Transform::Above => COORDINATES.1,
+            Transform::Between => HIGHEST_BUT_ONE,
+            _ => return None,
+        };
+        (is_open && v <= COORDINATES.0 + 1e-6).then_some(-1.0).or((is_open && v >= high - 1e-3).then_some(1.0))
     }
 
     /// Whether its value is a list of numbers rather than a number.
@@ -238,6 +256,29 @@ impl Recorder<'_> {
             return Ok(Placed { unit, ..placed(Transform::Line, value, at(value) + slope, slope) });
         }
         let v = self.coordinate(interval.coordinate(x));
+        let c = Var::from_f64;
+        match dist.open_space() {
+            Some(Space::Positive) => {
+                let number = v.max(c(COORDINATES.0)).min(c(COORDINATES.1)).exp();
+                let value = number.at(x);
+                let log = dist.log_density_by_log(value, v) + v;
+                let slope = slope_within(v, COORDINATES, log - at(value), v);
+                return Ok(placed(Transform::Above, value, log, slope));
+            }
+            Some(Space::Unit) => {
+                let number = interval.value(v.max(c(COORDINATES.0)));
+                let share = number.value.within(0.0, 1.0).min(c(1.0_f64.next_down()));
+                let value = share.at(x);
+                let log_share = number.value.ln() + (v - c(COORDINATES.0)).min(c(0.0));
+                let plain = c(2.0) * log_share - v;
+                let Some(log) = dist.log_density_by_shares(log_share, log_share - v) else {
+                    return Ok(placed(Transform::Between, value, at(value) + plain, plain));
+                };
+                let slope = slope_within(v, (COORDINATES.0, HIGHEST), log - at(value), plain);
+                return Ok(placed(Transform::Between, value, log, slope));
+            }
+            _ => {}
+        }
         let number = interval.value(v);
         let mut value = number.value.at(x);
         let Some((log_width, log_share)) = number.between else {
@@ -249,13 +290,8 @@ impl Recorder<'_> {
         {
             value = value.within(lo.value(), hi.value());
         }
-        // Where the density depends on the share, its logarithms are known, and no digits cancel.
         let log = match dist {
             Dist::Uniform { .. } => number.log_slope,
-            Dist::Beta { a, b } => {
-                let norm = a.ln_gamma() + b.ln_gamma() - (*a + *b).ln_gamma();
-                *a * log_share + *b * (log_share - v) - norm
-            }
             _ => at(value) + log_width + number.log_slope,
         };
         Ok(placed(Transform::Between, value, log, log_width + number.log_slope))
@@ -271,21 +307,24 @@ impl Recorder<'_> {
         for (k, a) in concentrations.iter().enumerate() {
             log = log - a.ln_gamma();
             if k + 1 == n {
-                values.push(left.at(x[k]));
+                values.push(left.max(c(LEAST)).at(x[k]));
                 log = log + (*a - c(1.0)) * log_left;
                 break;
             }
-            let v = self.coordinate(stick(x[k], left_at, n, k));
+            let v = self.coordinate(stick(&x[k..], left_at, n, k));
             let centred = v - c(shift(n, k));
-            let z = logistic(centred);
-            let log_z = z.ln();
-            values.push((left * z).within(0.0, 1.0).at(x[k]));
+            let near = centred.max(c(COORDINATES.0));
+            let z = logistic(near);
+            let log_z = z.ln() + (centred - c(COORDINATES.0)).min(c(0.0));
+            values.push((left * z).within(0.0, 1.0).max(c(LEAST)).at(x[k]));
             // ln x_k = ln left + ln z; the Jacobian of this stick is z (1 - z) left.
             let own = (log_z + log_z - centred) + log_left;
             log = log + (*a - c(1.0)) * (log_left + log_z) + own;
             slope = slope + own;
             log_left = log_left + (log_z - centred);
-            left = (left * (c(1.0) - z)).within(0.0, 1.0);
+            // Near one the rest has its digits from the exponential.
+            let rest = near.above(NEAR_ONE, || z * (-near).exp(), || c(1.0) - z);
+            left = (left * rest).within(0.0, 1.0);
             left_at -= x[k];
         }
         let log = log + total.ln_gamma();
@@ -293,14 +332,32 @@ impl Recorder<'_> {
     }
 }
 
+/// The log Jacobian: beyond the numbers that whose density of the value is the one that the value is scored with.
+fn slope_within(v: Var, (least, most): (f64, f64), beyond: Var, inside: Var) -> Var {
+    v.above(most, || beyond, || v.above(least, || inside, || beyond))
+}
+
 /// The offset that centres the `k`-th stick of a simplex of `n`.
 fn shift(n: usize, k: usize) -> f64 {
     ((n - 1 - k) as f64).ln()
 }
 
-/// The coordinate of the `k`-th stick, of what is left.
-fn stick(x: f64, left: f64, n: usize, k: usize) -> f64 {
-    logit(x / left) + shift(n, k)
+/// The coordinate from which on a share rounds to one.
+const HIGHEST: f64 = 36.7;
+/// The coordinate of the last number below one.
+const HIGHEST_BUT_ONE: f64 = 36.736;
+/// The coordinate above which one less a share has few digits.
+const NEAR_ONE: f64 = 20.0;
+/// What is left of a stick has digits above this.
+const LEFT: f64 = 1e-6;
+
+/// The coordinate of the `k`-th stick, of what is left; `x` are the shares from this one on.
+fn stick(x: &[f64], left: f64, n: usize, k: usize) -> f64 {
+    let share = x[0] / left;
+    let v = share.ln() - (-share).ln_1p();
+    let is_near = left > LEFT && v.abs() < NEAR_ONE;
+    let rest = || x[1..].iter().sum::<f64>().max(LEAST).ln();
+    (if is_near { v } else { x[0].max(LEAST).ln() - rest() }) + shift(n, k)
 }
 
 impl Recorded {
@@ -327,7 +384,7 @@ impl Recorded {
                 (Transform::Simplex, Draw::Vector(shares)) if shares.len() == choice.width() => {
                     let mut left = 1.0;
                     for (k, (x, share)) in x[place].iter_mut().zip(shares.iter()).enumerate() {
-                        *x = stick(*share, left, shares.len(), k);
+                        *x = stick(&shares[k..], left, shares.len(), k);
                         left -= share;
                     }
                 }

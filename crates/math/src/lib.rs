@@ -33,7 +33,7 @@ pub mod total;
 pub mod vector;
 
 pub use distributions::{
-    BadParameter, Dist, Draw, Family, Interval, Param, Placed, Space, Support, logistic, logit,
+    BadParameter, COORDINATES, Dist, Draw, Family, Interval, LEAST, Param, Placed, Space, Support, logistic,
 };
 pub use first_blocks::FirstBlocks;
 pub use rounding::grid;

@@ -43,7 +43,12 @@ pub(crate) fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> 
     if let Some(value) = discrete {
         return Some(Proposed { value, forward: 0.0, backward: 0.0 });
     }
-    let (new, forward, backward) = space.coordinates()?.moved(&value_to_draw(old)?, || size * normal(rng))?;
+    let (old, coordinates) = (value_to_draw(old)?, space.coordinates()?);
+    let (new, forward, backward) = coordinates.moved(&old, || size * normal(rng))?;
+    // How much the last number inside stands for depends on parameters: a block moves between the others.
+    if !(coordinates.has_inside(&old) && coordinates.has_inside(&new)) {
+        return None;
+    }
     Some(Proposed { value: draw_to_value(new), forward, backward })
 }
 

@@ -1,6 +1,6 @@
 //! Drift: a continuous choice moves a little, in coordinates in which it has no bounds.
 //!
-//! The step in the coordinate z is Gaussian ([`Support::moved`]), so the density of a move from x to x' is symmetric except
+//! The step in the coordinate z is Gaussian ([`Dist::moved`]), so the density of a move from x to x' is symmetric except
 //! for a Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Leaving it out draws from the wrong distribution.
 
 use super::metropolis::Decision;
@@ -104,7 +104,7 @@ impl Move for Drift {
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault> {
         let size = self.step(site) * spread(dist);
-        let moved = value_to_draw(old).and_then(|old| dist.support().moved(&old, || size * normal(rng)));
+        let moved = value_to_draw(old).and_then(|old| dist.moved(&old, size, rng));
         self.drifted = moved.is_some();
         match moved {
             Some((draw, forward, backward)) => Ok(Proposed { value: draw_to_value(draw), forward, backward }),

@@ -101,10 +101,23 @@ impl State {
         tries: u64,
         known: Option<&HashMap<u128, Value>>,
     ) -> Result<(State, HashMap<u128, f64>, u64), Failure> {
+        State::tried_after(task, streams, 0, tries.max(1), known)
+    }
+
+    /// The same, after so many runs that had another fault; `tries` counts these too.
+    ///
+    /// # Errors
+    /// As for [`State::start`].
+    pub(crate) fn tried_after(
+        task: &Task,
+        streams: Streams,
+        first: u64,
+        tries: u64,
+        known: Option<&HashMap<u128, Value>>,
+    ) -> Result<(State, HashMap<u128, f64>, u64), Failure> {
         let mut machine = task.machine();
         let (mut causes, mut all): (HashMap<String, usize>, _) = (HashMap::new(), AllInvalid::default());
-        let tries = tries.max(1);
-        for attempt in 0..tries {
+        for attempt in first..tries {
             // The last visits, so that no proposal has their numbers.
             let (key, mut spreads) = (streams.fresh(u64::MAX - attempt), HashMap::new());
             let mut answers = Fresh { spreads: Some(&mut spreads), ..Fresh::of(key, known, &*task.hosts) };

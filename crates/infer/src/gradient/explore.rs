@@ -9,6 +9,7 @@ use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::hamiltonian::chains::{GLANCE, run};
 use crate::hamiltonian::climb::climb_in_lanes;
+use crate::hamiltonian::potential::evaluate;
 use crate::hamiltonian::{Cause, Chain, Draws, Metric, Settings, lanes};
 use crate::replay::{Choice, Missing, Source, replay};
 use crate::{Failure, Task};
@@ -162,8 +163,11 @@ fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// The density around a chain's first run, the first possible one of at most `tries`, with the values that are known: that
-/// of the first chain, where the run is on its path.
+/// Possible runs without a finite gradient at most, before the last of them is the start and its fault is reported.
+const STARTS: u64 = 100;
+
+/// The density around a chain's first run, the first possible one of at most `tries` with a finite gradient, with the values
+/// that are known: that of the first chain, where the run is on its path.
 pub(super) fn start(
     task: &Task,
     model: &Model,
@@ -172,19 +176,41 @@ pub(super) fn start(
     number: usize,
     first: Option<&Live>,
 ) -> Result<Member, Failure> {
-    let (state, _) = State::start(task, streams, tries, known)?;
-    let choices = state.choices(&task.program).collect();
-    drop(state);
-    let (target, start) = match first.and_then(|first| first.beside(&choices)) {
-        Some(pair) => pair,
-        None => {
-            let live = live_of(model.clone(), &choices)?;
-            let start = live.recorded().start.clone();
-            (live, start)
+    let (mut tried, mut attempt) = (0, 0);
+    let mut last: Option<(Member, HashMap<u128, Value>)> = None;
+    loop {
+        attempt += 1;
+        let (state, taken) = match State::tried_after(task, streams, tried, tries.max(1), known) {
+            Ok((state, _, taken)) => (state, taken),
+            // No further run is possible.
+            Err(failure) => return last.map(|(member, _)| member).ok_or(failure),
+        };
+        tried = taken;
+        let choices = state.choices(&task.program).collect();
+        drop(state);
+        // Nothing is drawn anew.
+        if let Some((member, _)) = last.take_if(|(_, before)| *before == choices) {
+            return Ok(member);
         }
-    };
-    let recorded = target.recorded().clone();
-    Ok(Member { number, target, recorded, start })
+        let (mut target, start) = match first.and_then(|first| first.beside(&choices)) {
+            Some(pair) => pair,
+            None => {
+                let live = live_of(model.clone(), &choices)?;
+                let start = live.recorded().start.clone();
+                (live, start)
+            }
+        };
+        let recorded = target.recorded().clone();
+        let is_sound = match evaluate(&mut target, &start, &mut vec![0.0; start.len()]) {
+            Err(stop) => stop.cause != Cause::NotFinite,
+            Ok(_) => true,
+        };
+        let member = Member { number, target, recorded, start };
+        if is_sound || tried >= tries || attempt == STARTS {
+            return Ok(member);
+        }
+        last = Some((member, choices));
+    }
 }
 
 /// Runs the chains of a group.

@@ -13,7 +13,7 @@
 //! | vectors | `v` | 0 |
 //!
 //! Gradient methods use the coordinate ([`Interval::value`]); a single small move multiplies the distances from the
-//! bounds instead ([`Interval::moved`]), so that it loses no digits.
+//! bounds instead ([`Interval::moved`]), so that it loses no digits. Where the numbers of 64 bits end, see [`super::ends`].
 
 use super::draw::Draw;
 use super::family::Space;
@@ -41,36 +41,34 @@ pub struct Placed<S> {
     pub between: Option<(S, S)>,
 }
 
-/// Coordinates beyond lose the digits of the bound that they approach.
-const FARTHEST: f64 = 36.0;
-
 /// `1 / (1 + exp(-v))`.
 pub fn logistic<S: Scalar>(v: S) -> S {
     let one = S::from_f64(1.0);
     one / (one + (-v).exp())
 }
 
-/// `ln(x / (1 - x))`, clamped to where [`logistic`] is invertible: its inverse.
-pub fn logit(share: f64) -> f64 {
-    (share.ln() - (-share).ln_1p()).clamp(-FARTHEST, FARTHEST)
-}
-
-/// The coordinate of a number at this distance from its only bound.
-fn log_distance(distance: f64) -> f64 {
-    distance.max(f64::MIN_POSITIVE).ln()
-}
 
 impl<S: Scalar> Interval<S> {
     /// All real numbers.
     pub const LINE: Interval<S> = Interval { lo: None, hi: None };
 
-    /// The coordinate of a number.
+    /// The coordinate of a number; of a bound that of the last number inside.
     pub fn coordinate(&self, x: f64) -> f64 {
-        match (self.lo.map(S::value), self.hi.map(S::value)) {
+        let bounds = Interval { lo: self.lo.map(S::value), hi: self.hi.map(S::value) };
+        if bounds == Interval::LINE {
+            return x;
+        }
+        let (least, most) = bounds.inside();
+        let x = if least < most { x.clamp(least, most) } else { x };
+        match (bounds.lo, bounds.hi) {
             (None, None) => x,
-            (Some(lo), None) => log_distance(x - lo),
-            (None, Some(hi)) => log_distance(hi - x),
-            (Some(lo), Some(hi)) => logit((x - lo) / (hi - lo)),
+            (Some(lo), None) => (x - lo).ln(),
+            (None, Some(hi)) => (hi - x).ln(),
+            (Some(lo), Some(hi)) => {
+                let share = (x - lo) / (hi - lo);
+                // Of a share that rounds to one the distance from the bound has the digits.
+                if share < 1.0 { share.ln() - (-share).ln_1p() } else { (x - lo).ln() - (hi - x).ln() }
+            }
         }
     }
 

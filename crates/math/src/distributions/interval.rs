@@ -16,14 +16,16 @@ pub(super) fn uniform_sample(lo: f64, hi: f64, rng: &mut (impl RngCore + ?Sized)
     (lo + (hi - lo) * open_unit(rng)).min(hi)
 }
 
-/// `(a - 1) ln x + (b - 1) ln(1 - x) - ln B(a, b)`, inside the open interval.
+/// `(a - 1) ln x + (b - 1) ln(1 - x) - ln B(a, b)`; at an end its limit, where that is finite.
 #[inline(never)]
 pub(super) fn beta_log_density<S: Scalar>(a: S, b: S, x: S) -> S {
     let one = S::from_f64(1.0);
+    let log_norm = || a.ln_gamma() + b.ln_gamma() - (a + b).ln_gamma();
     if !(x > S::from_f64(0.0) && x < one) {
-        return S::from_f64(f64::NEG_INFINITY);
+        let is_flat = x == S::from_f64(0.0) && a == one || x == one && b == one;
+        return if is_flat { -log_norm() } else { S::from_f64(f64::NEG_INFINITY) };
     }
-    let log_norm = a.ln_gamma() + b.ln_gamma() - (a + b).ln_gamma();
+    let log_norm = log_norm();
     (a - one) * x.ln() + (b - one) * (-x).ln_1p() - log_norm
 }
 
@@ -33,8 +35,11 @@ pub(super) fn beta_sample(a: f64, b: f64, rng: &mut (impl RngCore + ?Sized)) -> 
     let log_ratio = log_gamma_draw(a, rng) - log_gamma_draw(b, rng);
     let x = if log_ratio < 0.0 {
         log_ratio.exp() / (1.0 + log_ratio.exp())
-    } else {
+    } else if log_ratio < 30.0 {
         1.0 / (1.0 + (-log_ratio).exp())
+    } else {
+        // The distance from one has the digits.
+        1.0 - (-log_ratio).exp()
     };
     x.clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)
 }
@@ -52,6 +57,28 @@ mod tests {
         }
         for (a, b) in [(1.0, 1.0), (2.0, 5.0), (80.0, 3.0), (400.0, 400.0)] {
             continuous_agrees(&dist(Family::Beta, &[a, b]), 0.0, 1.0);
+        }
+    }
+
+    #[test]
+    fn an_end_has_the_limit_of_the_density_where_that_is_a_number() {
+        let at = |family, parameters: &[f64], x: f64| dist(family, parameters).log_density(&Draw::Real(x));
+        assert_eq!(at(Family::Beta, &[1.0, 1.0], 0.0), 0.0);
+        assert_eq!(at(Family::Beta, &[1.0, 1.0], 1.0), 0.0);
+        assert!((at(Family::Beta, &[1.0, 3.0], 0.0) - 3.0_f64.ln()).abs() < 1e-12);
+        assert_eq!(at(Family::Gamma, &[1.0, 2.0], 0.0), -(2.0_f64.ln()));
+        assert_eq!(at(Family::Exponential, &[1.0], 0.0), 0.0);
+        assert_eq!(at(Family::Uniform, &[0.0, 1.0], 1.0), 0.0);
+        // Zero, or infinite: the end is outside.
+        for (family, parameters, x) in [
+            (Family::Beta, &[1.0, 3.0][..], 1.0),
+            (Family::Beta, &[0.5, 1.0], 0.0),
+            (Family::Gamma, &[2.0, 1.0], 0.0),
+            (Family::Gamma, &[0.5, 1.0], 0.0),
+            (Family::InverseGamma, &[1.0, 1.0], 0.0),
+            (Family::LogNormal, &[0.0, 1.0], 0.0),
+        ] {
+            assert_eq!(at(family, parameters, x), f64::NEG_INFINITY, "{family}");
         }
     }
 

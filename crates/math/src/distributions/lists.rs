@@ -62,10 +62,18 @@ impl<S: Scalar> Multinomial<S> {
             return never;
         }
         let (mut rest, mut log) = (self.n, S::from_f64(0.0));
-        for (share, k) in self.shares.iter().zip(counts) {
+        for (at, (share, k)) in self.shares.iter().zip(counts).enumerate() {
             // Without trials there is nothing to share out; the logarithm of a share of zero would spoil the sum.
             if rest > 0 {
-                log = log + counts::binomial_log_density(rest, *share, *k);
+                let after = &self.weights[at + 1..];
+                let is_sure = share.value() >= 1.0 && after.iter().any(|w| w.value() > 0.0);
+                let is_tiny = share.value() < TINY && self.weights[at].value() > 0.0;
+                log = log
+                    + if is_sure || is_tiny {
+                        by_logs(rest, self.weights[at], after, *k)
+                    } else {
+                        counts::binomial_log_density(rest, *share, *k)
+                    };
             }
             if log.value() == f64::NEG_INFINITY {
                 return never;
@@ -131,6 +139,25 @@ impl<S: Scalar> Field<S> for Multinomial<S> {
     fn params(&self) -> Vec<Param<S>> {
         vec![Param::Int(self.n), Param::Vector(self.weights.clone())]
     }
+}
+
+/// Products of smaller shares and numbers of trials may be no normal numbers.
+const TINY: f64 = 1e-290;
+
+/// The log probability of `k` of `n` for a category beside others, one of which has a share that is lost beside the rest's.
+#[cold]
+fn by_logs<S: Scalar>(n: i64, weight: S, after: &[S], k: i64) -> S {
+    if k > n {
+        return S::from_f64(f64::NEG_INFINITY);
+    }
+    let others = after.iter().rev().fold(S::from_f64(0.0), |sum, w| sum + *w);
+    let total = (weight + others).ln();
+    let power = |k: i64, w: S| {
+        let is_none = k == 0;
+        if is_none { S::from_f64(0.0) } else { S::from_f64(k as f64) * (w.ln() - total) }
+    };
+    let ways = |k: i64| libm::lgamma(k as f64 + 1.0);
+    S::from_f64(ways(n) - ways(k) - ways(n - k)) + power(k, weight) + power(n - k, others)
 }
 
 /// The sum over truth values that are independent.
@@ -256,6 +283,19 @@ mod tests {
             assert!(values.windows(2).all(|pair| pair[0] != pair[1]));
         }
         assert_eq!(multinomial(1000, &[1.0; 20]).enumerate(), None);
+    }
+
+    #[test]
+    fn a_weight_that_is_lost_beside_the_others_has_its_probability() {
+        // 5 ln of the first, ln 5 and ln of the second: by logarithms of the weights.
+        let expected = 5.0_f64.ln() + 1e-320_f64.ln();
+        for weights in [[1.0, 1e-320], [1e-320, 1.0]] {
+            let k = if weights[0] == 1.0 { [4, 1] } else { [1, 4] };
+            let log = multinomial(5, &weights).log_density(&counts(&k));
+            assert!((log - expected).abs() < 1e-9, "{weights:?}: {log}");
+        }
+        let log = multinomial(2, &[1e300, 1e-20, 1e-10]).log_density(&counts(&[0, 1, 1]));
+        assert!((log - (2.0_f64.ln() + (1e-20_f64).ln() + (1e-10_f64).ln() - 2.0 * (1e300_f64).ln())).abs() < 1e-9);
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! | `fields` | fields of distributions: over another kind of number, and as parameters |
 //! | `dist` | what each family does: building, scoring, drawing |
 //! | `support` | [`Support`], and listing the values of the finite discrete families |
+//! | `ends` | the last numbers of 64 bits inside an interval, and what each stands for |
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
 //! | `whole` | bernoulli, discrete_uniform, geometric |
 //! | `counts` | numbers of events |
@@ -28,8 +29,9 @@
 //! length, area, ... (real, vector); minus infinity outside the support. A sampler computes in `f64` with
 //! bits from the given source only, so its draws do not depend on the scalar. Where a draw would fall off the
 //! range of `f64` (a log-normal that overflows, a gamma that underflows) it is the nearest finite number
-//! inside the support. No log density is NaN or plus infinity (tested with parameters from 1e-120 to 1e120): a
-//! beta's ends and a gamma's zero are outside.
+//! inside the support: see `ends`. No log density is NaN or plus infinity (tested with parameters from 1e-120 to 1e120). At an
+//! end of its interval, or a corner of the simplex, a density is its limit there: zero, or a number, as the rate of an
+//! exponential or the 1 of `beta(1, 1)`. Where the limit is infinite, the end is outside.
 
 mod bell;
 mod check;
@@ -38,6 +40,7 @@ mod coordinates;
 mod counts;
 mod dist;
 mod draw;
+mod ends;
 mod family;
 mod fields;
 mod interval;
@@ -57,7 +60,8 @@ mod whole;
 mod testing;
 
 pub use check::BadParameter;
-pub use coordinates::{Interval, Placed, logistic, logit};
+pub use coordinates::{Interval, Placed, logistic};
+pub use ends::{COORDINATES, LEAST};
 pub use draw::{Draw, Param};
 pub use family::{Dist, Family, Space};
 pub use lists::{DiagonalGaussian, Multinomial};

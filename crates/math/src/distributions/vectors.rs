@@ -20,7 +20,10 @@ pub(super) const MOST_CONCENTRATED: f64 = 1e300;
 pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) -> S {
     let never = S::from_f64(f64::NEG_INFINITY);
     let sum: f64 = x.iter().map(|x| x.value()).sum();
-    let inside = x.len() == concentrations.len() && x.iter().all(|x| *x > S::from_f64(0.0));
+    let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
+    // At a corner the density is its limit, where that is finite: with a concentration of one the entry has no part in it.
+    let has_limit = |(x, a): (&S, &S)| *x > zero || *x == zero && *a == one;
+    let inside = x.len() == concentrations.len() && x.iter().zip(concentrations).all(has_limit);
     // Written so that a NaN is outside.
     if !(inside && (sum - 1.0).abs() <= SUM_TOLERANCE) {
         return never;
@@ -29,7 +32,7 @@ pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) ->
     for (a, x) in concentrations.iter().zip(x) {
         total = total + *a;
         // For the frequent concentration of one both terms are zero.
-        if a.varies() || a.value() != 1.0 {
+        if (a.varies() || a.value() != 1.0) && x.value() != 0.0 {
             log = log + (*a - S::from_f64(1.0)) * x.ln() - a.ln_gamma();
         }
     }
@@ -206,6 +209,13 @@ mod tests {
             assert!((d.log_density(&vector(&[x, 1.0 - x])) - beta.log_density(&Draw::Real(x))).abs() < 1e-12);
         }
         assert_eq!(d.log_density(&vector(&[0.4, 0.4])), f64::NEG_INFINITY);
+        assert_eq!(d.log_density(&vector(&[0.0, 1.0])), f64::NEG_INFINITY);
+        // A corner has the limit of the density, where that is a number.
+        let of = |a: &[f64]| Dist::new(Family::Dirichlet, &[Param::Vector(a.to_vec())]).unwrap();
+        assert!((of(&[1.0; 3]).log_density(&vector(&[0.0, 0.0, 1.0])) - 2.0_f64.ln()).abs() < 1e-12);
+        let edge = of(&[1.0, 2.0, 3.0]).log_density(&vector(&[0.0, 0.25, 0.75]));
+        let near = of(&[1.0, 2.0, 3.0]).log_density(&vector(&[1e-300, 0.25, 0.75]));
+        assert_eq!((edge, of(&[1.0, 0.5]).log_density(&vector(&[1.0, 0.0]))), (near, f64::NEG_INFINITY));
         assert_eq!(d.log_density(&vector(&[0.2, 0.3, 0.5])), f64::NEG_INFINITY);
         assert_eq!(d.log_density(&vector(&[f64::NAN, 0.5])), f64::NEG_INFINITY);
         let firsts: Vec<f64> = (0..DRAWS as u64).map(|k| entry(&d.sample(&mut stream(k)), 0)).collect();

@@ -21,10 +21,18 @@ pub(super) fn exponential_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -
 #[inline]
 pub(super) fn gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> S {
     if x <= S::from_f64(0.0) {
-        return S::from_f64(f64::NEG_INFINITY);
+        // Of the shape 1, an exponential, the density at zero is a number.
+        let is_exponential = x == S::from_f64(0.0) && shape == S::from_f64(1.0);
+        return if is_exponential { -scale.ln() } else { S::from_f64(f64::NEG_INFINITY) };
     }
+    gamma_log_density_at(shape, scale, x, x.ln())
+}
+
+/// The same above zero, the logarithm known.
+#[inline]
+pub(super) fn gamma_log_density_at<S: Scalar>(shape: S, scale: S, x: S, log_x: S) -> S {
     // Two logarithms: the quotient may underflow.
-    let log = x.ln() - scale.ln();
+    let log = log_x - scale.ln();
     (shape - S::from_f64(1.0)) * log - x / scale - scale.ln() - shape.ln_gamma()
 }
 
@@ -63,7 +71,13 @@ pub(super) fn inverse_gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> 
     if x <= S::from_f64(0.0) {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let log = scale.ln() - x.ln();
+    inverse_gamma_log_density_at(shape, scale, x, x.ln())
+}
+
+/// The same above zero, the logarithm known.
+#[inline]
+pub(super) fn inverse_gamma_log_density_at<S: Scalar>(shape: S, scale: S, x: S, log_x: S) -> S {
+    let log = scale.ln() - log_x;
     (shape + S::from_f64(1.0)) * log - scale / x - scale.ln() - shape.ln_gamma()
 }
 

@@ -174,7 +174,8 @@ impl ChainMove for Trajectory {
             return Ok(());
         }
         chain.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
-        let mut phase = match target.start_phase(trace, program, numbers, beta) {
+        let mut last = chain.streams.moves(visit).at(2);
+        let mut phase = match target.start_phase(trace, program, numbers, beta, &mut last) {
             Ok(phase) => phase,
             Err(stop) => {
                 let fault = || reason(target.live(), &target.all(&[]));

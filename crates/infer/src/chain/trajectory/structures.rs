@@ -234,6 +234,7 @@ impl Target {
         program: &Program,
         numbers: &[usize],
         beta: f64,
+        rng: &mut Stream,
     ) -> Result<Phase, Stop> {
         let tempered = beta != 1.0;
         let mut coordinates = |recorded: &niwaki_grad::Recorded| {
@@ -247,9 +248,38 @@ impl Target {
         };
         if let Some(x) = self.live.locate(&mut coordinates, &mut || choices(trace, program).collect()) {
             self.full = x;
+            self.reach_beyond(rng);
         }
         let x: Vec<f64> = self.moving.iter().map(|k| self.full[*k]).collect();
         Phase::at(self, &x)
+    }
+
+    /// Draws the coordinates of values that are the last numbers inside their intervals: of those for which such a number
+    /// stands, by their density. Nothing else of the run depends on them, so the density falls there as the choice's own, by
+    /// a constant slope (of a log-normal nearly).
+    fn reach_beyond(&mut self, rng: &mut Stream) {
+        let recorded = self.live.recorded().clone();
+        let ends: Vec<(usize, f64)> = recorded
+            .choices
+            .iter()
+            .filter(|choice| !choice.is_held)
+            .filter_map(|choice| choice.beyond(self.full[choice.first]).map(|sign| (choice.first, sign)))
+            .collect();
+        if ends.is_empty() {
+            return;
+        }
+        let mut there = self.full.clone();
+        ends.iter().for_each(|(k, sign)| there[*k] += sign);
+        let mut slopes = vec![0.0; there.len()];
+        if self.live.value_and_gradient(&there, &mut slopes).is_err() {
+            return;
+        }
+        for (k, sign) in ends {
+            let rate = -sign * slopes[k];
+            if rate > 0.0 && rate.is_finite() {
+                self.full[k] -= sign * (1.0 - rng.uniform()).ln() / rate;
+            }
+        }
     }
 
     /// All coordinates, where these are those that move.
