@@ -20,9 +20,7 @@ use crate::graph::{Graph, Id};
 use crate::operation::apply;
 use crate::record::{Recorded, Recorder, no_coordinates};
 use crate::scalar::Var;
-use niwaki_math::{
-    COORDINATES, Dist, Draw, Family, Interval, LEAST, Scalar, Space, Support, logistic,
-};
+use niwaki_math::{COORDINATES, Dist, Draw, Family, Interval, LEAST, Scalar, Space, Support, logistic};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -139,7 +137,9 @@ impl Continuous {
             Transform::Between => HIGHEST_BUT_ONE,
             _ => return None,
         };
-        (is_open && v <= COORDINATES.0 + 1e-6).then_some(-1.0).or((is_open && v >= high - 1e-3).then_some(1.0))
+        (is_open && v <= COORDINATES.0 + 1e-6)
+            .then_some(-1.0)
+            .or((is_open && v >= high - 1e-3).then_some(1.0))
     }
 
     /// Whether its value is a list of numbers rather than a number.

@@ -120,7 +120,11 @@ class EnumerationInfo(Info):
         unseen = -inf if self.log_unseen is None else self.log_unseen
         most = max([unseen, *(log for _, log in self.table)])
         seen = sum(exp(log - most) for _, log in self.table)
-        own = sum(exp(log - most) for found, log in self.table if (repr(found) == repr(value) if same else found == value))
+        own = sum(
+            exp(log - most)
+            for found, log in self.table
+            if (repr(found) == repr(value) if same else found == value)
+        )
         left = exp(unseen - most)
         return own / (seen + left), (own + left) / (seen + left)
 

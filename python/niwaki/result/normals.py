@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 #: Above this k, the weights are too uneven for estimates (Vehtari, Simpson, Gelman, Yao & Gabry 2024, section 3.2.4).
 UNEVEN = 0.7
-#: A normal whose bound is this far below that of another, nats, may hide a k of 0.7. Of normal models, a mean field whose
-#: weights have the shape k is below by `-(log(1 - k) + k) / 2` or more, in any number of coordinates.
+#: A normal whose bound is this far below that of another, nats, may hide a k of 0.7. Of normal models, a mean field
+#: whose weights have the shape k is below by `-(log(1 - k) + k) / 2` or more, in any number of coordinates.
 GAP = -0.5 * (math.log1p(-UNEVEN) + UNEVEN)
 #: A difference is seen where it is this many standard errors: false alarms are rarer than one in 700.
 CLEAR = 3.0
@@ -34,10 +34,10 @@ EVEN = 0.95
 class ViInfo(DrawnInfo):
     """Of `vi`: the normals, with the draws from them as numbers.
 
-    There is one normal, or with `family="pathfinder"` one for each path. A draw's weight is the ratio of the model's density
-    to that of all normals together, `log p - log (1/n) sum_j q_j`. Draws of density zero are counted, and are not among the
-    samples. `log_evidence` is estimated by the draws' weights. The density of a normal over an angle is that of the normal
-    wound around the circle.
+    There is one normal, or with `family="pathfinder"` one for each path. A draw's weight is the ratio of the model's
+    density to that of all normals together, `log p - log (1/n) sum_j q_j`. Draws of density zero are counted, and are
+    not among the samples. `log_evidence` is estimated by the draws' weights. The density of a normal over an angle is
+    that of the normal wound around the circle.
 
     Attributes
     ----------
@@ -52,13 +52,14 @@ class ViInfo(DrawnInfo):
         Pareto's k of the weights. Above 0.7 the normal misses too much, and estimates by weight are not to be trusted;
         unless nearly all draws are `effective`. It sees only places where there are draws.
     k_curvature : float
-        The k that the weights of the best normal would have if the model were the normal whose curvature the draws' slopes
-        show. So it tells of a tail that no draw has reached. NaN with fewer than four draws for each coordinate.
+        The k that the weights of the best normal would have if the model were the normal whose curvature the draws'
+        slopes show. So it tells of a tail that no draw has reached. NaN with fewer than four draws for each
+        coordinate.
     k_curvature_error : float
         Its standard error.
     log_ratios : array of shape (n,)
-        `log p - log q` of the draws over coordinates, nats: the logs of the weights before they are smoothed. `q` is the
-        density of all normals together.
+        `log p - log q` of the draws over coordinates, nats: the logs of the weights before they are smoothed. `q` is
+        the density of all normals together.
     bounds : list of array
         Of each normal, estimates of the bound by step, nats: of the ascent of the bound, or along the path.
     means : list of array of shape (dim,)
@@ -108,8 +109,7 @@ class ViInfo(DrawnInfo):
         counts = [found.counters(one) for one in normals]
         densities = [found.densities(one) for one in normals]
         bounds = [
-            _bound(p - own, count["impossible"])
-            for (p, own, _), count in zip(densities, counts, strict=True)
+            _bound(p - own, count["impossible"]) for (p, own, _), count in zip(densities, counts, strict=True)
         ]
         best = int(np.argmax([mean for mean, _ in bounds]))
         ratios = [p - together for p, _, together in densities]
@@ -208,8 +208,9 @@ class ViInfo(DrawnInfo):
             return f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f}, above {UNEVEN}"
         if self.k_curvature - CLEAR * self.k_curvature_error > UNEVEN:
             return (
-                f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f} by the draws, but the slopes at the draws say "
-                f"that the distribution is much wider than the normal in some direction, where k is {self.k_curvature:.2f}"
+                f"Pareto's k of the weights of `{name}` is {self.k_hat:.2f} by the draws, but the slopes at the draws "
+                f"say that the distribution is much wider than the normal in some direction, where k is "
+                f"{self.k_curvature:.2f}"
             )
         if self.log_path_bound is None or self.path_bound_error is None or interrupted:
             return None
@@ -235,10 +236,10 @@ def _bound(ratios: Reals, impossible: int) -> tuple[float, float]:
 def _curvature(z: Reals, slopes: Reals) -> tuple[float, float]:
     """The k of the weights of a normal model, by the slopes of the log weights at the draws, and its standard error.
 
-    Of a normal model these slopes are a linear function of the draws, `slopes = B z` with `z` standard normal, and the log
-    weight grows like `k z^2 / 2` where it grows most: `k` is the largest eigenvalue of `B`. For any other model `B` is the
-    mean curvature. The direction is that of one half of the draws, the growth along it that of the other half, so that the
-    noise that chose the direction does not raise it.
+    Of a normal model these slopes are a linear function of the draws, `slopes = B z` with `z` standard normal, and
+    the log weight grows like `k z^2 / 2` where it grows most: `k` is the largest eigenvalue of `B`. For any other
+    model `B` is the mean curvature. The direction is that of one half of the draws, the growth along it that of the
+    other half, so that the noise that chose the direction does not raise it.
 
     Parameters
     ----------

@@ -362,8 +362,8 @@ class Result(Sequence[Sample]):
     def distribution(self) -> dict[Any, float]:
         """The probability of each value: exact for enumeration, weighted shares of the samples else.
 
-        Values that cannot be keys of a dict are replaced by their `repr`, and so are values that Python holds for equal and
-        that are not the same: `True` and `1`, `0.0` and `-0.0`.
+        Values that cannot be keys of a dict are replaced by their `repr`, and so are values that Python holds for
+        equal and that are not the same: `True` and `1`, `0.0` and `-0.0`.
         """
         if isinstance(self.info, EnumerationInfo):
             total = self.log_evidence or 0.0

@@ -108,6 +108,29 @@ def test_values_that_cannot_be_keys_are_replaced_by_their_repr() -> None:
     assert shares == pytest.approx({"[True, 1]": 0.25, "[False, 1]": 0.75})
 
 
+@nw.model
+def alike():  # type: ignore[no-untyped-def]
+    kind = nw.discrete_uniform(0, 4)
+    if kind == 0:
+        return 0.0
+    if kind == 1:
+        return -0.0
+    if kind == 2:
+        return True
+    if kind == 3:
+        return 1
+    return 2
+
+
+def test_values_that_are_equal_and_not_the_same_are_kept_apart() -> None:
+    result = nw.run(alike, nw.enumerate_all(), seed=1)
+    shares = result.distribution()
+    assert set(shares) == {"0.0", "-0.0", "True", "1", 2}
+    assert all(abs(share - 0.2) < 1e-12 for share in shares.values())
+    for value in (0.0, -0.0, True, 1, 2, 2.0):
+        assert result.info.bounds(value) == pytest.approx((0.2, 0.2)), value
+
+
 def test_every_model_of_the_gallery_grows() -> None:
     found: list[Any] = entries()
     grown = [one for one in found if one.target_name is not None]

@@ -80,7 +80,10 @@ mod tests {
         let of = |mean: Vec<f64>, deviation: Vec<f64>, m: f64| {
             Normal::low_rank(mean, deviation, &columns, &[m]).expect("positive definite")
         };
-        [of(vec![0.3, -1.0, 2.0], vec![0.5, 1.0, 2.0], 0.8), of(vec![1.0, 5.0, 2.5], vec![1.5, 2.0, 0.7], -0.3)]
+        [
+            of(vec![0.3, -1.0, 2.0], vec![0.5, 1.0, 2.0], 0.8),
+            of(vec![1.0, 5.0, 2.5], vec![1.5, 2.0, 0.7], -0.3),
+        ]
     }
 
     #[test]
@@ -110,9 +113,10 @@ mod tests {
         let mut points = vec![];
         for i in 0..cells {
             for j in 0..cells {
-                points.extend((0..turns).map(|k| {
-                    [-15.0 + width * i as f64, PI + step * k as f64, -14.0 + width * j as f64]
-                }));
+                points.extend(
+                    (0..turns)
+                        .map(|k| [-15.0 + width * i as f64, PI + step * k as f64, -14.0 + width * j as f64]),
+                );
             }
         }
         let mut mass = 0.0;

@@ -151,7 +151,13 @@ impl Normal {
         let order = order(dim, angles);
         let is_diagonal = matches!(self.scale, Scale::Diagonal(_));
         let entry = |i: usize, j: usize| match is_diagonal {
-            true => if i == j { covariance[i] } else { 0.0 },
+            true => {
+                if i == j {
+                    covariance[i]
+                } else {
+                    0.0
+                }
+            }
             false => covariance[i * dim + j],
         };
         let moved: Vec<f64> = order.iter().flat_map(|i| order.iter().map(|j| entry(*i, *j))).collect();

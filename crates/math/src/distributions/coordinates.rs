@@ -47,7 +47,6 @@ pub fn logistic<S: Scalar>(v: S) -> S {
     one / (one + (-v).exp())
 }
 
-
 impl<S: Scalar> Interval<S> {
     /// All real numbers.
     pub const LINE: Interval<S> = Interval { lo: None, hi: None };

@@ -174,9 +174,9 @@ impl Dist {
                 let number = v.clamp(COORDINATES.0, COORDINATES.1).exp();
                 self.log_density_by_log(number, v) + v
             }
-            (_, Some((lo, hi))) => self.log_density_by_shares(share, rest).unwrap_or_else(|| {
-                self.log_density_of_real(nearest()) + (hi - lo).ln() + share + rest
-            }),
+            (_, Some((lo, hi))) => self
+                .log_density_by_shares(share, rest)
+                .unwrap_or_else(|| self.log_density_of_real(nearest()) + (hi - lo).ln() + share + rest),
             _ => self.log_density_of_real(nearest()) + interval.log_slope(nearest()),
         }
     }
@@ -184,7 +184,13 @@ impl Dist {
     /// By how much the log density of the coordinate falls for each unit beyond the last number.
     fn rate(&self, above: bool) -> f64 {
         match self {
-            Dist::Beta { a, b } => if above { *b } else { *a },
+            Dist::Beta { a, b } => {
+                if above {
+                    *b
+                } else {
+                    *a
+                }
+            }
             Dist::Gamma { shape, .. } if !above => *shape,
             Dist::InverseGamma { shape, .. } if above => *shape,
             _ => 1.0,
@@ -197,7 +203,9 @@ impl Dist {
         match self {
             Dist::Mixture(m) => {
                 // A component by its mass there.
-                let mass = |(k, c): (usize, &Dist)| m.weights.log_probability(k as i64) + c.log_mass(interval, above);
+                let mass = |(k, c): (usize, &Dist)| {
+                    m.weights.log_probability(k as i64) + c.log_mass(interval, above)
+                };
                 let logs: Vec<f64> = m.components.iter().enumerate().map(mass).collect();
                 let most = logs.iter().fold(f64::NEG_INFINITY, |most, log| most.max(*log));
                 let shares: Vec<f64> = logs.iter().map(|log| (log - most).exp()).collect();
@@ -208,9 +216,7 @@ impl Dist {
                 });
                 m.components[reached.unwrap_or(0)].beyond(interval, above, rng)
             }
-            Dist::LogNormal { mean, sd } if above => {
-                truncated::sample(*mean, *sd, begin, f64::INFINITY, rng)
-            }
+            Dist::LogNormal { mean, sd } if above => truncated::sample(*mean, *sd, begin, f64::INFINITY, rng),
             Dist::LogNormal { mean, sd } => truncated::sample(*mean, *sd, f64::NEG_INFINITY, begin, rng),
             _ => {
                 let e: f64 = Exp1.sample(rng);
@@ -290,12 +296,7 @@ impl Dist {
 }
 
 /// Shares whose logarithms move by `z`.
-fn moved_shares(
-    a: &[f64],
-    x: &[f64],
-    z: &[f64],
-    rng: &mut (impl RngCore + ?Sized),
-) -> (Vec<f64>, f64, f64) {
+fn moved_shares(a: &[f64], x: &[f64], z: &[f64], rng: &mut (impl RngCore + ?Sized)) -> (Vec<f64>, f64, f64) {
     let grown: Vec<f64> = x.iter().zip(z).map(|(x, z)| x * z.exp()).collect();
     let sum: f64 = grown.iter().sum();
     let new: Vec<f64> = grown.iter().map(|x| x / sum).collect();
@@ -408,8 +409,9 @@ mod tests {
             let Support::Reals(interval) = d.support() else { panic!("an interval") };
             // Tails of rate 0.001 reach far beyond the numbers.
             let step = 0.01;
-            let mass: f64 =
-                (-3_000_000..3_000_000).map(|k| step * d.log_density_of_coordinate(&interval, step * f64::from(k)).exp()).sum();
+            let mass: f64 = (-3_000_000..3_000_000)
+                .map(|k| step * d.log_density_of_coordinate(&interval, step * f64::from(k)).exp())
+                .sum();
             assert!((mass - 1.0).abs() < 1e-4, "{d:?}: {mass}");
         }
     }

@@ -295,7 +295,10 @@ mod tests {
             assert!((log - expected).abs() < 1e-9, "{weights:?}: {log}");
         }
         let log = multinomial(2, &[1e300, 1e-20, 1e-10]).log_density(&counts(&[0, 1, 1]));
-        assert!((log - (2.0_f64.ln() + (1e-20_f64).ln() + (1e-10_f64).ln() - 2.0 * (1e300_f64).ln())).abs() < 1e-9);
+        assert!(
+            (log - (2.0_f64.ln() + (1e-20_f64).ln() + (1e-10_f64).ln() - 2.0 * (1e300_f64).ln())).abs()
+                < 1e-9
+        );
     }
 
     #[test]

@@ -61,8 +61,8 @@ mod testing;
 
 pub use check::BadParameter;
 pub use coordinates::{Interval, Placed, logistic};
-pub use ends::{COORDINATES, LEAST};
 pub use draw::{Draw, Param};
+pub use ends::{COORDINATES, LEAST};
 pub use family::{Dist, Family, Space};
 pub use lists::{DiagonalGaussian, Multinomial};
 pub use mixture::Mixture;

@@ -187,6 +187,10 @@ mod tests {
         let draw = far.sample(&mut stream(1));
         assert!(draw == Draw::Real(1.0) && far.log_density(&draw).is_finite());
         let (moved, there, back) = far.moved(&draw, 0.3, &mut stream(2)).unwrap();
-        assert!((moved == draw || far.log_density(&moved) == f64::NEG_INFINITY) && !there.is_nan() && !back.is_nan());
+        assert!(
+            (moved == draw || far.log_density(&moved) == f64::NEG_INFINITY)
+                && !there.is_nan()
+                && !back.is_nan()
+        );
     }
 }
