@@ -47,24 +47,57 @@ class Span:
         return line[self.column - 1 :]
 
 
-_files: dict[str, tuple[SourceFile, ast.Module]] = {}
+@dataclass
+class _Parsed:
+    """A file that was read, with the functions in it, so that finding one does not go through the whole file.
+
+    Attributes
+    ----------
+    raw : list of str
+        The lines as `linecache` has them.
+    file : SourceFile
+        The lines without their ends.
+    functions : dict
+        Definitions by name and first line, decorators included.
+    lambdas : dict
+        Lambdas by their lines, in the order of the tree.
+    """
+
+    raw: list[str]
+    file: SourceFile
+    functions: dict[tuple[str, int], ast.FunctionDef]
+    lambdas: dict[int, list[ast.Lambda]]
 
 
-def _parsed(path: str, module_globals: dict[str, object]) -> tuple[SourceFile, ast.Module] | None:
-    """The file's lines and tree; read again when the text has changed since."""
+_files: dict[str, _Parsed] = {}
+
+
+def _parsed(path: str, module_globals: dict[str, object]) -> _Parsed | None:
+    """A file and the functions in it; read again when the text has changed since."""
     # A file may have been edited since it was last looked at.
     linecache.checkcache(path)
-    lines = tuple(line.rstrip("\r\n") for line in linecache.getlines(path, module_globals))
+    raw = linecache.getlines(path, module_globals)
+    known = _files.get(path)
+    if known is not None and known.raw is raw:
+        return known
+    lines = tuple(line.rstrip("\r\n") for line in raw)
     if not lines:
         return None
-    known = _files.get(path)
-    if known is None or known[0].lines != lines:
-        try:
-            tree = ast.parse("\n".join(lines) + "\n", filename=path)
-        except (SyntaxError, RecursionError, MemoryError):
-            return None
-        known = _files[path] = (SourceFile(path, lines), tree)
-    return known
+    if known is not None and known.file.lines == lines:
+        known.raw = raw
+        return known
+    try:
+        tree = ast.parse("\n".join(lines) + "\n", filename=path)
+    except (SyntaxError, RecursionError, MemoryError):
+        return None
+    found = _files[path] = _Parsed(raw, SourceFile(path, lines), {}, {})
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Lambda):
+            found.lambdas.setdefault(node.lineno, []).append(node)
+        elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
+            first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+            found.functions.setdefault((node.name, first), node)  # type: ignore[arg-type]
+    return found
 
 
 def span_of(node: ast.AST, file: SourceFile) -> Span:
@@ -108,19 +141,14 @@ def find_function(function: FunctionType) -> tuple[SourceFile, ast.FunctionDef |
     parsed = _parsed(code.co_filename, function.__globals__)
     if parsed is None:
         return None
-    file, tree = parsed
     if code.co_name == "<lambda>":
-        return _find_lambda(function, file, tree)
-    for node in ast.walk(tree):
-        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.name == code.co_name:
-            first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
-            if first == code.co_firstlineno:
-                return file, node  # type: ignore[return-value]
-    return None
+        return _find_lambda(function, parsed.file, parsed.lambdas.get(code.co_firstlineno, []))
+    node = parsed.functions.get((code.co_name, code.co_firstlineno))
+    return None if node is None else (parsed.file, node)
 
 
 def _find_lambda(
-    function: FunctionType, file: SourceFile, tree: ast.Module
+    function: FunctionType, file: SourceFile, lambdas: list[ast.Lambda]
 ) -> tuple[SourceFile, ast.Lambda] | None:
     """Several lambdas may share a line: ours is the smallest whose body holds every instruction's position."""
     code = function.__code__
@@ -128,9 +156,7 @@ def _find_lambda(
         (p[0], p[2]) for p in code.co_positions() if p[0] is not None and p[2] is not None and p[3] != 0
     ]
     best: ast.Lambda | None = None
-    for node in ast.walk(tree):
-        if not isinstance(node, ast.Lambda) or node.lineno != code.co_firstlineno:
-            continue
+    for node in lambdas:
         body = node.body
         start, end = (
             (body.lineno, body.col_offset),

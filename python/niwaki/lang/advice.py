@@ -13,9 +13,10 @@ is followed through variables and calls, not through arguments.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
+from heapq import heappop, heappush
 from types import FunctionType
 from typing import Any
 
@@ -35,6 +36,7 @@ BARRIERS = (words.emit, words.factor, words.observe, words.condition)
 CHOSEN = (words.sample, words.choose)
 LEAVES = (ast.Return, ast.Break, ast.Continue)
 FUNCTIONS = (ast.FunctionDef, ast.Lambda)
+Function = ast.FunctionDef | ast.Lambda
 
 
 @dataclass(frozen=True)
@@ -97,17 +99,38 @@ class _Facts:
         self.builds: set[ast.AST] = set()
         self.draws: set[ast.AST] = set()
         self.decides: set[ast.AST] = set()
-        grown = -1
-        # A fixed point: callers reach what their callees reach.
-        while grown != (grown := len(self.builds) + len(self.draws) + len(self.decides)):
-            for unit in program.units.values():
-                reader = _Reader(unit, self)
-                for node in ast.walk(unit.node):
-                    if isinstance(node, FUNCTIONS):
-                        self._look(reader, node)
+        readers: dict[Function, _Reader] = {}
+        for unit in program.units.values():
+            reader = _Reader(unit, self)
+            readers |= {node: reader for node in ast.walk(unit.node) if isinstance(node, FUNCTIONS)}
+        callers: dict[Function, list[Function]] = {node: [] for node in readers}
+        callees = {node: reader.functions(node) for node, reader in readers.items()}
+        for node, called in callees.items():
+            for one in called:
+                callers[one].append(node)
+        # A fixed point: callers reach what their callees reach. Callees come first, so that a function is looked at
+        # again only where calls go round.
+        place = {node: number for number, node in enumerate(_callees_first(callees))}
+        waiting, queue = set(readers), sorted(place[node] for node in readers)
+        nodes = sorted(readers, key=place.__getitem__)
+        while queue:
+            node = nodes[heappop(queue)]
+            waiting.discard(node)
+            before = self._known(node)
+            self._look(readers[node], node)
+            if self._known(node) != before:
+                for caller in callers[node]:
+                    # What it answered of its calls may have changed.
+                    readers[caller].known.clear()
+                    if caller not in waiting:
+                        waiting.add(caller)
+                        heappush(queue, place[caller])
 
-    def _look(self, reader: _Reader, node: ast.FunctionDef | ast.Lambda) -> None:
-        body = node.body if isinstance(node, ast.FunctionDef) else [node.body]
+    def _known(self, node: Function) -> tuple[bool, bool, bool]:
+        return node in self.builds, node in self.draws, node in self.decides
+
+    def _look(self, reader: _Reader, node: Function) -> None:
+        body = body_of(node)
         if any(map(reader.is_barrier, body)):
             self.builds.add(node)
         if any(map(reader.is_random, body)):
@@ -117,6 +140,25 @@ class _Facts:
         )
         if reader.decisions(body) or any(in_place):
             self.decides.add(node)
+
+
+def _callees_first(callees: Mapping[Function, Sequence[Function]]) -> list[Function]:
+    """The functions, each after those that it calls, but for calls that go round."""
+    found: dict[Function, None] = {}
+    begun: set[Function] = set()
+    for first in callees:
+        waiting = [(first, iter(callees[first]))] if first not in begun else []
+        begun.add(first)
+        while waiting:
+            node, rest = waiting[-1]
+            following = next((one for one in rest if one not in begun), None)
+            if following is None:
+                found[node] = None
+                waiting.pop()
+            else:
+                begun.add(following)
+                waiting.append((following, iter(callees[following])))
+    return list(found)
 
 
 class _Reader:
@@ -139,7 +181,7 @@ class _Reader:
         """The advice on this unit."""
         for node in ast.walk(self.unit.node):
             if isinstance(node, ast.FunctionDef):
-                yield from self.block(node.body, [], None)
+                yield from self.block(node.body, _After(None, lambda _: False), None)
 
     # what is called
 
@@ -166,14 +208,19 @@ class _Reader:
                 yield node, self.called(node)
             waiting.extend(below(node))
 
+    def functions(self, node: Function) -> list[Function]:
+        """The functions of the user that a function calls in place."""
+        called = (self.function(value) for part in body_of(node) for _, value in self.calls(part))
+        return [*dict.fromkeys(one for one in called if one is not None)]
+
     def called(self, node: ast.AST) -> Any:
         """What a call calls; MISSING for other parts."""
         value = self.meaning(node.func) if isinstance(node, ast.Call) else MISSING
         return value if isinstance(value, ast.AST) or hashable(value) else MISSING
 
-    def function(self, value: Any) -> ast.AST | None:
+    def function(self, value: Any) -> Function | None:
         """The node of a user's function."""
-        if isinstance(value, FUNCTIONS):
+        if isinstance(value, ast.FunctionDef | ast.Lambda):
             return value
         if isinstance(value, FunctionType) and not is_library(value) and value in self.facts.program.units:
             return self.facts.program.units[value].node
@@ -223,38 +270,58 @@ class _Reader:
 
     def decisions(self, body: Sequence[ast.AST]) -> list[ast.If]:
         """The branches on random values that build."""
-        names = self.random_names(body)
-        found = [node for part in body for node in statements(part) if isinstance(node, ast.If)]
-        return [
+        return self.random_of(body, [node for part in body for node in statements(part)])
+
+    def random_of(self, body: Sequence[ast.AST], parts: Iterable[ast.AST]) -> list[ast.If]:
+        """Those of some parts of a block that are branches on random values, and build."""
+        builds = [
             node
-            for node in found
-            if (self.is_random(node.test) or reads(node.test) & names)
-            and any(map(self.is_barrier, [*node.body, *node.orelse]))
+            for node in parts
+            if isinstance(node, ast.If) and any(map(self.is_barrier, [*node.body, *node.orelse]))
         ]
+        names = self.random_names(body) if builds else set()
+        return [node for node in builds if self.is_random(node.test) or reads(node.test) & names]
 
     # one block of statements
 
-    def block(
-        self, body: Sequence[ast.stmt], after: Sequence[ast.stmt], loop: ast.stmt | None
-    ) -> Iterator[Advice]:
-        """Advice on a block. `after` has the statements of the function after it; a `loop` follows itself."""
-        decided = self.decisions(body)
+    def block(self, body: Sequence[ast.stmt], after: _After, loop: ast.stmt | None) -> Iterator[Advice]:
+        """Advice on a block. `after` tells of the statements of the function after it; a `loop` follows itself."""
+        decided = set(self.random_of(body, body))
+        following = self.following(body, after.builds)
+        first, last = read_places(body)
+        early = self.early(body, last)
+        builds = self.following(body, None)[0] if loop is not None else None
+
+        def is_read_after(number: int) -> Callable[[str], bool]:
+            return lambda name: (
+                last.get(name, -1) > number
+                or (loop is not None and first.get(name, len(body)) <= number)
+                or after.is_read(name)
+            )
+
         for number, part in enumerate(body):
-            later = [*body[number + 1 :], *after]
-            again = [*later, *(body[: number + 1] if loop is not None else [])]
-            builds = (other for other in later if self.is_barrier(other) or self.makes_futures(other))
-            rest = next(builds, loop)
+            rest = following[number + 1] or loop
             if isinstance(part, ast.If) and part in decided:
-                free = not (writes_in(part) & reads_of(again)) and not leaves(part)
+                free = not any(map(is_read_after(number), writes_in(part))) and not leaves(part)
                 if free and rest is not None:
                     yield self.advice("decides-in-place", part.test, rest)
             elif isinstance(part, ast.Expr) and isinstance(part.value, ast.Call) and rest is not None:
                 callee = self.function(self.meaning(part.value.func))
                 if callee is not None and callee in self.facts.decides:
                     yield self.call_advice(part.value, rest)
-            yield from self.early(part, body[number + 1 :], again)
+            if number in early:
+                name = min(writes(part))
+                yield self.advice("chosen-early", part, early[number], name=name)
+            then = _After(following[number + 1] or builds, is_read_after(number))
             for inner, own in blocks(part):
-                yield from self.block(inner, again, own or loop)
+                yield from self.block(inner, then, own or loop)
+
+    def following(self, body: Sequence[ast.stmt], after: ast.stmt | None) -> list[ast.stmt | None]:
+        """At each statement of a block, and at its end: the first one from there that builds or makes a future."""
+        found = [after]
+        for part in reversed(body):
+            found.append(part if self.is_barrier(part) or self.makes_futures(part) else found[-1])
+        return found[::-1]
 
     def call_advice(self, call: ast.Call, rest: ast.stmt) -> Advice:
         """Advice on a call that could be a future."""
@@ -265,22 +332,36 @@ class _Reader:
             "calls-in-place", call, rest, name=name, cure=f"future({', '.join([name, *given])})"
         )
 
-    def early(self, part: ast.stmt, later: Sequence[ast.stmt], again: Sequence[ast.stmt]) -> Iterator[Advice]:
-        """Advice on a choice that the next barrier does not need."""
-        if not isinstance(part, ast.Assign) or not self.is_random(part.value) or self.is_barrier(part):
-            return
-        depends = writes(part)
-        for number, other in enumerate(later):
-            needed = bool(reads_of([other]) & depends)
-            if self.is_barrier(other):
-                if not needed and any(reads_of([last]) & depends for last in later[number + 1 :]):
-                    name = next(iter(sorted(writes(part))))
-                    yield self.advice("chosen-early", part, other, name=name)
-                return
-            if needed and not isinstance(other, (ast.Assign, ast.AnnAssign)):
-                return
-            if needed:
-                depends |= writes(other)
+    def early(self, body: Sequence[ast.stmt], last: Mapping[str, int]) -> dict[int, ast.stmt]:
+        """The choices of a block that the next barrier does not need, with that barrier, but that are read after it.
+
+        The block is read backwards, with the names through which a value comes to something that needs it: to the
+        barrier or to a statement before it that is no assignment, and to a statement after the barrier.
+        """
+        found: dict[int, ast.stmt] = {}
+        barrier: int | None = None
+        needed: set[str] = set()
+        later: set[str] = set()
+        for number in range(len(body) - 1, -1, -1):
+            part = body[number]
+            if self.is_barrier(part):
+                barrier, needed, later = number, set(reads(part)), set()
+                continue
+            if barrier is None:
+                continue
+            if not isinstance(part, ast.Assign | ast.AnnAssign):
+                needed |= reads(part)
+                continue
+            own = writes(part)
+            is_needed = bool(own & needed)
+            is_later = bool(own & later) or any(last.get(name, -1) > barrier for name in own)
+            if isinstance(part, ast.Assign) and self.is_random(part.value) and is_later and not is_needed:
+                found[number] = body[barrier]
+            if is_needed:
+                needed |= reads(part)
+            if is_later:
+                later |= reads(part)
+        return found
 
     def advice(self, code: str, node: ast.AST, rest: ast.AST, **values: str) -> Advice:
         return Advice(code, span_of(node, self.unit.file), first_line(span_of(rest, self.unit.file)), values)
@@ -298,6 +379,30 @@ def below(part: ast.AST) -> list[ast.AST]:
     return [] if isinstance(part, FUNCTIONS) else [*ast.iter_child_nodes(part)]
 
 
+@dataclass(frozen=True)
+class _After:
+    """What comes after a block: the first statement that builds, and which names are read."""
+
+    builds: ast.stmt | None
+    is_read: Callable[[str], bool]
+
+
+def body_of(node: Function) -> Sequence[ast.AST]:
+    """The statements of a function; of a lambda its expression."""
+    return node.body if isinstance(node, ast.FunctionDef) else [node.body]
+
+
+def read_places(body: Sequence[ast.stmt]) -> tuple[dict[str, int], dict[str, int]]:
+    """The numbers of the first and the last statement of a block that read each name."""
+    first: dict[str, int] = {}
+    last: dict[str, int] = {}
+    for number, part in enumerate(body):
+        for name in reads(part):
+            first.setdefault(name, number)
+            last[name] = number
+    return first, last
+
+
 @lru_cache(maxsize=10_000)
 def statements(part: ast.AST) -> tuple[ast.AST, ...]:
     """A statement and all statements in it, but not those of functions that it defines."""
@@ -310,18 +415,20 @@ def statements(part: ast.AST) -> tuple[ast.AST, ...]:
 @lru_cache(maxsize=10_000)
 def reads(part: ast.AST) -> frozenset[str]:
     """The names that a part reads, also in functions that it defines."""
-    return frozenset(
-        node.id for node in ast.walk(part) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)
-    ) | frozenset(
-        node.target.id
-        for node in ast.walk(part)
-        if isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name)
-    )
-
-
-def reads_of(parts: Iterable[ast.AST]) -> set[str]:
-    """The names that any of them reads."""
-    return {name for part in parts for name in reads(part)}
+    found: set[str] = set()
+    waiting: list[ast.AST] = [part]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
+            found.add(node.id)
+        elif isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
+            found.add(node.target.id)
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.stmt):
+                found |= reads(child)
+            else:
+                waiting.append(child)
+    return frozenset(found)
 
 
 def writes(part: ast.AST) -> set[str]:

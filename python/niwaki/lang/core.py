@@ -114,16 +114,25 @@ def _marks(form: Form, spans: bool, labels: bool) -> list[str]:
 
 def write_tree(form: Expr, indent: int = 0, spans: bool = True, labels: bool = True) -> str:
     """Statements one to a line, bodies indented."""
+    lines: list[str] = []
+    _put(lines, form, indent, spans, labels)
+    return "\n".join(lines)
+
+
+def _put(lines: list[str], form: Expr, indent: int, spans: bool, labels: bool) -> None:
+    """Add the lines of a tree: each is written once, however deep the tree is."""
     pad = "  " * indent
     if isinstance(form, str) or form.head not in TREES:
-        return pad + write(form, spans, labels)
+        lines.append(pad + write(form, spans, labels))
+        return
     head = [form.head, *_marks(form, spans, labels)]
     split = 0
     if form.head in ("fn", "if", "for", "while"):
         split = next((n for n, arg in enumerate(form.args) if _breaks(form.head, arg)), len(form.args))
-    lines = [pad + "(" + " ".join(head + [write(arg, spans, labels) for arg in form.args[:split]])]
-    lines += [write_tree(arg, indent + 1, spans, labels) for arg in form.args[split:]]
-    return "\n".join(lines) + ")"
+    lines.append(pad + "(" + " ".join(head + [write(arg, spans, labels) for arg in form.args[:split]]))
+    for arg in form.args[split:]:
+        _put(lines, arg, indent + 1, spans, labels)
+    lines[-1] += ")"
 
 
 def _breaks(head: str, arg: Expr) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import builtins
 import dataclasses
 import difflib
+import functools
 import sysconfig
 from collections.abc import Iterable
 from types import FunctionType
@@ -87,10 +88,13 @@ def is_library(function: FunctionType) -> bool:
     module = function.__module__ or ""
     if module.partition(".")[0] == "niwaki":
         return module.startswith(("niwaki.words", "niwaki.lang"))
-    path = function.__code__.co_filename
-    return any(
-        path.startswith(sysconfig.get_path(kind)) for kind in ("stdlib", "platstdlib", "purelib", "platlib")
-    )
+    return function.__code__.co_filename.startswith(_library_folders())
+
+
+@functools.cache
+def _library_folders() -> tuple[str, ...]:
+    """Where Python's library and installed packages are."""
+    return tuple(sysconfig.get_path(kind) for kind in ("stdlib", "platstdlib", "purelib", "platlib"))
 
 
 RANDOM = ("random", "numpy.random", "secrets")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections import Counter
 from typing import Annotated
 
 import typer
@@ -53,9 +54,12 @@ def check(
     print(f"  constants   {len(compiled.constants)}")
     print(f"  functions   {len(own)}")
     width = max(len(name) for name, _, _ in own)
+    inner: Counter[str] = Counter()
+    for name, _, sites in program.functions:
+        outer, _, part = name.partition("/")
+        inner[outer] += sites if part else 0
     for name, kind, sites in own:
-        inner = [row[2] for row in program.functions if row[0].startswith(f"{name}/")]
-        total = sites + sum(inner)
+        total = sites + inner[name]
         what = "pure" if kind == "pure" else f"{total} site{'' if total == 1 else 's'}"
         print(f"    {name:<{width}}  {what}")
     print(f"  choices     {len(program.choices)}")

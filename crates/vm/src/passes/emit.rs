@@ -15,6 +15,13 @@ use std::sync::Arc;
 /// More instructions or operands in one function are refused: the passes take time by their number squared.
 const MOST_CODE: usize = 1 << 18;
 
+/// The most of something that one function may have, and what it is.
+pub(crate) type Limit = (usize, &'static str);
+
+/// Registers of one function.
+pub(crate) const VALUES: Limit =
+    (Operand::MAX_INDEX + 1, "values (its variables, and the results of its expressions)");
+
 pub(crate) type Result<T> = std::result::Result<T, CompileError>;
 
 /// The value of a variable at a point of the program.
@@ -70,7 +77,7 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     /// The variable that the current statement assigns.
     pub target: Option<Name>,
     /// A count does not fit into its place in an instruction.
-    pub too_large: bool,
+    pub too_large: Option<Limit>,
 }
 
 impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
@@ -106,7 +113,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             carried: vec![],
             moment: 0,
             target: None,
-            too_large: false,
+            too_large: None,
         }
     }
 
@@ -206,11 +213,15 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                 *target = at.ok_or_else(|| CompileError("a jump to nowhere".into()))? as u32;
             }
         }
-        if self.too_large || self.operands.len().max(self.code.len()) > MOST_CODE {
-            return Err(self.is_too_large());
+        self.limit(self.code.len() > MOST_CODE, (MOST_CODE, "instructions"));
+        self.limit(self.operands.len() > MOST_CODE, (MOST_CODE, "arguments of instructions"));
+        if let Some(limit) = self.too_large {
+            return Err(self.is_too_large(limit));
         }
-        let (sites, params, captures) =
-            (self.sixteen(self.sites.len())?, self.sixteen(params)?, self.sixteen(captures)?);
+        let sites =
+            self.sixteen(self.sites.len(), "choices, effects, loops and calls of functions with some")?;
+        let (params, captures) =
+            (self.sixteen(params, "parameters")?, self.sixteen(captures, "captured variables")?);
         for op in &mut self.code {
             if let Op::Clear { to, .. } = op {
                 *to = sites.min(*to);
@@ -268,19 +279,27 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     /// A fresh register, virtual until [`place`] decides.
     pub fn register(&mut self) -> Result<Operand> {
         if self.registers > Operand::MAX_INDEX {
-            return Err(self.is_too_large());
+            return Err(self.is_too_large(VALUES));
         }
         self.registers += 1;
         Ok(Operand::new(Place::Node, self.registers - 1))
     }
 
-    pub fn is_too_large(&self) -> CompileError {
-        CompileError(format!("`{}` is too large: split it into smaller functions", self.name))
+    pub fn is_too_large(&self, (most, what): Limit) -> CompileError {
+        let name = self.name.split('/').next().unwrap_or_default();
+        CompileError(format!("`{name}` is too large: it has more than {most} {what}"))
     }
 
-    /// A number as it is in an instruction.
-    pub fn sixteen(&self, number: usize) -> Result<u16> {
-        u16::try_from(number).map_err(|_| self.is_too_large())
+    /// Notes a limit that the function is above; of several, the first is told.
+    fn limit(&mut self, is_above: bool, limit: Limit) {
+        if is_above {
+            self.too_large.get_or_insert(limit);
+        }
+    }
+
+    /// A number as it is in an instruction, of which the function has that many.
+    pub fn sixteen(&self, number: usize, what: &'static str) -> Result<u16> {
+        u16::try_from(number).map_err(|_| self.is_too_large((usize::from(u16::MAX), what)))
     }
 
     /// From here on, the sites with numbers `from..to` are not on the path.
@@ -305,7 +324,10 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     pub fn args(&mut self, operands: &[Operand]) -> Args {
         let start = self.operands.len() as u32;
         self.operands.extend_from_slice(operands);
-        self.too_large |= operands.len() > usize::from(u16::MAX);
+        self.limit(
+            operands.len() > usize::from(u16::MAX),
+            (usize::from(u16::MAX), "arguments in one call or list"),
+        );
         Args { start, len: operands.len() as u16 }
     }
 
@@ -343,13 +365,13 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             self.names.push(name.clone());
             self.names.len() - 1
         });
-        self.too_large |= at > usize::from(u16::MAX);
+        self.limit(at > usize::from(u16::MAX), (usize::from(u16::MAX), "names of fields"));
         at as u16
     }
 
     pub fn constant(&mut self, value: Value<S>) -> Operand {
         self.constants.push(value);
-        self.too_large |= self.constants.len() > Operand::MAX_INDEX + 1;
+        self.limit(self.constants.len() > Operand::MAX_INDEX + 1, (Operand::MAX_INDEX + 1, "constants"));
         Operand::new(Place::Constant, (self.constants.len() - 1).min(Operand::MAX_INDEX))
     }
 

@@ -92,16 +92,22 @@ impl<S: Scalar> Builder<'_, '_, S> {
             List(_) => crate::code::Op::List { to, args },
             Tuple(_) => crate::code::Op::Tuple { to, args },
             Dict(..) => crate::code::Op::Dict { to, args },
-            Record(class, _) => crate::code::Op::Record { to, class: self.sixteen(*class)?, args },
+            Record(class, _) => {
+                crate::code::Op::Record { to, class: self.sixteen(*class, "classes of records")?, args }
+            }
             Field(_, name) => crate::code::Op::Field { to, a: operands[0], name: self.name(name) },
             Method(..) => {
                 let id = builtin_id("method").ok_or_else(|| CompileError("methods are missing".into()))?;
                 crate::code::Op::Builtin { to, id, args }
             }
-            Host(k, _) => crate::code::Op::Host { to, constant: self.sixteen(*k)?, args },
+            Host(k, _) => crate::code::Op::Host { to, constant: self.sixteen(*k, "constants")?, args },
             Closure(name, _) => {
                 let id = self.function_id(name)?;
-                crate::code::Op::Closure { to, function: self.sixteen(id.0 as usize)?, args }
+                crate::code::Op::Closure {
+                    to,
+                    function: self.sixteen(id.0 as usize, "functions of the model before it")?,
+                    args,
+                }
             }
             Dist(name, _) => crate::code::Op::Dist { to, family: super::sites::family(name)?, args },
             _ => return Err(CompileError(format!("an effect in the pure function `{}`", self.name))),
@@ -194,7 +200,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let (id, operands) = self.called(name, items)?;
         let args = self.args(&operands);
         let to = self.register()?;
-        let function = self.sixteen(id.0 as usize)?;
+        let function = self.sixteen(id.0 as usize, "functions of the model before it")?;
         self.op(Op::CallPure { to, function, args });
         Ok(to)
     }

@@ -254,8 +254,18 @@ mod tests {
         assert!(compile::<f64>(&parse(&fits).expect("core form"), vec![]).is_ok());
         let constants = entry(&format!("(index (list {}) 0)", numbers.join(" ")));
         let arguments = entry(&format!("(len (list $x {}))", "1 ".repeat(1 << 16)));
-        for text in [constants, arguments] {
-            assert!(error(&text).contains("is too large"));
-        }
+        assert_eq!(error(&constants), "`m` is too large: it has more than 16384 constants");
+        assert_eq!(
+            error(&arguments),
+            "`m` is too large: it has more than 65535 arguments in one call or list"
+        );
+        let many: Vec<String> =
+            (0..=Operand::MAX_INDEX).map(|i| format!("(set $x{i} (sample (dist bernoulli 0.5)))")).collect();
+        let values = format!("(module (fn \"m\" (params) {} (return 1)) (entry \"m\"))", many.join(" "));
+        assert!(
+            error(&values).starts_with("`m` is too large: it has more than 16384 values"),
+            "{}",
+            error(&values)
+        );
     }
 }

@@ -5,7 +5,7 @@
 //! one that can is lifted: its body becomes a function, one activation an iteration.
 
 use super::CompileError;
-use super::emit::{Binding, Builder, Environment, LoopContext, Result};
+use super::emit::{Binding, Builder, Environment, LoopContext, Result, VALUES};
 use crate::code::{Function, FunctionId, Loop, Mode, Op, Operand, Place, SiteKind, exit};
 use crate::core::visit::{Names, assigned, in_order_of_assignment, returns};
 use crate::core::{Expr, LOOK, Literal, Name, Stmt, StmtKind, readable};
@@ -50,7 +50,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let names: Vec<&Name> = a.iter().chain(std::iter::once(r)).chain(c).collect();
                 let registers = names.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
                 let to = self.args(&registers);
-                self.op(Op::UnpackStar { from, to, star: self.sixteen(a.len())? });
+                self.op(Op::UnpackStar { from, to, star: self.sixteen(a.len(), "names in one assignment")? });
                 names.iter().zip(registers).for_each(|(x, at)| self.assign(x, at));
                 true
             }
@@ -399,7 +399,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         b.loops.push(LoopContext::Lifted);
         let element = if each.is_some() { Some(b.register()?) } else { None };
         if captured.len() >= Operand::MAX_INDEX {
-            return Err(b.is_too_large());
+            return Err(b.is_too_large(VALUES));
         }
         for (i, x) in captured.iter().enumerate() {
             b.env.insert(x.clone(), Binding { at: Operand::new(Place::Outer, i + 1), ..self.env[x] });
