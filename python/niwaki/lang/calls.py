@@ -24,7 +24,7 @@ from niwaki.lang.inference import infer
 from niwaki.lang.marks import Host, underlying
 from niwaki.lang.names import MISSING, is_library, is_random, is_record_class, nearest
 from niwaki.lang.scope import Scope, Variable
-from niwaki.lang.statements import first_assignment
+from niwaki.lang.statements import first_assignment, is_text
 from niwaki.words.memo import Memoised
 
 
@@ -207,5 +207,6 @@ def changes(body: Body, node: ast.Call, callee: ast.Attribute, name: str, target
         if isinstance(found, Variable) and found.assigned:
             second = first_assignment(body, found)
     argument = body.span(node.args[0]).text if node.args else "..."
-    cure = vocabulary.CHANGERS[name].format(target=target, argument=argument)
+    of_dict = name == "pop" and node.args and is_text(node.args[0])
+    cure = vocabulary.CHANGERS["popitem" if of_dict else name].format(target=target, argument=argument)
     body.refuse("changes-a-value", node, second, name=target, cure=cure if "`" in cure else f"`{cure}`")

@@ -165,8 +165,17 @@ def changes(body: Body, target: ast.expr, node: ast.AST) -> None:
     text = body.span(owner).text
     if isinstance(target, ast.Subscript):
         index = body.span(target.slice).text
-        body.refuse("changes-an-item", target, second, name=text, index=index)
+        in_dict = f"write a dict with all of its keys: `{text} = {{{index}: value, ...}}`"
+        slices = f"{text} = {text}[:{index}] + [value] + {text}[{index} + 1:]"
+        in_list = f"for a list write `{slices}`, or build it in one comprehension"
+        cure = in_dict if is_text(target.slice) else f"{in_list}; for a dict {in_dict}"
+        body.refuse("changes-an-item", target, second, name=text, cure=cure)
     body.refuse("changes-a-field", target, second, name=text, field=getattr(target, "attr", ""))
+
+
+def is_text(key: ast.AST) -> bool:
+    """Whether a key is written as a text, so that what has it is a dict."""
+    return isinstance(key, ast.JoinedStr) or (isinstance(key, ast.Constant) and isinstance(key.value, str))
 
 
 def first_assignment(body: Body, found: Variable) -> Any:

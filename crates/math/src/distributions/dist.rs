@@ -92,7 +92,8 @@ impl<S: Scalar> Dist<S> {
             Family::LogNormal => {
                 let (mean, sd) = (r.finite(0)?, r.positive(1)?);
                 if !bell::log_normal_has_scores(mean, sd) {
-                    return r.refuse(0, "a number at most 1e150 `sd` from 0, and `sd` above 1e-147");
+                    return r
+                        .refuse(0, "a number at most 1e150 times `sd` away from 0, and `sd` above 1e-147");
                 }
                 Dist::LogNormal { mean, sd }
             }

@@ -232,7 +232,7 @@ FAULTS = (
         "no such distribution",
         why="in a search such a run has probability zero; it is an error in a single run, and if every run of a search "
         "has it",
-        help="keep the parameter in its range for all values of the choices that it depends on, for instance with `max`",
+        help="keep the parameter in its range for all values of the choices that it depends on, for instance with `max`, `min` or `clip`",
         example="gaussian(0, -1)",
         cure="gaussian(0, max(s, 1e-6))",
         about=(
@@ -242,11 +242,13 @@ FAULTS = (
             "| `bernoulli` (`flip`) | p from 0 to 1 |\n"
             "| `categorical` | weights 0 or more, at least one above 0 |\n"
             "| `discrete_uniform` | integers, lo not above hi |\n"
-            "| `poisson`, `exponential` | rate above 0 |\n"
+            "| `poisson` | rate from 0 to 1e15 |\n"
+            "| `exponential` | rate above 0 |\n"
             "| `binomial` | n an integer, 0 or more; p from 0 to 1 |\n"
             "| `geometric` | p above 0, not above 1 |\n"
             "| `uniform` | lo below hi |\n"
-            "| `gaussian`, `log_normal` | sd above 0 |\n"
+            "| `gaussian` | sd above 0 |\n"
+            "| `log_normal` | sd above 1e-147, mean at most 1e150 times sd away from 0 |\n"
             "| `gamma`, `inverse_gamma` | shape and scale above 0 |\n"
             "| `beta` | a and b above 0 |\n"
             "| `laplace`, `cauchy` | scale above 0 |\n"
