@@ -474,6 +474,14 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
         false => bad(format!("a {} has {sides} sides, expected 3 to 1024", kind(solid))),
     };
     let sized = |size: Vec3| size.to_array().into_iter().try_for_each(|s| positive("size", s));
+    let finite = |what: &str, p: Vec3| match p.is_finite() {
+        true => Ok(()),
+        false => bad(format!("the {what} is {:?}, expected finite numbers", p.to_array())),
+    };
+    let unit = |what: &str, v: Vec3| match (v.norm() - 1.0).abs() < 1e-6 {
+        true => Ok(()),
+        false => bad(format!("the {what} is {:?}, expected a direction of length 1", v.to_array())),
+    };
     match solid {
         Solid::Box { size } => sized(*size),
         Solid::TaperedBox { size, taper } => sized(*size).and_then(|()| not_negative("taper", *taper)),
@@ -491,23 +499,22 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
         Solid::Limb { rings, sides } => {
             for ring in rings.iter() {
                 positive("radius", ring.radius)?;
-                let unit = (ring.normal.norm() - 1.0).abs() < 1e-6;
-                if !ring.center.is_finite() || !unit {
-                    return bad(format!(
-                        "a limb's ring is {ring:?}, expected a finite centre and a unit normal"
-                    ));
-                }
+                finite("centre of an end of a limb", ring.center)?;
+                unit("normal of an end of a limb", ring.normal)?;
             }
             polygon(*sides)
         }
         Solid::Segment(tube) => {
             for frame in &tube.frames() {
                 positive("radius", frame.radius)?;
-                let square = (frame.forward.norm() - 1.0).abs().max((frame.up.norm() - 1.0).abs())
-                    + frame.forward.dot(frame.up).abs();
-                if !frame.center.is_finite() || square.is_nan() || square > 1e-6 {
+                finite("centre of a segment's frame", frame.center)?;
+                unit("forward direction of a segment's frame", frame.forward)?;
+                unit("up direction of a segment's frame", frame.up)?;
+                let slant = frame.forward.dot(frame.up).abs();
+                if slant.is_nan() || slant > 1e-6 {
+                    let [forward, up] = [frame.forward, frame.up].map(Vec3::to_array);
                     return bad(format!(
-                        "a segment's frame is {frame:?}, expected a finite centre and two unit directions at right angles"
+                        "the directions of a segment's frame are {forward:?} and {up:?}, expected a right angle between them"
                     ));
                 }
             }
@@ -519,10 +526,7 @@ fn check_solid(solid: &Solid) -> Result<(), GeomError> {
         Solid::Mesh(_) => Ok(()),
         Solid::Stroke { ends } => ends.iter().try_for_each(|end| {
             positive("radius", end.radius)?;
-            if end.center.is_finite() {
-                return Ok(());
-            }
-            bad(format!("an end of a stroke is {:?}, expected finite numbers", end.center.to_array()))
+            finite("end of a stroke", end.center)
         }),
         Solid::Ellipse { size } => size.iter().try_for_each(|s| positive("size", *s)),
     }

@@ -101,9 +101,17 @@ impl Shape {
         normals: (Option<Vec3>, Option<Vec3>),
         look: &Look,
     ) -> Result<Shape, GeomError> {
-        let normal = |given: Option<Vec3>| direction(given.unwrap_or(end - start), "normal");
-        let start = Ring { center: start, normal: normal(normals.0)?, radius: radii.0 };
-        let end = Ring { center: end, normal: normal(normals.1)?, radius: radii.1 };
+        for (what, p) in [("start", start), ("end", end)] {
+            if !p.is_finite() {
+                let message = format!("the {what} of a limb is {:?}, expected finite numbers", p.to_array());
+                return Err(GeomError::new("bad-shape", message));
+            }
+        }
+        let same = || format!("the start and the end of a limb are the same point, {:?}", start.to_array());
+        let along = || (end - start).unit().ok_or_else(|| GeomError::new("bad-shape", same()));
+        let normal = |given: Option<Vec3>, what| given.map_or_else(along, |given| direction(given, what));
+        let start = Ring { center: start, normal: normal(normals.0, "start normal")?, radius: radii.0 };
+        let end = Ring { center: end, normal: normal(normals.1, "end normal")?, radius: radii.1 };
         let solid = Solid::Limb { rings: Box::new([start, end]), sides: LIMB_SIDES };
         Shape::placed(solid, Vec3::ZERO, Mat3::IDENTITY, look)
     }
@@ -216,7 +224,8 @@ mod tests {
         assert_eq!(error.to_string(), "the size of a box is -1, expected a positive number");
         assert!(Shape::cuboid(vec3(f64::NAN, 0.0, 0.0), vec3(1.0, 1.0, 1.0), &PLAIN).is_err());
         assert!(Shape::cylinder(Vec3::ZERO, 1.0, 1.0, Vec3::ZERO, None, &PLAIN).is_err());
-        assert!(Shape::limb(Vec3::ZERO, Vec3::ZERO, (1.0, 1.0), (None, None), &PLAIN).is_err());
+        let error = Shape::limb(Vec3::ZERO, Vec3::ZERO, (1.0, 1.0), (None, None), &PLAIN).unwrap_err();
+        assert_eq!(error.to_string(), "the start and the end of a limb are the same point, [0.0, 0.0, 0.0]");
         let skew = Look {
             rotation: Some(Mat3::from_rows([[1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])),
             ..PLAIN

@@ -35,7 +35,7 @@ pub struct Model {
     pub host: Host,
     /// What varies.
     pub scope: Scope,
-    /// Counts the points that are refused because a distribution is invalid there.
+    /// Counts the points that are refused because the run is invalid there.
     pub invalid: Arc<Invalid>,
 }
 

@@ -116,7 +116,7 @@ pub fn enumerate(
 ///
 /// # Errors
 /// A choice that cannot be enumerated, more runs than allowed, runs that are all impossible, or a fault of the program: also
-/// of distributions, where they are invalid in every run.
+/// of runs that are all invalid.
 pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> Result<Enumerated, Failure> {
     let mut machine = task.machine();
     let mut open = Frontier::new(what);

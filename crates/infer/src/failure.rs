@@ -70,10 +70,10 @@ impl Failure {
         Failure::NoStart { tries: 0, causes: vec![] }
     }
 
-    /// Whether every run or particle was impossible, by scores or by invalid distributions.
+    /// Whether every run or particle was impossible, by scores or because it was invalid.
     pub fn is_impossible(&self) -> bool {
         match self {
-            Failure::Run(met) => met.fault.out_of_range.is_some(),
+            Failure::Run(met) => met.is_invalid(),
             Failure::Impossible { .. } => true,
             Failure::Setting(_) | Failure::NoStart { .. } => false,
         }

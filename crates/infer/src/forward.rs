@@ -140,7 +140,7 @@ impl<C: Chooser> Answers<f64> for Forward<'_, C> {
 }
 
 /// One forward run from the prior, depth first; unless it is to be `complete`, it stops when its score becomes minus
-/// infinity, or where a distribution is invalid.
+/// infinity, or where it is invalid.
 ///
 /// # Errors
 /// A fault of the program.

@@ -31,7 +31,7 @@ pub struct Weighted {
 /// regularly with the number of runs; when it returns false, the runs so far are returned.
 ///
 /// # Errors
-/// A fault of the program, or distributions that are invalid in every run; `n` zero; runs that are all impossible.
+/// A fault of the program, or of runs that are all invalid; `n` zero; runs that are all impossible.
 pub fn importance(
     task: &Task,
     proposal: Option<&Proposal>,

@@ -19,6 +19,7 @@ use crate::particles::{
     particle_gibbs, pimh, populations, within,
 };
 use crate::proposal::Proposal;
+use crate::record::AllInvalid;
 use crate::rejection::rejection;
 use crate::run::Run;
 use crate::variational::family::Family;
@@ -333,11 +334,21 @@ impl Method {
         let mut progress = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
         match self {
             Method::Forward { n } => {
-                let mut runs = Vec::new();
-                while (runs.len() as u64) < *n && watch(runs.len() as u64, 0, none) {
-                    runs.push(forward(task, seed, runs.len() as u64, true)?);
+                let (mut runs, mut tried, mut all) = (Vec::new(), 0, AllInvalid::default());
+                while tried < *n && watch(tried, 0, none) {
+                    match forward(task, seed, tried, true) {
+                        Err(Failure::Run(met)) if task.invalid.count(&met).is_some() => {
+                            all.note(Some(&Arc::new(*met)));
+                        }
+                        run => {
+                            runs.push(run?);
+                            all.note(None);
+                        }
+                    }
+                    tried += 1;
                 }
-                let interrupted = (runs.len() as u64) < *n;
+                all.check()?;
+                let interrupted = tried < *n;
                 Ok(bare(runs, interrupted, Info::Forward))
             }
             Method::Importance { n, proposal } => {

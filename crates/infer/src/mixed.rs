@@ -107,7 +107,9 @@ fn run(task: &Task, key: StreamKey) -> Option<(HashMap<u128, Kinds>, u64)> {
     while !state.has_ended() && watch.forward.record.cause.is_none() {
         let next = state.runnable().first()?;
         if let Err(met) = machine.resume(&mut state, next, &mut watch) {
-            met.fault.out_of_range?;
+            if !met.is_invalid() {
+                return None;
+            }
             break;
         }
     }

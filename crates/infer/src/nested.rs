@@ -18,6 +18,7 @@ use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value, same};
+use std::any::Any;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
@@ -176,6 +177,10 @@ impl Known {
 }
 
 impl Hosts for Inferences {
+    fn raised(&self) -> Option<Box<dyn Any + Send>> {
+        self.hosts.raised()
+    }
+
     fn inference(&self, constant: u16) -> Option<&Inner> {
         self.methods.get(&constant)
     }
@@ -273,7 +278,8 @@ pub(crate) fn fault_of(name: &str, failure: Failure) -> Fault {
         Failure::Run(inner) => {
             let line = inner.stack.last().map_or(0, |call| call.span.line);
             let message = format!("inside `infer` of `{name}`, at line {line}: {}", inner.fault.message);
-            let fault = Fault::new(inner.fault.code, message);
+            // What all of its runs meet, the run around it meets.
+            let fault = Fault::new(inner.fault.code, message).caused_by(&inner.fault);
             match &inner.fault.help {
                 Some(help) => fault.with_help(help.clone()),
                 None => fault,
@@ -322,7 +328,9 @@ mod tests {
             (fn "never" (params) (do (condition (sample (dist bernoulli 0.0)))) (return none))
             (fn "broken" (params) (set $a (sample (dist bernoulli 0.5))) (return (div 1 0)))
             (fn "deep" (params) (return (host 0 (closure "deep") 1)))
-            (fn "m" (params) (return (tuple (closure "inner" 0.3) (closure "never") (closure "broken") (closure "deep"))))
+            (fn "flat" (params) (return (sample (dist gaussian 0.0 -1.0))))
+            (fn "m" (params) (return (tuple
+              (closure "inner" 0.3) (closure "never") (closure "broken") (closure "deep") (closure "flat"))))
             (entry "m"))"#;
         let program = Arc::new(compile(&parse(text).unwrap(), vec![]).unwrap());
         Inferences {
@@ -414,8 +422,13 @@ mod tests {
     #[test]
     fn what_goes_wrong_inside_is_a_fault_outside() {
         let inferences = inferences(r#"{"method": "importance", "n": 5}"#);
-        let [inner, never, broken, deep] = &models(&inferences)[..] else { panic!("four models") };
+        let [inner, never, broken, deep, flat] = &models(&inferences)[..] else { panic!("five models") };
         let code = |args: &[Value]| inferences.call(0, args, &mut 0).unwrap_err().code;
+        // Only where all of its runs are invalid, the run around it is.
+        let is_invalid = |model: &Value| {
+            inferences.call(0, &[model.clone(), Value::Int(1)], &mut 0).unwrap_err().invalid.is_some()
+        };
+        assert_eq!([flat, never, broken, deep].map(is_invalid), [true, false, false, false]);
         assert_eq!(code(&[never.clone(), Value::Int(1)]), "infer-failed");
         assert_eq!(code(&[broken.clone(), Value::Int(1)]), "division-by-zero");
         assert_eq!(code(&[deep.clone(), Value::Int(1)]), "infer-failed");

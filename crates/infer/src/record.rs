@@ -32,7 +32,7 @@ pub struct Record {
     pub primitives: usize,
     /// What made the run impossible.
     pub cause: Option<String>,
-    /// The fault, where that was a distribution with invalid parameters.
+    /// The fault, where that makes the run invalid.
     pub invalid: Option<Arc<RunFault>>,
 }
 
@@ -97,15 +97,15 @@ impl Record {
         }
     }
 
-    /// Handles a fault of the run. Where the parameters of a distribution are invalid, the run is outside of the model's
-    /// support: its score becomes minus infinity, and it is counted.
+    /// Handles a fault of the run. Where it makes the run invalid, the run is outside of the model's support: its score becomes
+    /// minus infinity, and it is counted.
     ///
     /// # Errors
     /// Any other fault.
     #[cold]
     pub fn forgive(&mut self, task: &Task, met: Box<RunFault>) -> Result<(), Failure> {
-        let Some(site) = task.invalid.count(&met) else { return Err(met.into()) };
-        self.factor(f64::NEG_INFINITY, || site);
+        let Some(place) = task.invalid.count(&met) else { return Err(met.into()) };
+        self.factor(f64::NEG_INFINITY, || place.to_string());
         self.invalid = Some(Arc::new(*met));
         Ok(())
     }

@@ -21,8 +21,8 @@ pub struct Accepted {
 /// runs. `watch` is called with the number of runs after each; when it returns false, the samples so far are returned.
 ///
 /// # Errors
-/// A run that scores above the bound, too many tries, or a fault of the program: also of distributions, where they were
-/// invalid in every run.
+/// A run that scores above the bound, too many tries, or a fault of the program: also of runs that are
+/// all invalid.
 pub fn rejection(
     task: &Task,
     n: usize,

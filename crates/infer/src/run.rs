@@ -32,7 +32,7 @@ pub struct Run {
     pub has_ended: bool,
     /// What made it impossible.
     pub cause: Option<String>,
-    /// The fault, where that was a distribution with invalid parameters.
+    /// The fault, where that makes the run invalid.
     #[serde(skip)]
     pub invalid: Option<Arc<RunFault>>,
     /// Of a chain's state: the number of proposals before it.

@@ -12,6 +12,7 @@ use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Together};
 use niwaki_vm::value::{Closure, Value};
+use std::any::Any;
 use std::sync::Arc;
 
 /// Pure functions of the host, by the number of their constant.
@@ -21,6 +22,12 @@ pub trait Hosts: Send + Sync {
     /// # Errors
     /// The exception of the function, as a fault.
     fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault>;
+
+    /// What a function raised that is no fault of the model, and ends the search whatever became of the run: an exit, say. It is
+    /// given once.
+    fn raised(&self) -> Option<Box<dyn Any + Send>> {
+        None
+    }
 
     /// The inference that a call of this constant is, where it is one.
     fn inference(&self, _: u16) -> Option<&Inner> {
@@ -56,7 +63,7 @@ pub struct Task {
     pub limits: Limits,
     /// The steps that all of its runs may take together: of a search inside of a model.
     pub together: Option<Arc<Together>>,
-    /// Counts the runs of its searches in which a distribution is invalid; clones count together.
+    /// Counts the runs of its searches that are invalid; clones count together.
     pub invalid: Arc<Invalid>,
 }
 

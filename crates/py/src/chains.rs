@@ -70,7 +70,7 @@ impl PyChains {
         let settings = Settings { room, ..settings };
         let known = start.map(PyRun::by_address);
         let checkpoint = checkpoint.map(|own| &own.checkpoint);
-        let (chains, _) = detached(py, &kept.program, threads, None, |_| {
+        let (chains, _) = detached(py, &kept, threads, None, |_| {
             let mut chains = Chains::start_from(&kept, &settings, method.chains, known.as_ref(), checkpoint)?;
             chains.aim_anew(method.steps);
             Ok(chains)
@@ -96,7 +96,7 @@ impl PyChains {
         let checkpoint = checkpoint.map(|own| &own.checkpoint);
         let mut using = self.chains.lock(py)?;
         let chains: &mut Chains = &mut using;
-        let (stopped, pressed) = detached(py, &task.program, threads, caller, |watch| {
+        let (stopped, pressed) = detached(py, task, threads, caller, |watch| {
             if let Some(steps) = steps {
                 chains.aim(steps);
             }
@@ -114,7 +114,7 @@ impl PyChains {
     fn best(&self, py: Python<'_>) -> PyResult<Vec<PyRun>> {
         let (task, using) = (&self.task.get().task, self.chains.lock(py)?);
         let chains: &Chains = &using;
-        let (best, _) = detached(py, &task.program, None, None, |_| {
+        let (best, _) = detached(py, task, None, None, |_| {
             let rungs = chains.chains.iter().filter_map(Ladder::best);
             rungs.map(|rung| rung.best.get(&rung.state, task)).collect::<Result<Vec<_>, _>>()
         })?;
@@ -269,7 +269,7 @@ fn agreement(
     let (_, settings, kept) = settings(py, own, method, seed, &attached)?;
     let settings = Settings { thin: 0, ..settings };
     let ((difference, compared), _) =
-        detached(py, &kept.program, None, None, |_| compare(&kept, &settings, steps, every.max(1)))?;
+        detached(py, &kept, None, None, |_| compare(&kept, &settings, steps, every.max(1)))?;
     Ok((difference, compared.proposals, compared.accepted, compared.faults))
 }
 
@@ -286,7 +286,7 @@ fn explain<'py>(
     tries: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let own = task.get();
-    let (explained, _) = detached(py, &own.task.program, None, None, |_| {
+    let (explained, _) = detached(py, &own.task, None, None, |_| {
         niwaki_infer::chain::explain::explain(&own.task, seed, tries, address)
     })?;
     let number: HashMap<u128, usize> =

@@ -4,9 +4,10 @@
 //! (every particle is, or at barrier 0 every run: barrier, causes, the parts to blame and the populations that were tried), "no-start" (every first state of a chain is: tries
 //! and causes) or "compile" (a defect of the text or a limit of the machine).
 
-use niwaki_infer::Failure;
+use crate::hosts;
 use niwaki_infer::blame::{Blame, Emitted};
 use niwaki_infer::losses::Lost;
+use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::Call;
@@ -20,13 +21,18 @@ pyo3::create_exception!(
     PyRuntimeError,
     "A fault as data.\n\n\
      Attributes: `kind`, `code`, `message`, `subject` (the address or pattern that it is about), `help`, and by kind: `stack` (function, path, (line, column, end line, \
-     end column)), `omitted`, `path`, `invalid` (a distribution's parameters were out of range); `barrier` or `tries`, `causes`; `blame` (constraint, place, other \
+     end column)), `omitted`, `path`, `invalid` (every run was); `barrier` or `tries`, `causes`; `blame` (constraint, place, other \
      place or None, runs), `looked_at`, `attempts` (form, particles, barrier)."
 );
 
 /// The exception for why a search gave no result.
 pub fn raise(py: Python<'_>, failure: &Failure, program: &Program) -> PyErr {
     build(py, failure, program).unwrap_or_else(|other| other)
+}
+
+/// The same, or what a host function raised that ends the search instead.
+pub fn ended(py: Python<'_>, failure: &Failure, task: &Task) -> PyErr {
+    hosts::check(&*task.hosts).err().unwrap_or_else(|| raise(py, failure, &task.program))
 }
 
 fn build(py: Python<'_>, failure: &Failure, program: &Program) -> PyResult<PyErr> {

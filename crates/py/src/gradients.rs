@@ -4,8 +4,7 @@ use crate::faults;
 use crate::shared::Shared;
 use crate::values::Classes;
 use niwaki_grad::{Continuous, Live, Refused, jax};
-use niwaki_infer::Failure;
-use niwaki_vm::code::Program;
+use niwaki_infer::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -49,13 +48,13 @@ impl PyCoordinates {
 #[pyclass(frozen, name = "Density", module = "niwaki._engine")]
 pub struct PyDensity {
     live: Shared<Live>,
-    program: Arc<Program>,
+    task: Task,
     classes: Arc<Classes>,
 }
 
 impl PyDensity {
-    pub fn new(live: Live, program: Arc<Program>, classes: Arc<Classes>) -> PyDensity {
-        PyDensity { live: Shared::new(live), program, classes }
+    pub fn new(live: Live, task: Task, classes: Arc<Classes>) -> PyDensity {
+        PyDensity { live: Shared::new(live), task, classes }
     }
 
     fn with<T>(&self, py: Python<'_>, f: impl FnOnce(&mut Live) -> T) -> PyResult<T> {
@@ -68,7 +67,7 @@ impl PyDensity {
             let fault =
                 Fault::new("bad-setting", format!("`x` has {found}, but there are {dim} coordinates"))
                     .with_help(format!("give an array of shape ({dim},)"));
-            faults::raise(py, &fault.into(), &self.program)
+            faults::setting(py, &fault)
         };
         let point = x.as_slice().map_err(|_| wrong("gaps in memory"))?;
         if point.len() == dim { Ok(point) } else { Err(wrong(&format!("{} elements", point.len()))) }
@@ -128,7 +127,7 @@ impl PyDensity {
         match self.with(py, |live| live.value_and_gradient(point, &mut g))? {
             Ok(value) => Ok(Some((value, PyArray1::from_vec(py, g)))),
             Err(Refused::Structure | Refused::Rounding) => Ok(None),
-            Err(Refused::Fault(fault)) => Err(faults::raise(py, &Failure::Run(fault), &self.program)),
+            Err(Refused::Fault(fault)) => Err(faults::ended(py, &Failure::Run(fault), &self.task)),
         }
     }
 

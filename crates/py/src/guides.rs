@@ -99,7 +99,7 @@ impl PyLessons {
     fn losses(&self, py: Python<'_>, task: &PyTask, guide: &PyGuide) -> PyResult<Vec<(usize, f64)>> {
         let using = self.examples.lock(py)?;
         let examples: &[Example] = &using;
-        let (found, _) = detached(py, &task.task.program, None, None, |_| losses(examples, &guide.guide))?;
+        let (found, _) = detached(py, &task.task, None, None, |_| losses(examples, &guide.guide))?;
         Ok(found)
     }
 
@@ -123,7 +123,7 @@ impl PyLessons {
         let using = self.examples.lock(py)?;
         let examples: &[Example] = &using;
         let checkpoint = checkpoint.map(|own| &own.checkpoint);
-        let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+        let (result, pressed) = detached(py, &task.task, threads, caller, |watch| {
             let mut seen = |now: Progress| {
                 watch.look(now.step, usize::try_from(now.steps).unwrap_or(usize::MAX), -now.held_out)
             };
@@ -162,7 +162,7 @@ fn raise_bound<'py>(
     let task = first.get();
     let classes = &task.model.get().classes;
     let caller = watch.as_ref().map(|call| (call, classes));
-    let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+    let (result, pressed) = detached(py, &task.task, threads, caller, |watch| {
         let mut seen = |now: Progress| {
             watch.look(now.step, usize::try_from(now.steps).unwrap_or(usize::MAX), -now.held_out)
         };
@@ -196,7 +196,7 @@ fn rehearse<'py>(
     let classes = &task.model.get().classes;
     let caller = watch.as_ref().map(|call| (call, classes));
     let own = guide.guide.clone();
-    let (result, pressed) = detached(py, &task.task.program, threads, caller, |watch| {
+    let (result, pressed) = detached(py, &task.task, threads, caller, |watch| {
         rehearsed(&cases, &own, &plan, &mut |done, wanted| watch.look(done as u64, wanted, 0.0))
     })?;
     let told = PyDict::new(py);

@@ -3,7 +3,7 @@
 //! One file for each part; this file only registers them.
 //!
 //! * `values`: Python's objects to the machine's values, and back; `faults`: faults as data;
-//! * `model`: compiled models; `search`: algorithms; `chains`: Markov chains;
+//! * `model`: compiled models; `hosts`: the Python that they call; `search`: algorithms; `chains`: Markov chains;
 //!   `runs`: finished runs; `gradients`: log densities with their gradients; `positions`: where shapes are, with theirs;
 //!   `trajectories`: chains that follow them; `normals`: normals near a distribution;
 //!   `networks`: networks of guides, for a comparison with other software;
@@ -21,6 +21,7 @@ mod faults;
 mod geometry;
 mod gradients;
 mod guides;
+mod hosts;
 mod machine;
 mod model;
 mod networks;

@@ -1,7 +1,7 @@
 //! A compiled model for Python: from the text of its core form and the objects that come with it.
 
 use crate::faults;
-use crate::search::end_if_forked;
+use crate::hosts::PyHosts;
 use crate::values::Classes;
 use niwaki_grad::Var;
 use niwaki_infer::nested::{Inferences, Inner};
@@ -14,46 +14,11 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::passes::{Kept, compile, compile_keeping};
 use niwaki_vm::value::Value;
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use pyo3::types::{PyTuple, PyType};
+use pyo3::types::PyType;
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
-
-/// Python callables by the number of the constant that names them. Calling one takes the interpreter's lock.
-struct PyHosts {
-    callables: Vec<Option<Py<PyAny>>>,
-    classes: Arc<Classes>,
-}
-
-impl Hosts for PyHosts {
-    fn call(&self, constant: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
-        let Some(Some(callable)) = self.callables.get(constant as usize) else {
-            return Err(Fault::new("host-function", format!("constant {constant} is not a function")));
-        };
-        let process = std::process::id();
-        Python::attach(|py| {
-            let args: Vec<_> = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<_>>()?;
-            let given = callable.bind(py).call1(PyTuple::new(py, args)?);
-            end_if_forked(process, "the host function");
-            self.classes.value(&given?)
-        })
-        .map_err(|error| Python::attach(|py| failed(py, callable, &error)))
-    }
-}
-
-fn failed(py: Python<'_>, callable: &Py<PyAny>, error: &PyErr) -> Fault {
-    let name = callable.bind(py).getattr("__name__").map_or_else(|_| "it".into(), |name| name.to_string());
-    let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
-    let said = format!("the host function `{name}` failed: {kind}: {}", error.value(py));
-    if error.is_instance_of::<PyKeyboardInterrupt>(py) {
-        // Ctrl-C came while the function ran on the thread of the caller, to whom it goes on. Nothing of Python runs here
-        // after this, which would get it.
-        let _ = py.import("_thread").and_then(|threads| threads.call_method0("interrupt_main"));
-    }
-    Fault::new("host-function", said)
-}
 
 /// A compiled model; never changes, and serves any number of searches at once.
 #[pyclass(frozen, name = "Program", module = "niwaki._engine")]
@@ -144,12 +109,12 @@ impl PyProgram {
                 methods.insert(number, inner.map_err(|fault| faults::uncompiled(py, fault.message.clone()))?);
             }
             data.push(value);
-            callables.push(is_host.then(|| constant.unbind()));
+            callables.push(is_host.then_some(constant));
         }
         let program = compile(&module, data.clone()).map_err(|e| faults::uncompiled(py, e.to_string()))?;
         Ok(PyProgram {
             program: Arc::new(program),
-            hosts: Arc::new(PyHosts { callables, classes: classes.clone() }),
+            hosts: Arc::new(PyHosts::new(callables, classes.clone())?),
             methods: Arc::new(methods),
             classes,
             seconds: start.elapsed().as_secs_f64(),

@@ -46,7 +46,7 @@ impl PyNormals {
         let plan = (method.normals(seed, known.as_ref()))
             .ok_or_else(|| PyTypeError::new_err("this method finds no normals"))?;
         let caller = watch.as_ref().map(|callable| (callable, &own.model.get().classes));
-        let (normals, pressed) = detached(py, &own.task.program, threads, caller, |watch| {
+        let (normals, pressed) = detached(py, &own.task, threads, caller, |watch| {
             approximate(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
         })?;
         let interrupted = pressed || normals.iter().any(|normal| normal.interrupted);
@@ -100,7 +100,7 @@ impl PyNormals {
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
         let (own, normal) = (self.task.get(), self.normal(chain)?);
         let scores = Pool::inside(py, || normal.scores(&own.task))?;
-        let scores = scores.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
+        let scores = scores.map_err(|failure| faults::ended(py, &failure, &own.task))?;
         let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }

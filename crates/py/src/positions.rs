@@ -3,6 +3,7 @@
 use crate::faults;
 use crate::model::PyProgram;
 use niwaki_grad::Positions;
+use niwaki_infer::Task;
 use niwaki_infer::gradient::positions::{Lifted, Placer};
 use niwaki_vm::value::Value;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -15,12 +16,13 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 pub struct PyPlacer {
     placer: Placer,
     choices: HashMap<u128, Value>,
+    task: Task,
     model: Py<PyProgram>,
 }
 
 impl PyPlacer {
-    pub fn new(placer: Placer, choices: HashMap<u128, Value>, model: Py<PyProgram>) -> PyPlacer {
-        PyPlacer { placer, choices, model }
+    pub fn new(placer: Placer, choices: HashMap<u128, Value>, task: Task, model: Py<PyProgram>) -> PyPlacer {
+        PyPlacer { placer, choices, task, model }
     }
 }
 
@@ -48,7 +50,7 @@ impl PyPlacer {
         };
         // A host function takes the interpreter's lock.
         let found = py.detach(|| self.placer.positions(&choices, &free, &lifted));
-        let positions = found.map_err(|failure| faults::raise(py, &failure, &model.program))?;
+        let positions = found.map_err(|failure| faults::ended(py, &failure, &self.task))?;
         Ok(PyPositions { positions })
     }
 }

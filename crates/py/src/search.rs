@@ -9,6 +9,7 @@ use crate::faults;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::guides::PyGuide;
+use crate::hosts;
 use crate::model::PyProgram;
 use crate::positions::PyPlacer;
 use crate::runs::{PyRun, PyTrace};
@@ -17,7 +18,7 @@ use crate::values::Classes;
 use niwaki_infer::chain::counts::Count;
 use niwaki_infer::chain::form::Attached;
 use niwaki_infer::chain::glob;
-use niwaki_infer::chain::regrow::{Afresh, afresh};
+use niwaki_infer::chain::regrow::{Afresh, afresh, is_apart};
 use niwaki_infer::chain::user::User;
 use niwaki_infer::gradient::live;
 use niwaki_infer::gradient::positions::Placer;
@@ -33,15 +34,15 @@ use niwaki_infer::replay::{Missing, Source, Trace, replay};
 use niwaki_infer::run::Shown;
 use niwaki_infer::{Failure, Task};
 use niwaki_math::log_sums::log_sum_exp;
-use niwaki_vm::code::Program;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::invalid::{self, Count as InvalidCount};
 use niwaki_vm::machine::{Limits, Together};
 use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -108,7 +109,7 @@ fn check_left() -> PyResult<()> {
 /// A callback that forks may not come back in the child, where the search does not go on: the child then ends.
 pub(crate) fn detached<T: Send>(
     py: Python<'_>,
-    program: &Program,
+    task: &Task,
     threads: Option<usize>,
     caller: Option<Caller<'_>>,
     work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
@@ -125,7 +126,9 @@ pub(crate) fn detached<T: Send>(
         pool.beside(working, move || {
             while let Err(RecvTimeoutError::Timeout) = wait.recv_timeout(PAUSE) {
                 if raised.is_none()
-                    && let Err(error) = watch.tell(caller).and_then(|()| check_left())
+                    && let Err(error) = (hosts::check(&*task.hosts))
+                        .and_then(|()| watch.tell(caller))
+                        .and_then(|()| check_left())
                 {
                     *raised = Some(error);
                     watch.stop.store(true, Ordering::Relaxed);
@@ -136,6 +139,9 @@ pub(crate) fn detached<T: Send>(
     });
     pool.give_back(py);
     let done = done.ok_or_else(|| PyRuntimeError::new_err("the search ended without a result"))?;
+    if raised.is_none() {
+        raised = hosts::check(&*task.hosts).err();
+    }
     // The callback gets the final progress, however short the search was.
     if raised.is_none() && done.is_ok() {
         raised = watch.tell(caller).err();
@@ -144,7 +150,9 @@ pub(crate) fn detached<T: Send>(
     match raised {
         // Stopped by Ctrl-C: the results so far are returned.
         Some(error) if done.is_err() || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
-        _ => done.map(|result| (result, pressed)).map_err(|failure| faults::raise(py, &failure, program)),
+        _ => {
+            done.map(|result| (result, pressed)).map_err(|failure| faults::raise(py, &failure, &task.program))
+        }
     }
 }
 
@@ -200,20 +208,34 @@ impl PyTask {
         PyTask { task: self.task.uncounted(), model: self.model.clone_ref(py) }
     }
 
-    /// Runs of its searches in which a distribution was invalid, by the distribution and its line.
-    fn invalid(&self) -> BTreeMap<String, u64> {
-        self.task.invalid.counts().into_iter().collect()
+    /// Invalid runs of its searches by place: what is called, file, line, how many, and of one of them the call and why it
+    /// has no result.
+    fn invalid(&self) -> Vec<(String, String, u32, u64, String, String)> {
+        let of = |(place, count): (invalid::Place, InvalidCount)| {
+            let file = self.task.program.files.get(place.file as usize).cloned().unwrap_or_default();
+            (place.name, file, place.line, count.runs, count.call, count.reason)
+        };
+        self.task.invalid.counts().into_iter().map(of).collect()
     }
 
     /// An observation that has a probability in some runs and a density in others, if a few runs from the prior have one: path
     /// and line of each.
-    fn mixed(&self, py: Python<'_>, seed: u64) -> Option<[(String, u32); 2]> {
+    fn mixed(&self, py: Python<'_>, seed: u64) -> PyResult<Option<[(String, u32); 2]>> {
         let task = &self.task;
-        let found = py.detach(|| mixed(task, seed))?;
+        let found = py.detach(|| mixed(task, seed));
+        hosts::check(&*task.hosts)?;
+        let Some(found) = found else { return Ok(None) };
         let place = |(file, span): Place| {
             (task.program.files.get(file as usize).cloned().unwrap_or_default(), span.line)
         };
-        Some([place(found.probability), place(found.density)])
+        Ok(Some([place(found.probability), place(found.density)]))
+    }
+
+    /// Whether chains that grow only the activations of choices again cannot reach all runs, as a few from the prior show.
+    fn is_apart(&self, py: Python<'_>, seed: u64) -> PyResult<bool> {
+        let found = py.detach(|| is_apart(&self.task, seed));
+        hosts::check(&*self.task.hosts)?;
+        Ok(found)
     }
 
     /// Searches by a method, given as its text: the finished runs, whether the search was interrupted, and a dict of
@@ -244,7 +266,7 @@ impl PyTask {
         let (result, pressed) = if let Method::Forward { n: 1 } = method {
             (self.at_once(py, || find(&Shown::default(), &mut |_, _, _| true))?, false)
         } else {
-            detached(py, &task.program, threads, watch.as_ref().map(|call| (call, &classes)), |watch| {
+            detached(py, &task, threads, watch.as_ref().map(|call| (call, &classes)), |watch| {
                 find(&watch.shown, &mut |done, ended, best| watch.look(done, ended, best))
             })?
         };
@@ -287,7 +309,7 @@ impl PyTask {
     ) -> PyResult<Vec<PyRun>> {
         let (task, known) = (&self.task, run.by_address());
         let with = Afresh { part, particles, power, seed };
-        let (runs, pressed) = detached(py, &task.program, threads, None, |_| afresh(task, &known, &with))?;
+        let (runs, pressed) = detached(py, task, threads, None, |_| afresh(task, &known, &with))?;
         if pressed {
             return Err(PyKeyboardInterrupt::new_err(()));
         }
@@ -298,14 +320,13 @@ impl PyTask {
     /// The log density around a run.
     fn density(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyDensity> {
         let live = self.at_once(py, || live(&self.task, &run.by_address()))?;
-        Ok(PyDensity::new(live, self.task.program.clone(), self.model.get().classes.clone()))
+        Ok(PyDensity::new(live, self.task.clone(), self.model.get().classes.clone()))
     }
 
     /// What places the shapes of runs with the choices of this one, some of them moved.
     fn placer(&self, py: Python<'_>, run: &PyRun) -> PyResult<PyPlacer> {
-        let placer =
-            Placer::new(&self.task).map_err(|failure| faults::raise(py, &failure, &self.task.program))?;
-        Ok(PyPlacer::new(placer, run.by_address(), self.model.clone_ref(py)))
+        let placer = Placer::new(&self.task).map_err(|failure| faults::ended(py, &failure, &self.task))?;
+        Ok(PyPlacer::new(placer, run.by_address(), self.task.clone(), self.model.clone_ref(py)))
     }
 
     /// Replays a run with its choices; a run that had not ended is replayed as far as its choices go. The scene is not scored
@@ -370,10 +391,7 @@ impl PyTask {
         work: impl FnOnce() -> Result<T, Failure> + Send,
     ) -> PyResult<T> {
         let done = if self.model.get().has_inferences() { Pool::inside(py, work)? } else { py.detach(work) };
-        done.map_err(|failure| {
-            // Ctrl-C in a host function is no fault of the model.
-            py.check_signals().err().unwrap_or_else(|| faults::raise(py, &failure, &self.task.program))
-        })
+        done.map_err(|failure| faults::ended(py, &failure, &self.task))
     }
 
     /// The method of a text.

@@ -8,6 +8,7 @@
 //! A search borrows a pool for as long as it runs. So searches side by side, and a search that a host function of another
 //! one calls, never wait for each other's threads.
 
+use crate::hosts::lend;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -82,7 +83,7 @@ impl Pool {
 
     /// Runs `work` on a thread of this pool, where its parallel parts find the others, and waits for it.
     pub fn run<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        apart(|| self.threads.install(work))
+        lend(|| apart(|| self.threads.install(work)))
     }
 
     /// Starts `work` on a thread of this pool, and runs `meanwhile` beside it; gives the result of `work`, once both have
@@ -94,12 +95,13 @@ impl Pool {
     ) -> Option<T> {
         let mut done = None;
         let place = &mut done;
-        apart(|| {
+        let both = || {
             self.threads.in_place_scope(|scope| {
                 scope.spawn(move |_| *place = Some(work()));
                 meanwhile();
             });
-        });
+        };
+        lend(|| apart(both));
         done
     }
 

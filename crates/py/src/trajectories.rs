@@ -46,7 +46,7 @@ impl PyTrajectories {
         let known = start.map(PyRun::by_address);
         let plan = Plan { settings: &settings, seed, chains, tries, known: known.as_ref() };
         let caller = watch.as_ref().map(|callable| (callable, &own.model.get().classes));
-        let (chains, pressed) = detached(py, &own.task.program, threads, caller, |watch| {
+        let (chains, pressed) = detached(py, &own.task, threads, caller, |watch| {
             explore(&own.task, &plan, &|done| watch.look(done, 0, f64::NEG_INFINITY))
         })?;
         let interrupted = pressed || chains.iter().any(|chain| chain.draws.interrupted);
@@ -101,7 +101,7 @@ impl PyTrajectories {
     fn scores<'py>(&self, py: Python<'py>, chain: usize) -> PyResult<(Reals<'py>, Reals<'py>)> {
         let (own, chain) = (self.task.get(), self.chain(chain)?);
         let scores = Pool::inside(py, || chain.scores(&own.task))?;
-        let scores = scores.map_err(|failure| faults::raise(py, &failure, &own.task.program))?;
+        let scores = scores.map_err(|failure| faults::ended(py, &failure, &own.task))?;
         let (prior, score): (Vec<f64>, Vec<f64>) = scores.into_iter().unzip();
         Ok((PyArray1::from_vec(py, prior), PyArray1::from_vec(py, score)))
     }

@@ -7,7 +7,8 @@
 //! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
 //! instruction returns one.
 
-use niwaki_math::Family;
+use crate::value::print::call_text;
+use crate::value::{Scalar, Value};
 use std::fmt;
 use std::ops::Deref;
 
@@ -26,9 +27,18 @@ pub struct Details {
     pub subject: Option<String>,
     /// What to do instead, where that is known.
     pub help: Option<String>,
-    /// The family of a distribution whose parameters are numbers out of its range: a run with one is outside of
-    /// the model's support.
-    pub out_of_range: Option<Family>,
+    /// The call that has no result for its arguments, where that makes the run *invalid*: see
+    /// [`crate::machine::invalid`].
+    pub invalid: Option<InvalidCall>,
+}
+
+/// A call of a distribution, a shape or a host function that has no result for its arguments, although they are of the right kinds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InvalidCall {
+    /// The name of the distribution's family, of the shape or of the function.
+    pub name: String,
+    /// The call as text, its arguments shortened where they are long.
+    pub text: String,
 }
 
 impl Deref for Fault {
@@ -114,13 +124,7 @@ impl Fault {
     /// A fault of any kind.
     #[cold]
     pub fn new(code: &'static str, message: impl Into<String>) -> Fault {
-        Fault(Box::new(Details {
-            code,
-            message: message.into(),
-            subject: None,
-            help: None,
-            out_of_range: None,
-        }))
+        Fault(Box::new(Details { code, message: message.into(), subject: None, help: None, invalid: None }))
     }
 
     /// An operation without a derivative, of a number that varies with the continuous choices.
@@ -135,10 +139,17 @@ impl Fault {
         )
     }
 
-    /// The same fault of a distribution whose parameters are of the right kinds and shapes, but out of range.
+    /// The same fault, as that of a call whose arguments are of the right kinds, but have no result: the run is invalid.
     #[cold]
-    pub fn of_range(mut self, family: Family) -> Fault {
-        self.0.out_of_range = Some(family);
+    pub fn of_call<S: Scalar>(mut self, name: &str, args: &[Value<S>]) -> Fault {
+        self.0.invalid = Some(InvalidCall { name: name.to_string(), text: call_text(name, args) });
+        self
+    }
+
+    /// The same fault, making the run invalid as another one does, which is its cause.
+    #[cold]
+    pub fn caused_by(mut self, cause: &Fault) -> Fault {
+        self.0.invalid.clone_from(&cause.invalid);
         self
     }
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import PurePath
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -20,6 +21,7 @@ from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
 from niwaki.result import Result, Sample
 from niwaki.result.info import EnumerationInfo, ImproveInfo, Info, restored_info, stored_info
+from niwaki.result.invalid import Invalid
 from niwaki.search import Search
 from niwaki.search.data import MALFORMED, Reader, Writer
 
@@ -38,7 +40,7 @@ class Body(Struct):
     info
         The method's statistics.
     invalid
-        As `Result.invalid`.
+        As `Result.invalid`, without what may differ on another machine: folders of files, texts of exceptions.
     fault, message
         The code and the first line of the error of a search that failed.
     """
@@ -47,7 +49,7 @@ class Body(Struct):
     sizes: list[Annotated[int, Meta(ge=0)]] = []
     best: str | None = None
     info: dict[str, Any] | None = None
-    invalid: dict[str, Annotated[int, Meta(ge=0)]] = {}
+    invalid: list[tuple[str, str, int, Annotated[int, Meta(ge=0)], str]] = []
     fault: str | None = None
     message: str = ""
 
@@ -62,7 +64,9 @@ def body_of(result: Result) -> bytes:
             "sizes": result.sizes,
             "best": None if best in samples else best,
             "info": _info(result.info),
-            "invalid": result.invalid,
+            "invalid": [
+                (one.name, PurePath(one.file).name, one.line, one.runs, one.call) for one in result.invalid
+            ],
         }
     )
 
@@ -150,7 +154,7 @@ class Outcome:
             self.seed,
             info=self._statistics(body.info),
             sizes=body.sizes,
-            invalid=body.invalid,
+            invalid=[Invalid(*one, reason="") for one in body.invalid],
         )
 
     @property

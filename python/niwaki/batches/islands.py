@@ -7,7 +7,6 @@ by itself, and a batch does it. What comes back is combined as the engine combin
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
@@ -24,6 +23,7 @@ from niwaki.errors.settings import bad
 from niwaki.methods import Smc
 from niwaki.result import Result, Sample
 from niwaki.result.info import Count, Losses, PopulationInfo
+from niwaki.result.invalid import merged
 from niwaki.search import Search
 from niwaki.search.searching import Clock, carried_out, different
 
@@ -93,9 +93,7 @@ def _populations(
     lived = {number: one for number, one in sorted(found.items()) if one.fault is None}
     if not lived:
         found[0].search.run(threads=1)
-    invalid: Counter[str] = Counter()
-    for outcome in lived.values():
-        invalid.update(outcome.result.invalid)
+    invalid = merged(*(outcome.result.invalid for outcome in lived.values()))
     runs, info = _united(search, method, lived)
     if method.diverse is not None:
         runs = different(runs, method.diverse, info)
@@ -105,7 +103,7 @@ def _populations(
         [Sample(run, search, seed, *seconds) for run in runs],
         seed,
         info=info,
-        invalid=dict(sorted(invalid.items())),
+        invalid=invalid,
         seconds=seconds,
     )
 

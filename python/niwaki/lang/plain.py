@@ -117,6 +117,8 @@ def run(
     except NiwakiError:
         raise
     except Exception as error:
+        if isinstance(error, MemoryError) and failed_host(error) is not None:
+            raise
         raise state.fault(error) from error
     finally:
         current.reset(token)

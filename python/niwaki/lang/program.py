@@ -162,7 +162,7 @@ class Program:
 
     def host(self, host: Host[Any, Any]) -> str:
         """K of `(host K ...)`, as an atom."""
-        return str(self.number(host.function))
+        return str(self.number(host))
 
     def check_record(self, record: type, used_at: Span) -> None:
         """Refuse record classes that can change or that run code when they are made."""

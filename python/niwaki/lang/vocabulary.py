@@ -183,7 +183,7 @@ CHANGERS: dict[str, str] = {
     "insert": "{target} = {target}[:i] + [value] + {target}[i:]",
     "pop": "{target} = {target}[:-1]",
     "remove": "{target} = [x for x in {target} if x != {argument}]",
-    "clear": "{target} = []",
+    "clear": "`{target} = []`, or `{target} = {{}}` for a dict",
     "sort": "{target} = sorted({target})",
     "reverse": "{target} = {target}[::-1]",
     "update": "a dict with all its keys, `{{...}}`",
@@ -246,16 +246,16 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
 
 
 def shape_help(message: str) -> str | None:
-    """What the points and sizes of a shape are, where a message says that one of them is no vector."""
-    found = re.match(r"`(\w+)` takes (a vector|vectors)\b", message)
-    word = next((one for one in SHAPES if found is not None and one.__name__ == found[1]), None)
-    if word is None:
+    """What a point, a size or a colour of a shape is, where a message says that it is no vector."""
+    found = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
+    if found is None or found[2] not in {word.__name__ for word in SHAPES}:
         return None
-    parameters = inspect.signature(word).parameters
-    names = [name for name, one in parameters.items() if str(one.annotation).startswith("VecLike")]
-    listed = " and ".join(f"`{name}`" for name in names)
-    are = "is a tuple" if len(names) == 1 else "are tuples"
-    return f"{listed} of `{word.__name__}` {are} of three numbers, such as `(0, 1, 0)`"
+    if found[1] == "color":
+        return (
+            "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`; "
+            "`hsv` and `lab` make such colors"
+        )
+    return f"`{found[1]}` of `{found[2]}` is a tuple of three numbers, such as `(0, 1, 0)`"
 
 
 def plain_default(value: Any) -> bool:

@@ -231,7 +231,8 @@ def regrow(
         where there was none, a segment more, [0, 1].
     pick
         Which part: `"size"` draws the logarithm of its size evenly, so small and large parts have their turn, and
-        `"choice"` takes the call of a choice that is drawn evenly.
+        `"choice"` takes the call of a choice that is drawn evenly. With `"choice"` alone a chain keeps which calls make
+        choices where that depends on other calls; a search then warns.
     parts
         Patterns over the addresses of calls and iterations, such as `"wing[1]"`: one of those that match is grown
         again, drawn evenly, instead of `pick`.

@@ -3,6 +3,7 @@
 result       `Result`, a sequence of samples
 sample       `Sample`, one run
 info         the statistics of each method
+invalid      runs that were invalid, by place
 chains       statistics of Markov chains, and how chains continue
 drawn        draws that are kept as numbers
 hmc          statistics of chains that follow a gradient

@@ -1,4 +1,5 @@
 from . import diagnostics as diagnostics
+from .invalid import Invalid as Invalid
 from .progress import Progress as Progress
 from .progress import Watch as Watch
 from .result import Result as Result

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import accumulate, pairwise
@@ -29,6 +29,7 @@ from niwaki.result.chains import MhInfo
 from niwaki.result.drawn import DrawnInfo, together
 from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import EnumerationInfo, Info
+from niwaki.result.invalid import Invalid
 from niwaki.result.normals import ViInfo
 from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
@@ -62,10 +63,8 @@ class Result(Sequence[Sample]):
         Whether it was stopped before its end.
     seconds, cpu_seconds : float
         Wall and processor time of the search alone.
-    invalid : dict of str to int
-        How many runs, proposals and points of trajectories were outside of the model's support because the numbers
-        given to a distribution were out of its range: by that distribution and its line, such as
-        "`uniform` at line 12". A run counts where it met the first of them.
+    invalid : tuple of Invalid
+        Runs, proposals and points of trajectories that were invalid, by place: how many, and the call of one of them.
     """
 
     def __init__(
@@ -78,14 +77,14 @@ class Result(Sequence[Sample]):
         info: Info = Info(),  # noqa: B008
         sizes: Sequence[int] | None = None,
         interrupted: bool = False,
-        invalid: Mapping[str, int] | None = None,
+        invalid: Iterable[Invalid] = (),
         seconds: tuple[float, float] | None = None,
     ) -> None:
         self.search, self.samples, self.seed, self.info = search, samples, seed, info
         self.method: Method = method or search.method
         self.sizes = [len(samples)] if sizes is None else list(sizes)
         self.interrupted = interrupted
-        self.invalid: dict[str, int] = dict(invalid or {})
+        self.invalid: tuple[Invalid, ...] = tuple(invalid)
         if seconds is None:
             seconds = sum(one.seconds for one in samples), sum(one.cpu_seconds for one in samples)
         self.seconds, self.cpu_seconds = seconds
@@ -123,7 +122,10 @@ class Result(Sequence[Sample]):
 
     @property
     def log_evidence(self) -> float | None:
-        """Log of the model's total probability, nats, where the method gives it."""
+        """Log of the model's total probability, nats, where the method gives it.
+
+        Invalid runs are among the runs that it is the mean of, as zeros: `invalid` says how many there were.
+        """
         return self.info.log_evidence
 
     def __len__(self) -> int:
@@ -256,7 +258,7 @@ class Result(Sequence[Sample]):
             self.info = replace(self.info, visits=visits, seconds=(self.seconds, self.cpu_seconds))
             self.samples = self.info.samples_of(run for runs in by_chain for run in runs)
             self.sizes = [len(runs) for runs in by_chain]
-            self.invalid = counted.invalid()
+            self.invalid = tuple(Invalid(*one) for one in counted.invalid())
         self.info.warn()
         return self
 
@@ -424,12 +426,15 @@ class Result(Sequence[Sample]):
         ):
             png = draw.picture.png(self.sheet(most=6, size=(240, 180), samples=1))
         rows |= {"log evidence": self.log_evidence, "seed": self.seed, "seconds": f"{self.seconds:.2f}"}
-        rows |= {"invalid": sum(self.invalid.values()) or None, "interrupted": self.interrupted or None}
+        rows |= {
+            "invalid": sum(one.runs for one in self.invalid) or None,
+            "interrupted": self.interrupted or None,
+        }
         return draw.card.card(f"Result of {self.model.name}", rows, png)
 
     def _outside(self) -> list[str]:
-        """The part of the summary about runs in which a distribution was invalid."""
-        return [f"{sum(self.invalid.values())} invalid"] if self.invalid else []
+        """The part of the summary about invalid runs."""
+        return [f"{sum(one.runs for one in self.invalid)} invalid"] if self.invalid else []
 
     def __repr__(self) -> str:
         parts = [f"{len(self)} sample{'' if len(self) == 1 else 's'}"]
@@ -446,7 +451,10 @@ class Result(Sequence[Sample]):
             if self.best.fit is not None:
                 parts.append(str(self.best.fit))
         if self.log_evidence is not None:
-            parts.append(f"log evidence {self.log_evidence:.4g}")
+            parts.append(
+                f"log evidence {self.log_evidence:.4g}"
+                + (" with invalid runs as zero" if self.invalid else "")
+            )
         if isinstance(self.info, MhInfo | HmcInfo):
             count = len(self.sizes)
             parts.insert(0, f"{count} chain{'' if count == 1 else 's'}")

@@ -273,7 +273,7 @@ class Reader:
             for part in name.split("."):
                 found = getattr(found, part, None)
             if isinstance(found, Host) and source_hash(inspect.unwrap(found.function)) == reference["sha256"]:
-                return found.function
+                return found
         reason = "it is no host function there, or another than it was"
         raise InputError("untrusted-function", name=f"{module}.{name}", reason=reason)
 

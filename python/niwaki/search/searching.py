@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import astuple, replace
 from math import exp
 from typing import TYPE_CHECKING, Any
 
@@ -34,12 +33,13 @@ from niwaki.result.info import (
     stored_info,
     without_evidence,
 )
+from niwaki.result.invalid import Invalid, merged
 from niwaki.result.normals import ViInfo
 from niwaki.result.progress import EngineWatch, Watch, watcher
 from niwaki.search.checkpoint import Checkpoint, understood
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeping import Keeper, Stage
-from niwaki.search.worth import SearchWarning, check_kinds, check_worth
+from niwaki.search.worth import SearchWarning, check_kinds, check_reach, check_worth
 
 if TYPE_CHECKING:
     from niwaki.search.request import Search
@@ -57,7 +57,7 @@ class Left(Struct):
 
     samples: list[tuple[str, float, float]]
     info: dict[str, Any] | None
-    invalid: dict[str, int]
+    invalid: list[tuple[str, str, int, int, str, str]]
     seconds: tuple[float, float]
 
 
@@ -90,6 +90,9 @@ def carried_out(
         _check_guide(search, guide)
     if not isinstance(search.method, Forward):
         check_kinds(search.task, search.seed)
+    for method in (search.method, search.polish):
+        if isinstance(method, Mh):
+            check_reach(search.task, method.kernel, search.seed)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
         result = once(search, search.seed, threads, watcher(progress, search), _stage(keeper, "0/search"))
         if guides:
@@ -99,7 +102,7 @@ def carried_out(
         return result
     found: list[Sample] = []
     failed: list[InputError | ModelFault] = []
-    invalid: Counter[str] = Counter()
+    invalid: tuple[Invalid, ...] = ()
     spent, interrupted = 0.0, False
     info = Info()
     for number in range(search.runs):
@@ -126,7 +129,7 @@ def carried_out(
         if not isinstance(one.info, MhInfo | DrawnInfo):
             info = without_evidence(one.info)
         interrupted = one.interrupted
-        invalid.update(one.invalid)
+        invalid = merged(invalid, one.invalid)
         if interrupted and found and not any(sample.has_ended for sample in one):
             spent += one.seconds
             break
@@ -136,8 +139,8 @@ def carried_out(
                 _leave(keeper, f"{number}/begun", one, [one.best])
             stage = _stage(keeper, f"{number}/polish")
             one = polished(begun, search.polish, one.seed, threads, watch, stage)
-            invalid.update(one.invalid)
-            one.invalid = dict(Counter(begun.invalid) + Counter(one.invalid))
+            invalid = merged(invalid, one.invalid)
+            one.invalid = merged(begun.invalid, one.invalid)
             interrupted = one.interrupted
         spent += one.seconds
         is_diverse = getattr(search.method, "diverse", None) is not None
@@ -181,7 +184,7 @@ def _leave(
         {
             "samples": [(one._run.data(), one.seconds, one.cpu_seconds) for one in samples],
             "info": stored_info(result.info if info is None else info),
-            "invalid": result.invalid,
+            "invalid": [astuple(one) for one in result.invalid],
             "seconds": (result.seconds, result.cpu_seconds),
         },
     )
@@ -202,7 +205,8 @@ def _left(keeper: Keeper | None, name: str, search: Search, seed: int) -> Result
             # Whether it is a run of this model.
             _ = one.choices
         info = restored_info(left.info)
-    return Result(search, runs, seed, info=info, invalid=left.invalid, seconds=left.seconds)
+        invalid = [Invalid(*one) for one in left.invalid]
+    return Result(search, runs, seed, info=info, invalid=invalid, seconds=left.seconds)
 
 
 def _lost(error: InputError | ModelFault) -> str:
@@ -302,7 +306,7 @@ def searched(
         stage.collect()
         seconds = seconds[0] + stage.before[0], seconds[1] + stage.before[1]
     samples = [Sample(run, search, seed, *seconds) for run in runs]
-    invalid = counted.invalid()
+    invalid = [Invalid(*one) for one in counted.invalid()]
     return Result(search, samples, seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds)
 
 
@@ -422,7 +426,7 @@ def _drawn(counted: _engine.Task, info: DrawnInfo, interrupted: bool, clock: Clo
         info=info,
         sizes=info.sizes,
         interrupted=interrupted,
-        invalid=counted.invalid(),
+        invalid=[Invalid(*one) for one in counted.invalid()],
         seconds=seconds,
     )
 

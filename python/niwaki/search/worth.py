@@ -9,6 +9,7 @@ import numpy as np
 
 from niwaki import _engine
 from niwaki.draw.scene import Scene
+from niwaki.methods.kernels import Kernel
 from niwaki.result import Sample
 from niwaki.targets.sketches import Score
 from niwaki.targets.target import Target
@@ -46,6 +47,24 @@ def check_kinds(task: _engine.Task, seed: int) -> None:
         SearchWarning,
         stacklevel=6,
     )
+
+
+def check_reach(task: _engine.Task, kernel: Kernel | None, seed: int) -> None:
+    """Warn where a kernel alone cannot lead a chain to every run: results would depend on where the chain starts."""
+    leaves = [] if kernel is None else [leaf.first("regrow") for leaf in kernel.leaves()]
+    if not leaves or not all(_grows_choices(leaf) for leaf in leaves) or not task.is_apart(seed):
+        return
+    warnings.warn(
+        '`kernels.regrow(pick="choice")` alone does not reach all runs of this model: which parts there are depends on '
+        'choices in other parts, and a chain keeps those of its first run. Use `pick="size"`, or add a kernel such as '
+        "`kernels.prior()` by `kernels.cycle`",
+        SearchWarning,
+        stacklevel=6,
+    )
+
+
+def _grows_choices(leaf: Kernel | None) -> bool:
+    return leaf is not None and leaf.settings.get("pick") == "choice"
 
 
 def _gain(task: _engine.Task, best: Sample) -> str:

@@ -8,6 +8,7 @@ import os
 import re
 import signal
 import threading
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ import pytest
 from niwaki import _engine
 from niwaki import kernels as k
 from niwaki.lang import compiled
+from niwaki.search import SearchWarning
 from niwaki.shell.main import app
 from niwaki.words import Gaussian
 from typer.testing import CliRunner
@@ -309,3 +311,52 @@ def test_every_kernel_of_the_engine_has_a_function_a_text_and_a_row_in_the_manua
     for name in named - {"by_family"}:  # which is the leaf of `original`
         assert name in k.__all__ and re.search(rf"\b{name}\b", written), name
         assert f"`{name}(" in page, name
+
+
+@nw.model
+def rounds():
+    n = 0
+    for _ in range(3):
+        for _ in range(5):
+            if nw.flip(0.2):
+                break
+            n = n + 1
+    return n
+
+
+@nw.model
+def even():
+    return [nw.flip(0.3) for _ in range(3)]
+
+
+def test_a_kernel_that_does_not_reach_all_runs_is_named():
+    alone = [
+        k.regrow(4, pick="choice"),
+        k.repeat(2, k.regrow(4, pick="choice", turn=0.0)),
+        k.on("*", k.regrow(4, pick="choice")),
+    ]
+    for kernel in alone:
+        with pytest.warns(SearchWarning, match='Use `pick="size"`'):
+            result = nw.run(rounds, nw.mh(steps=300, kernel=kernel, chains=4), seed=1)
+        # The chains keep the iterations of their first runs.
+        assert all(len({tuple(sample.choices) for sample in chain}) == 1 for chain in result.by_chain)
+    with pytest.warns(SearchWarning, match='Use `pick="size"`'):
+        nw.run(rounds, seed=1).polish(nw.mh(steps=10, kernel=alone[0]))
+
+
+@pytest.mark.parametrize(
+    "kernel",
+    [
+        k.regrow(4),
+        k.cycle(k.regrow(4, pick="choice"), k.prior()),
+        k.mixture(k.regrow(4, pick="choice"), k.regrow(4)),
+        None,
+    ],
+    ids=repr,
+)
+def test_kernels_that_reach_all_runs_are_not(kernel):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", SearchWarning)
+        result = nw.run(rounds, nw.mh(steps=300, kernel=kernel, chains=4), seed=1)
+        nw.run(even, nw.mh(steps=30, kernel=k.regrow(4, pick="choice")), seed=1)
+    assert all(len({tuple(sample.choices) for sample in chain}) > 1 for chain in result.by_chain)

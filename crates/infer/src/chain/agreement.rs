@@ -25,7 +25,7 @@ pub struct Compared {
     pub faults: u64,
     /// Exchanges of states between rungs.
     pub exchanges: u64,
-    /// Proposals with invalid distributions, those of first states included.
+    /// Proposals that are invalid, those of first states included.
     pub invalid: u64,
 }
 
@@ -91,7 +91,7 @@ pub fn compare(
         compared.proposals += rungs as u64;
         compared.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
         compared.faults += outcomes[0].iter().filter(|line| line.starts_with("fault")).count() as u64;
-        compared.invalid = tasks[0].invalid.counts().iter().map(|site| site.1).sum();
+        compared.invalid = tasks[0].invalid.counts().iter().map(|place| place.1.runs).sum();
         compared.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
         if (step + 1) % every == 0 {
             for rung in 0..rungs {

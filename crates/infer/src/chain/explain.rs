@@ -114,7 +114,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
             let noted = state.trace.take_steps();
             let change = match change {
                 Ok(change) => change,
-                Err(met) if met.fault.out_of_range.is_some() => Change::Impossible,
+                Err(met) if met.is_invalid() => Change::Impossible,
                 Err(met) => {
                     state.trace.rollback(program);
                     return Err(met.into());

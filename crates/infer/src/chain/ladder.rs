@@ -8,6 +8,7 @@ use super::accept::{MetropolisHastings, Rules};
 use super::streams::Streams;
 use super::{Chain, Settings};
 use crate::{Failure, Task};
+use niwaki_vm::machine::invalid::Counts;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -52,8 +53,8 @@ pub struct Ladder<R: Rules = MetropolisHastings> {
     pub exchanges: Vec<(u64, u64)>,
     /// The number of proposals to which it is on its way.
     pub(super) end: u64,
-    /// Invalid runs, by site.
-    pub(super) invalid: Vec<(String, u64)>,
+    /// Invalid runs, by place.
+    pub(super) invalid: Counts,
 }
 
 impl<R: Rules> Ladder<R> {

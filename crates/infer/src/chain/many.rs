@@ -5,17 +5,21 @@ use super::accept::{MetropolisHastings, Rules};
 use super::ladder::Ladder;
 use crate::checkpoint::Checkpoint;
 use crate::{Failure, Task};
+use niwaki_vm::machine::invalid::{Count, Counts, Place};
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Mutex;
 use std::sync::PoisonError;
 
-/// By how much counts by site have grown.
-fn more(counts: &[(String, u64)], before: &[(String, u64)]) -> Vec<(String, u64)> {
-    let before: HashMap<&str, u64> = before.iter().map(|(site, n)| (site.as_str(), *n)).collect();
-    let grown = |(site, n): &(String, u64)| (site.clone(), n - before.get(site.as_str()).unwrap_or(&0));
-    counts.iter().map(grown).filter(|(_, n)| *n > 0).collect()
+/// By how much counts by place have grown.
+fn more(counts: Counts, before: &Counts) -> Counts {
+    let before: BTreeMap<&Place, u64> = before.iter().map(|(place, count)| (place, count.runs)).collect();
+    let grown = |(place, count): (Place, Count)| {
+        let runs = count.runs - before.get(&place).unwrap_or(&0);
+        (place, Count { runs, ..count })
+    };
+    counts.into_iter().map(grown).filter(|(_, count)| count.runs > 0).collect()
 }
 
 /// Several chains.
@@ -132,7 +136,7 @@ impl<R: Rules> Chains<R> {
                     go_on
                 });
                 chain.invalid = own.invalid.counts();
-                task.invalid.add(more(&chain.invalid, &before));
+                task.invalid.add(more(chain.invalid.clone(), &before));
                 done.inspect(|()| store(i, chain))
             })
             .collect::<Vec<_>>()

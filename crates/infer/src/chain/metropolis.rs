@@ -182,7 +182,7 @@ impl<R: Rules> Chain<R> {
         self.best.compare(&self.state, program, self.visit);
     }
 
-    /// A proposal raised a fault. Where a distribution is invalid, the proposal is impossible, and counted.
+    /// A proposal raised a fault. Where that makes the run invalid, the proposal is impossible, and counted.
     ///
     /// # Errors
     /// Any other fault; the chain is back in its last state.

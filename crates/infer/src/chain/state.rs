@@ -80,8 +80,8 @@ impl State {
     /// With `known`, choices have those values.
     ///
     /// # Errors
-    /// No run was possible ([`Failure::NoStart`]), or a fault of the program: also of distributions, where they were
-    /// invalid in every run.
+    /// No run was possible ([`Failure::NoStart`]), or a fault of the program: also of runs that
+    /// are all invalid.
     pub fn start(
         task: &Task,
         streams: Streams,
@@ -124,8 +124,8 @@ impl State {
             let (trace, change) = match task.begin(&mut machine, &mut answers) {
                 Ok(begun) => begun,
                 Err(met) => {
-                    let Some(site) = task.invalid.count(&met) else { return Err(met.into()) };
-                    *causes.entry(site).or_default() += 1;
+                    let Some(place) = task.invalid.count(&met) else { return Err(met.into()) };
+                    *causes.entry(place.to_string()).or_default() += 1;
                     all.note(Some(&Arc::new(*met)));
                     continue;
                 }

@@ -17,6 +17,7 @@ use crate::log::Log;
 use crate::run::{Run, bits};
 use crate::{Failure, Task};
 use niwaki_vm::code::Program;
+use niwaki_vm::machine::invalid::Counts;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -84,7 +85,7 @@ pub(crate) struct StoredLadder<S> {
     rungs: Vec<StoredChain<S>>,
     exchanges: Vec<(u64, u64)>,
     end: u64,
-    invalid: Vec<(String, u64)>,
+    invalid: Counts,
 }
 
 impl<R: Rules> Chain<R> {
@@ -130,7 +131,7 @@ impl<R: Rules> Chain<R> {
 
 impl<R: Rules> Ladder<R> {
     /// Its data; `invalid` are the invalid runs that it counted so far.
-    pub(super) fn stored(&self, program: &Program, invalid: Vec<(String, u64)>) -> StoredLadder<Vec<&Run>> {
+    pub(super) fn stored(&self, program: &Program, invalid: Counts) -> StoredLadder<Vec<&Run>> {
         let rungs = self.rungs.iter().map(|rung| rung.stored(program)).collect();
         StoredLadder { rungs, exchanges: self.exchanges.clone(), end: self.end, invalid }
     }

@@ -41,9 +41,7 @@ impl<const L: usize> lanes::Wide<L> for Wide<L> {
 fn cause(refused: &Refused) -> Cause {
     match refused {
         Refused::Structure | Refused::Rounding => Cause::Guard,
-        Refused::Fault(met) if met.fault.code == "impossible-trace" || met.fault.out_of_range.is_some() => {
-            Cause::Impossible
-        }
+        Refused::Fault(met) if met.fault.code == "impossible-trace" || met.is_invalid() => Cause::Impossible,
         Refused::Fault(_) => Cause::NotFinite,
     }
 }

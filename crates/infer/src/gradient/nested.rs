@@ -179,8 +179,8 @@ fn runs(
                 Ok(Stop::Paused) => break,
                 Ok(_) => {}
                 Err(met) => {
-                    let Some(site) = invalid.count(&met) else { return Err(met.into()) };
-                    answers.cause = Some(site);
+                    let Some(place) = invalid.count(&met) else { return Err(met.into()) };
+                    answers.cause = Some(place.to_string());
                     fault = Some(Arc::new(*met));
                 }
             }

@@ -20,6 +20,7 @@ use super::{Guide, Network};
 use crate::checkpoint::{Checkpoint, unfit};
 use crate::chooser::{Chooser, Chosen, Context, Prior};
 use crate::forward::{forward, forward_by};
+use crate::record::AllInvalid;
 use crate::{Failure, Task};
 use niwaki_guide::{Climb, Net, NetForm, Progress, Rows, Stored, Training};
 use niwaki_math::streams::RngCore;
@@ -27,6 +28,7 @@ use niwaki_math::{Dist, Stream, StreamKey};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::stack::RunFault;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -102,6 +104,8 @@ pub(super) struct Drawn {
     rows: Rows,
     /// `log p - log q`, nats.
     log_weight: f64,
+    /// The fault that makes it invalid; any other one.
+    invalid: Option<Arc<RunFault>>,
     fault: Option<Failure>,
 }
 
@@ -124,9 +128,10 @@ pub(super) fn draw(
         sight.forget();
         let chooser = Noting { guide: &bound[*target], stream, sight, rows: &mut rows };
         match forward_by(tasks[*target], chooser, false) {
-            Ok(run) => Ok(Drawn { rows, log_weight: run.log_weight, fault: None }),
+            Ok(run) => Ok(Drawn { rows, log_weight: run.log_weight, invalid: run.invalid, fault: None }),
             Err(Failure::Run(met)) => {
-                Ok(Drawn { rows, log_weight: f64::NEG_INFINITY, fault: Some(Failure::Run(met)) })
+                let log_weight = f64::NEG_INFINITY;
+                Ok(Drawn { rows, log_weight, invalid: None, fault: Some(Failure::Run(met)) })
             }
             Err(failure) => Err(failure),
         }
@@ -270,6 +275,7 @@ pub fn climb(
     if let Some(failure) = fault_of_all(&mut first) {
         return Err(failure);
     }
+    AllInvalid::check_all(first.iter().flatten().map(|run| run.invalid.as_ref()))?;
     if mean_bound(&first, objective).is_none() {
         let message = format!("none of {} runs of the first guide is possible", learned.len() * each);
         return Err(Fault::new("guide-traces", message)

@@ -7,6 +7,7 @@ use crate::failure::Attempt;
 use crate::losses::Lost;
 use crate::run::Run;
 use crate::{Failure, Task};
+use niwaki_vm::machine::invalid::Counts;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
@@ -20,7 +21,7 @@ pub(super) struct Stored<R> {
     idle: u64,
     /// Since the search began, without pauses between processes.
     pub time: Duration,
-    invalid: Vec<(String, u64)>,
+    invalid: Counts,
     lost: Lost,
 }
 
@@ -31,7 +32,7 @@ impl<'r> Stored<&'r Run> {
         info: &Improved,
         (number, idle): (u64, u64),
         time: Duration,
-        invalid: Vec<(String, u64)>,
+        invalid: Counts,
     ) -> Option<Stored<&'r Run>> {
         let attempts = info.attempts.iter().map(|one| (one.form.to_string(), one.particles, one.died_at));
         let (attempts, rounds) = (attempts.collect(), info.rounds.clone());

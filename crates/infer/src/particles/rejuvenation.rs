@@ -148,7 +148,7 @@ pub(crate) fn spreads(task: &Task, seed: u64) -> Result<HashMap<u128, f64>, Fail
         let mut machine = task.machine();
         // Of an invalid run, the sites up to its fault.
         if let Err(met) = task.begin(&mut machine, &mut answers)
-            && met.fault.out_of_range.is_none()
+            && !met.is_invalid()
         {
             return Err(met.into());
         }

@@ -11,6 +11,7 @@ use super::programs::{leaf, task};
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_infer::Task;
 use niwaki_infer::chain::kernel::{Kernel, Selection};
+use niwaki_infer::chain::regrow::is_apart;
 use niwaki_infer::chain::{Chain, Settings};
 use niwaki_infer::enumeration::enumerate;
 use niwaki_infer::forward::forward;
@@ -20,7 +21,7 @@ use niwaki_math::Stream;
 use niwaki_vm::value::{Value as Held, repr};
 use serde_json::{Value, json};
 use std::borrow::Borrow;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 pub const PROGRAMS: [(&str, &str); 11] = [
     (
@@ -352,5 +353,79 @@ fn keeps_the_law_of_a_million_draws() {
             eprintln!("{name}, turned {turn}: {z:.2}");
             assert!(z < 5.0, "{name}, turned {turn}: {z:.1}");
         }
+    }
+}
+
+/// Programs whose runs are apart for `pick="choice"`, and programs whose runs are not.
+const APART: [(&str, bool, &str); 7] = [
+    (
+        "loops that end at a choice",
+        true,
+        r#"(module (fn "m" (params) (set $n 0)
+            (for $i (range 3) (body (for $j (range 3) (body
+              (if (sample (dist bernoulli 0.2)) (then (break))) (set $n (add $n 1))))))
+            (return $n)) (entry "m"))"#,
+    ),
+    (
+        "a call that decides on another one",
+        true,
+        r#"(module (fn "one" (params) (return (sample (dist bernoulli 0.5))))
+          (fn "m" (params) (if (call "one") (then (return (call "one")))) (return none)) (entry "m"))"#,
+    ),
+    (
+        "a future that is begun or not",
+        true,
+        r#"(module (fn "one" (params) (return (sample (dist bernoulli 0.5))))
+          (fn "m" (params) (set $a (call "one")) (set $f none) (if $a (then (set $f (future "one"))))
+            (return (tuple $a (cond $a (force $f) 0)))) (entry "m"))"#,
+    ),
+    (
+        "a choice of the whole run that decides",
+        false,
+        r#"(module (fn "one" (params) (return (sample (dist bernoulli 0.5))))
+          (fn "m" (params) (if (sample (dist bernoulli 0.5)) (then (return (call "one")))) (return none)) (entry "m"))"#,
+    ),
+    (
+        "a tree whose calls decide on what is below them",
+        false,
+        r#"(module (fn "grow" (params $d) (set $n 1)
+            (if (and (lt $d 2) (sample (dist bernoulli 0.5))) (then (set $n (add (call "grow" (add $d 1)) 1))))
+            (return $n))
+          (fn "m" (params) (return (add (call "grow" 0) (call "grow" 0)))) (entry "m"))"#,
+    ),
+    (
+        "calls that are always the same",
+        false,
+        r#"(module (fn "one" (params) (return (sample (dist bernoulli 0.5))))
+          (fn "m" (params) (return (tuple (call "one") (call "one")))) (entry "m"))"#,
+    ),
+    (
+        "loops that are always as long",
+        false,
+        r#"(module (fn "m" (params) (set $n 0)
+            (for $i (range 3) (body (if (sample (dist bernoulli 0.4)) (then (set $n (add $n 1)))))) (return $n))
+          (entry "m"))"#,
+    ),
+];
+
+#[test]
+fn runs_are_apart_where_chains_that_pick_choices_do_not_come_to_them() {
+    for (name, apart, text) in APART {
+        let task = task(text);
+        assert_eq!(is_apart(&task, 7), apart, "{name}");
+        let exact = enumerate(&task, 10_000, &mut |_| true).expect("finitely many runs");
+        let likely = exact.outcomes.iter().filter(|one| (one.1 - exact.log_evidence).exp() > 0.02).count();
+        let settings = Settings { kernel: regrow(4, 0.5, json!("choice")), ..Settings::default() };
+        let mut chain: Chain = Chain::start(&task, &settings, 0, None).expect("a chain");
+        let mut met = HashSet::new();
+        for _ in 0..3000 {
+            chain.advance(&task, 1, &mut |_, _| true).expect("a proposal");
+            met.insert(repr(&chain.state.trace.result()).expect("text"));
+        }
+        // Of the outcomes that are likelier than 2 %, a chain that reaches all misses one in e^-60 of the cases.
+        let reached = exact.outcomes.iter().filter(|one| {
+            (one.1 - exact.log_evidence).exp() > 0.02 && met.contains(&repr(&one.0).expect("text"))
+        });
+        assert_eq!(reached.count() < likely, apart, "{name}: {met:?}");
     }
 }

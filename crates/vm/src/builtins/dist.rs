@@ -23,7 +23,7 @@ pub fn make_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Result<Dist<S>
     };
     result.map_err(|bad| {
         let fault = Fault::bad_parameter(bad.to_string());
-        if bad.out_of_range { fault.of_range(family) } else { fault }
+        if bad.out_of_range { fault.of_call(family.name(), args) } else { fault }
     })
 }
 

@@ -76,20 +76,48 @@ impl<S: Scalar> Arguments<'_, S> {
         })
     }
 
-    fn number(&self, at: usize) -> Result<f64, Fault> {
-        real(self.word, self.needed(at)?).map(Scalar::value)
+    /// Reads an argument, or a part of one; what is wrong with it names the parameter.
+    fn read<T>(
+        &self,
+        at: usize,
+        value: &Value<S>,
+        read: impl FnOnce(&str, &Value<S>) -> Result<T, Fault>,
+    ) -> Result<T, Fault> {
+        read(self.word, value).map_err(|fault| self.named(at, &fault))
+    }
+
+    #[cold]
+    fn named(&self, at: usize, fault: &Fault) -> Fault {
+        let parameters = WORDS.iter().find(|(word, _)| *word == self.word).map(|(_, parameters)| *parameters);
+        let name = parameters.and_then(|names| names.get(at)).copied().unwrap_or("an argument");
+        let (word, named) = (format!("`{}`", self.word), format!("`{name}` of `{}`", self.word));
+        Fault::new(fault.code, fault.message.replacen(&word, &named, 1))
     }
 
     fn number_or(&self, at: usize, default: f64) -> Result<f64, Fault> {
-        self.given(at).map_or(Ok(default), |arg| real(self.word, arg).map(Scalar::value))
+        self.given(at).map_or(Ok(default), |arg| self.read(at, arg, real).map(Scalar::value))
+    }
+
+    /// A length, a width or a factor of them.
+    fn measure(&self, at: usize) -> Result<f64, Fault> {
+        self.read(at, self.needed(at)?, measured)
+    }
+
+    fn measure_or(&self, at: usize, default: f64) -> Result<f64, Fault> {
+        self.given(at).map_or(Ok(default), |arg| self.read(at, arg, measured))
+    }
+
+    /// Three lengths.
+    fn measures(&self, at: usize) -> Result<Vec3, Fault> {
+        self.triple(at).map(|[x, y, z]| vec3(signed(x), signed(y), signed(z)))
     }
 
     fn point(&self, at: usize) -> Result<Vec3, Fault> {
-        point(self.word, self.needed(at)?)
+        self.read(at, self.needed(at)?, point)
     }
 
     fn direction(&self, at: usize) -> Result<Option<Vec3>, Fault> {
-        self.given(at).map(|arg| point(self.word, arg)).transpose()
+        self.given(at).map(|arg| self.read(at, arg, point)).transpose()
     }
 
     /// The parts of a tuple, list or record of `count`.
@@ -97,7 +125,7 @@ impl<S: Scalar> Arguments<'_, S> {
         let arg = self.needed(at)?;
         let several = matches!(arg, Value::Tuple(_) | Value::List(_) | Value::Record(_));
         if !several || iter_len(arg)? != count {
-            return Err(unfit(self.word, expected, arg));
+            return Err(self.named(at, &unfit(self.word, expected, arg)));
         }
         iter_all(arg)
     }
@@ -105,8 +133,8 @@ impl<S: Scalar> Arguments<'_, S> {
     fn frame(&self, at: usize) -> Result<Frame, Fault> {
         let parts = self.several(at, 4, "a frame (center, forward, up, radius)")?;
         let [center, forward, up, radius] = &parts[..] else { unreachable!("counted above") };
-        let place = |value| point(self.word, value);
-        let radius = real(self.word, radius)?.value();
+        let place = |value| self.read(at, value, point);
+        let radius = self.read(at, radius, measured)?;
         Ok(Frame { center: place(center)?, forward: place(forward)?, up: place(up)?, radius })
     }
 
@@ -123,9 +151,9 @@ impl<S: Scalar> Arguments<'_, S> {
         }
         let rows = matches!(arg, Value::Tuple(_) | Value::List(_)) && iter_len(arg)? == 3;
         if !rows {
-            return Err(unfit(self.word, "a rotation such as `rotation(axis, angle)`", arg));
+            return Err(self.named(at, &unfit(self.word, "a rotation such as `rotation(axis, angle)`", arg)));
         }
-        let row = |at: usize| three(self.word, &iter_get(arg, at));
+        let row = |row: usize| self.read(at, &iter_get(arg, row), three);
         Ok(Some([row(0)?, row(1)?, row(2)?]))
     }
 
@@ -136,24 +164,32 @@ impl<S: Scalar> Arguments<'_, S> {
     }
 
     fn triple(&self, at: usize) -> Result<[S; 3], Fault> {
-        three(self.word, self.needed(at)?)
+        self.read(at, self.needed(at)?, three)
     }
 
     fn scalar(&self, at: usize) -> Result<S, Fault> {
-        real(self.word, self.needed(at)?)
+        self.read(at, self.needed(at)?, real)
     }
 
     /// The look; of solids, metalness and roughness come after the colour.
     fn look(&self, rotation: Option<usize>, bevel: Option<usize>, first: usize) -> Result<Look, Fault> {
         let rotation = rotation.map_or(Ok(None), |at| self.rotation(at))?;
-        let bevel = bevel.and_then(|at| self.given(at)).map(|arg| real(self.word, arg).map(Scalar::value));
-        let color =
-            self.given(first).map(|arg| three(self.word, arg).map(|c| c.map(|part| part.value() as f32)));
+        let bevel = match bevel {
+            Some(at) => self.given(at).map(|arg| self.read(at, arg, measured)).transpose()?,
+            None => None,
+        };
+        let color = self.given(first).map(|arg| self.read(first, arg, three)).transpose()?;
+        let color = color.map(|color| color.map(|part| part.value() as f32));
         let share = |at: usize| {
-            self.given(at).map(|arg| real(self.word, arg).map(|share| share.value() as f32)).transpose()
+            let read = |arg| {
+                let share = self.read(at, arg, real)?;
+                let _ = share > S::from_f64(1.0);
+                Ok(signed(share) as f32)
+            };
+            self.given(at).map(read).transpose()
         };
         let (metalness, roughness) = (share(first + 1)?, share(first + 2)?);
-        Ok(Look { rotation, bevel: bevel.transpose()?, color: color.transpose()?, metalness, roughness })
+        Ok(Look { rotation, bevel, color, metalness, roughness })
     }
 }
 
@@ -161,15 +197,27 @@ fn point<S: Scalar>(word: &str, value: &Value<S>) -> Result<Vec3, Fault> {
     three(word, value).map(|[x, y, z]| vec3(x.value(), y.value(), z.value()))
 }
 
+/// A measure as a plain number. Whether there is such a shape depends on its sign, so a recording holds only where the sign
+/// stays: the comparison notes that.
+fn signed<S: Scalar>(measure: S) -> f64 {
+    let _ = measure > S::from_f64(0.0);
+    measure.value()
+}
+
+fn measured<S: Scalar>(word: &str, value: &Value<S>) -> Result<f64, Fault> {
+    real(word, value).map(signed)
+}
+
 /// The middle of a shape, and three directions.
 type At<S> = [[S; 3]; 4];
 
 /// A shape, and where it is.
 fn shape<S: Scalar>(
+    given: &Arguments<'_, S>,
     result: Result<Shape, GeomError>,
     at: impl FnOnce() -> Result<At<S>, Fault>,
 ) -> Answer<S> {
-    let shape = result.map_err(refused)?;
+    let shape = result.map_err(|error| refused(error).of_call(given.word, given.args))?;
     // The same arguments have given a shape.
     S::note(shape.address(), || at().map_or_else(|_| Vec::new(), |at| at.concat()));
     Ok(Value::Shape(shape))
@@ -188,7 +236,8 @@ fn turned<S: Scalar>(center: [S; 3], rotation: [[S; 3]; 3], size: [S; 3]) -> At<
     [center, along(0), along(1), along(2)]
 }
 
-/// The faults of the geometry crate keep their messages.
+/// The faults of the geometry crate keep their messages. They are about measures and places: the kinds of arguments were
+/// checked before.
 fn refused(error: GeomError) -> Fault {
     Fault::bad_shape(error.message)
 }
@@ -208,11 +257,11 @@ fn letter<S: Scalar>(word: &str, value: &Value<S>) -> Result<usize, Fault> {
 /// The word `box`.
 pub fn cuboid<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "box", args };
-    let (center, size) = (given.point(0)?, given.point(1)?);
-    let taper = given.number_or(3, 1.0)?;
+    let (center, size) = (given.point(0)?, given.measures(1)?);
+    let taper = given.measure_or(3, 1.0)?;
     let axis = given.given(4).map_or(Ok(2), |arg| letter("box", arg))?;
     let look = given.look(Some(2), Some(5), 6)?;
-    shape(Shape::tapered_box(center, size, taper, axis, &look), || {
+    shape(&given, Shape::tapered_box(center, size, taper, axis, &look), || {
         Ok(turned(given.triple(0)?, given.turn(2)?, given.triple(1)?))
     })
 }
@@ -223,11 +272,12 @@ pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let axis = match given.given(3) {
         None => Vec3::AXES[1],
         Some(name @ Value::Str(_)) => Vec3::AXES[letter("cylinder", name)?],
-        Some(direction) => point("cylinder", direction)?,
+        Some(direction) => given.read(3, direction, point)?,
     };
-    let top = given.given(4).map(|arg| real("cylinder", arg).map(Scalar::value)).transpose()?;
+    let top = given.given(4).map(|arg| given.read(4, arg, measured)).transpose()?;
+    let (radius, length) = (given.measure(1)?, given.measure(2)?);
     let look = given.look(Some(5), Some(6), 7)?;
-    shape(Shape::cylinder(given.point(0)?, given.number(1)?, given.number(2)?, axis, top, &look), || {
+    shape(&given, Shape::cylinder(given.point(0)?, radius, length, axis, top, &look), || {
         let axis = match given.given(3) {
             Some(direction) if !matches!(direction, Value::Str(_)) => three("cylinder", direction)?,
             _ => axis.to_array().map(S::from_f64),
@@ -243,10 +293,10 @@ pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// The word `limb`.
 pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "limb", args };
-    let radii = (given.number(2)?, given.number(3)?);
+    let radii = (given.measure(2)?, given.measure(3)?);
     let normals = (given.direction(4)?, given.direction(5)?);
     let look = given.look(None, None, 6)?;
-    shape(Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &look), || {
+    shape(&given, Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &look), || {
         Ok(between(given.triple(0)?, given.triple(1)?))
     })
 }
@@ -256,12 +306,12 @@ pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "segment", args };
     let onto = given.given(3).map(|_| {
         let parts = given.several(3, 4, "a piece of bark (low, low_radius, high, high_radius)")?;
-        let place = |at: usize| point("segment", &parts[at]);
-        let radius = |at: usize| real("segment", &parts[at]).map(Scalar::value);
+        let place = |at: usize| given.read(3, &parts[at], point);
+        let radius = |at: usize| given.read(3, &parts[at], measured);
         Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
     });
     let frames = [given.frame(0)?, given.frame(1)?, given.frame(2)?];
-    shape(Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?), || {
+    shape(&given, Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?), || {
         let center = |at: usize| three("segment", &given.several(at, 4, "a frame")?[0]);
         Ok(between(center(0)?, center(2)?))
     })
@@ -270,18 +320,20 @@ pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// The word `stroke`.
 pub fn stroke<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "stroke", args };
-    let width = given.number(2)?;
-    let widths = (width, given.number_or(3, width)?);
-    shape(Shape::stroke(given.point(0)?, given.point(1)?, widths, &given.look(None, None, 4)?), || {
-        Ok(between(given.triple(0)?, given.triple(1)?))
-    })
+    let width = given.measure(2)?;
+    let widths = (width, given.measure_or(3, width)?);
+    shape(
+        &given,
+        Shape::stroke(given.point(0)?, given.point(1)?, widths, &given.look(None, None, 4)?),
+        || Ok(between(given.triple(0)?, given.triple(1)?)),
+    )
 }
 
 /// The word `ellipse`.
 pub fn ellipse<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "ellipse", args };
-    let (size, angle) = ((given.number(1)?, given.number(2)?), given.number_or(3, 0.0)?);
-    shape(Shape::ellipse(given.point(0)?, size, angle, &given.look(None, None, 4)?), || {
+    let (size, angle) = ((given.measure(1)?, given.measure(2)?), given.number_or(3, 0.0)?);
+    shape(&given, Shape::ellipse(given.point(0)?, size, angle, &given.look(None, None, 4)?), || {
         let angle = given.given(3).map_or(Ok(S::from_f64(0.0)), |arg| real("ellipse", arg))?;
         let (c, s, zero) = (angle.cos(), angle.sin(), S::from_f64(0.0));
         let rows = [[c, -s, zero], [s, c, zero], [zero; 3]];
@@ -292,8 +344,8 @@ pub fn ellipse<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// The word `disc`.
 pub fn disc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "disc", args };
-    let width = 2.0 * given.number(1)?;
-    shape(Shape::ellipse(given.point(0)?, (width, width), 0.0, &given.look(None, None, 2)?), || {
+    let width = 2.0 * given.measure(1)?;
+    shape(&given, Shape::ellipse(given.point(0)?, (width, width), 0.0, &given.look(None, None, 2)?), || {
         let (radius, zero) = (given.scalar(1)?, S::from_f64(0.0));
         let rows = [[radius, zero, zero], [zero, radius, zero], [zero; 3]];
         Ok(turned(given.triple(0)?, rows, [S::from_f64(1.0); 3]))
@@ -303,19 +355,23 @@ pub fn disc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 /// The word `mesh`.
 pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
-    placed(&kept_mesh(given.needed(0)?, given.needed(1)?)?, args)
+    placed(&kept_mesh(&given, given.needed(0)?, given.needed(1)?)?, args)
 }
 
 /// The word `mesh`, of a mesh that was read before: the first two arguments are not read.
 pub fn placed<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
     let given = Arguments { word: "mesh", args };
-    let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| point("mesh", arg))?;
-    shape(Shape::mesh(mesh, center, given.number_or(4, 1.0)?, &given.look(Some(3), None, 5)?), || {
-        let zero = [S::from_f64(0.0); 3];
-        let center = given.given(2).map_or(Ok(zero), |arg| three("mesh", arg))?;
-        let scale = given.given(4).map_or(Ok(S::from_f64(1.0)), |arg| real("mesh", arg))?;
-        Ok(turned(center, given.turn(3)?, [scale; 3]))
-    })
+    let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| given.read(2, arg, point))?;
+    shape(
+        &given,
+        Shape::mesh(mesh, center, given.measure_or(4, 1.0)?, &given.look(Some(3), None, 5)?),
+        || {
+            let zero = [S::from_f64(0.0); 3];
+            let center = given.given(2).map_or(Ok(zero), |arg| three("mesh", arg))?;
+            let scale = given.given(4).map_or(Ok(S::from_f64(1.0)), |arg| real("mesh", arg))?;
+            Ok(turned(center, given.turn(3)?, [scale; 3]))
+        },
+    )
 }
 
 /// Meshes that a thread keeps, newest last.
@@ -330,7 +386,11 @@ thread_local! {
     static MESHES: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
 }
 
-fn kept_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<Arc<TriMesh>, Fault> {
+fn kept_mesh<S: Scalar>(
+    given: &Arguments<'_, S>,
+    vertices: &Value<S>,
+    faces: &Value<S>,
+) -> Result<Arc<TriMesh>, Fault> {
     MESHES.with_borrow_mut(|meshes| {
         let is_it = |kept: &Kept| {
             kept.0
@@ -340,7 +400,7 @@ fn kept_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<Arc<Tri
         if let Some((_, mesh)) = meshes.iter().find(|kept| is_it(kept)) {
             return Ok(Arc::clone(mesh));
         }
-        let mesh = Arc::new(read_mesh(vertices, faces)?);
+        let mesh = Arc::new(read_mesh(given, vertices, faces)?);
         if meshes.len() == KEPT {
             meshes.remove(0);
         }
@@ -349,11 +409,17 @@ fn kept_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<Arc<Tri
     })
 }
 
-fn read_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<TriMesh, Fault> {
-    let points = iter_all(vertices)?.iter().map(|v| point("mesh", v)).collect::<Result<_, _>>()?;
+fn read_mesh<S: Scalar>(
+    given: &Arguments<'_, S>,
+    vertices: &Value<S>,
+    faces: &Value<S>,
+) -> Result<TriMesh, Fault> {
+    let invalid = |fault: Fault| fault.of_call(given.word, given.args);
+    let points = iter_all(vertices)?.iter().map(|v| given.read(0, v, point)).collect::<Result<_, _>>()?;
     let corner = |value: &Value<S>| {
-        let n = whole("mesh", value)?;
-        u32::try_from(n).map_err(|_| Fault::bad_shape(format!("a face of `mesh` names vertex {n}")))
+        let n = given.read(1, value, whole)?;
+        let missing = |_| invalid(Fault::bad_shape(format!("a face of `mesh` names vertex {n}")));
+        u32::try_from(n).map_err(missing)
     };
     let face = |value: &Value<S>| {
         let corners: Vec<u32> = iter_all(value)?.iter().map(corner).collect::<Result<_, _>>()?;
@@ -362,7 +428,7 @@ fn read_mesh<S: Scalar>(vertices: &Value<S>, faces: &Value<S>) -> Result<TriMesh
         })
     };
     let triangles = iter_all(faces)?.iter().map(face).collect::<Result<_, _>>()?;
-    TriMesh::new(points, triangles).map_err(refused)
+    TriMesh::new(points, triangles).map_err(|error| invalid(refused(error)))
 }
 
 #[cfg(test)]

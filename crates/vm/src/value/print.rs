@@ -84,17 +84,53 @@ enum Labels<'a, S: Scalar> {
 
 /// Python's `repr(value)`.
 pub fn repr<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
-    let mut out = String::new();
+    let (mut out, fixed) = (String::new(), |x: S| if x.varies() { None } else { Some(x.value()) });
+    if write(value, &mut out, MAX_ELEMENTS, &fixed)? {
+        return Ok(out);
+    }
+    Err(Fault::memory_budget("the text of this value has more than 67108864 characters"))
+}
+
+/// Most characters of the text of a call.
+const CALL: usize = 240;
+
+/// A call as text, for a person: arguments that were left out at the end are not in it, and a long text is cut off.
+pub fn call_text<S: Scalar>(name: &str, args: &[Value<S>]) -> String {
+    let last = args.iter().rposition(|arg| !matches!(arg, Value::None)).map_or(0, |at| at + 1);
+    let mut out = format!("{name}(");
+    for (at, arg) in args[..last].iter().enumerate() {
+        if at > 0 {
+            out.push_str(", ");
+        }
+        // A future that is not forced has no text.
+        if !matches!(write(arg, &mut out, CALL, &|x| Some(x.value())), Ok(true)) || out.len() > CALL {
+            let end = (0..=CALL.min(out.len())).rfind(|end| out.is_char_boundary(*end)).unwrap_or(0);
+            out.truncate(end);
+            out.push_str("...");
+            break;
+        }
+    }
+    out.push(')');
+    out
+}
+
+/// Writes a value, its numbers as `number` gives them, up to so many characters. Whether that was all of it.
+fn write<S: Scalar>(
+    value: &Value<S>,
+    out: &mut String,
+    most: usize,
+    number: &dyn Fn(S) -> Option<f64>,
+) -> Result<bool, Fault> {
     let mut stack: Vec<Open<'_, S>> = Vec::new();
     let mut current = Some(value);
     loop {
-        if out.len() > MAX_ELEMENTS {
-            return Err(Fault::memory_budget("the text of this value has more than 67108864 characters"));
+        if out.len() > most {
+            return Ok(false);
         }
         if let Some(value) = current.take() {
-            stack.extend(begin(value, &mut out)?);
+            stack.extend(begin(value, out, number)?);
         }
-        let Some(open) = stack.last_mut() else { return Ok(out) };
+        let Some(open) = stack.last_mut() else { return Ok(true) };
         let at = open.next;
         open.next += 1;
         let item = match &open.items {
@@ -126,15 +162,21 @@ pub fn repr<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
 }
 
 /// Writes a value without parts, or the beginning of one with parts.
-fn begin<'a, S: Scalar>(value: &'a Value<S>, out: &mut String) -> Result<Option<Open<'a, S>>, Fault> {
+fn begin<'a, S: Scalar>(
+    value: &'a Value<S>,
+    out: &mut String,
+    number: &dyn Fn(S) -> Option<f64>,
+) -> Result<Option<Open<'a, S>>, Fault> {
     let open = |items, close| Ok(Some(Open { items, next: 0, close }));
     let scalars = |xs: &[S]| xs.iter().map(|x| float(x.value())).collect::<Vec<_>>().join(", ");
     match value {
         Value::None => out.push_str("None"),
         Value::Bool(b) => out.push_str(if *b { "True" } else { "False" }),
         Value::Int(n) => out.push_str(&n.to_string()),
-        Value::Real(x) if x.varies() => return Err(Fault::no_derivative("the text of a number")),
-        Value::Real(x) => out.push_str(&float(x.value())),
+        Value::Real(x) => match number(*x) {
+            Some(x) => out.push_str(&float(x)),
+            None => return Err(Fault::no_derivative("the text of a number")),
+        },
         Value::Str(text) => out.push_str(&quoted(text)),
         Value::Tuple(tuple) => {
             out.push('(');
@@ -221,6 +263,16 @@ mod tests {
         assert_eq!(repr(&value).as_deref(), Ok(expected));
         assert_eq!(str_of(&V::str("a\nb")).as_deref(), Ok("a\nb"));
         assert_eq!(repr(&V::str("a\n'\"\\\u{7}")).as_deref(), Ok("'a\\n\\'\"\\\\\\x07'"));
+    }
+
+    #[test]
+    fn a_call_reads_as_a_person_wrote_it_and_is_cut_where_it_is_long() {
+        let size = V::tuple(vec![V::real(1.0), V::real(-0.3), V::Int(1)]);
+        assert_eq!(call_text("box", &[V::None, size, V::None, V::None]), "box(None, (1.0, -0.3, 1))");
+        assert_eq!(call_text::<f64>("coin", &[]), "coin()");
+        let long = call_text("mesh", &[V::list(vec![V::str("\u{e9}"); 1000]), V::Int(1)]);
+        assert!(long.starts_with("mesh(['\u{e9}', ") && long.ends_with("...)") && long.len() < 250, "{long}");
+        assert_eq!(call_text("f", &[V::Int(1), V::Future(0)]), "f(1, ...)");
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //! * Particles are compared in the scene around the part, and a guide sees it; it must be the same on the way back. So a
 //!   particle with whose result shapes outside of the part move has weight zero: the posterior is kept within the runs
 //!   that share that scene.
-//! * `sweep`: SMC of a part; `turn`: other values of a discrete choice.
+//! * `reach`: whether a chain of such moves alone reaches every run; `sweep`: SMC of a part; `turn`: other values of a discrete choice.
 //! * Where a part returns another value than before, the rest of the run is evaluated with it: the densities of the held
 //!   choices and the score change, and multiply the weight. A run that does not make exactly the choices of `R` beside
 //!   its own has weight zero.
@@ -25,11 +25,13 @@
 
 mod afresh;
 mod pick;
+mod reach;
 mod sweep;
 mod turn;
 
 pub use afresh::{Afresh, afresh};
 pub use pick::Pick;
+pub use reach::is_apart;
 
 use super::accept::{Rules, accepts};
 use super::kernel::Selection;

@@ -42,7 +42,7 @@ fn written(entry: &crate::log::Entry) -> String {
 }
 
 /// Programs whose answer is known by enumeration.
-const PROGRAMS: [(&str, &str); 10] = [
+const PROGRAMS: [(&str, &str); 11] = [
     (
         "two coins and a condition on each",
         r#"(module (fn "m" (params)
@@ -149,6 +149,19 @@ const PROGRAMS: [(&str, &str); 10] = [
             (if $a (then (set $b (call "leaf" (sub $n 1)))) (else (set $b 0)))
             (do (observe (dist gaussian 0.0 (sub $n (cond $a 2.0 0.5))) 0.5))
             (return (tuple $n $a $b (force $h)))) (entry "m"))"#,
+    ),
+    (
+        "shapes that cannot be in a future and in iterations",
+        r#"(module (fn "leaf" (params $k) (set $x (sample (dist bernoulli 0.4)))
+              (do (emit (disc (tuple 0.0 0.0 0.0) (sub $k 0.5)))) (do (factor (cond $x 0.2 0.0))) (return $x))
+            (fn "m" (params)
+            (set $n (sample (dist discrete_uniform 0 4)))
+            (do (factor (mul -0.3 $n)))
+            (set $h (future "leaf" $n))
+            (set $c 0)
+            (for $i (range 2) (body (if (sample (dist bernoulli 0.5))
+              (then (set $c (add $c 1)) (do (emit (ellipse (tuple $i 0.0 0.0) 1.0 (sub 3.5 $n))))))))
+            (return (tuple $n $c (force $h)))) (entry "m"))"#,
     ),
 ];
 

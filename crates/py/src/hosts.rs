@@ -1,0 +1,203 @@
+//! Host functions: Python that a model calls.
+//!
+//! They take turns: in a process one of them runs at a time, because libraries that were not written for threads break where two
+//! threads are inside of them. A function that was marked with `@host(threads=True)` waits for nobody. While a host function searches
+//! itself, its turn is lent to the functions of that search ([`lend`]).
+//!
+//! An exception makes the run invalid. `KeyboardInterrupt`, `SystemExit`, whatever else is no `Exception`, and `MemoryError` are
+//! not about the model: they are kept beside the search, end it, and are raised from it ([`Hosts::raised`]).
+
+use crate::search::end_if_forked;
+use crate::values::Classes;
+use niwaki_infer::task::Hosts;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::value::Value;
+use pyo3::exceptions::{PyException, PyMemoryError};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use std::any::Any;
+use std::cell::RefCell;
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+
+/// A function of the host.
+struct Function {
+    callable: Py<PyAny>,
+    /// Whether it may run on several threads at once.
+    threads: bool,
+}
+
+/// The functions of a program by the number of the constant that names them.
+pub struct PyHosts {
+    functions: Vec<Option<Function>>,
+    classes: Arc<Classes>,
+    /// What one of them raised that is not about the model.
+    raised: Mutex<Option<PyErr>>,
+}
+
+impl PyHosts {
+    /// The functions among these constants.
+    ///
+    /// # Errors
+    /// What an object raises that is asked whether it may run on several threads.
+    pub fn new(constants: Vec<Option<Bound<'_, PyAny>>>, classes: Arc<Classes>) -> PyResult<PyHosts> {
+        let function = |callable: Bound<'_, PyAny>| {
+            let threads =
+                callable.getattr_opt("threads")?.is_some_and(|given| given.extract().unwrap_or(false));
+            Ok(Function { callable: callable.unbind(), threads })
+        };
+        let functions = constants.into_iter().map(|one| one.map(function).transpose());
+        Ok(PyHosts { functions: functions.collect::<PyResult<_>>()?, classes, raised: Mutex::new(None) })
+    }
+
+    fn failed(&self, py: Python<'_>, function: &Function, args: &[Value], error: PyErr) -> Fault {
+        let name = function.callable.bind(py).getattr("__name__");
+        let name = name.map_or_else(|_| "it".into(), |name| name.to_string());
+        let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
+        let text = error.value(py).to_string();
+        let fault = Fault::new("host-function", format!("the host function `{name}` failed: {kind}: {text}"));
+        if error.is_instance_of::<PyException>(py) && !error.is_instance_of::<PyMemoryError>(py) {
+            return fault.of_call(&name, args);
+        }
+        self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        fault
+    }
+}
+
+impl Hosts for PyHosts {
+    fn call(&self, constant: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
+        let Some(Some(function)) = self.functions.get(constant as usize) else {
+            return Err(Fault::new("host-function", format!("constant {constant} is not a function")));
+        };
+        let process = std::process::id();
+        Python::attach(|py| {
+            let given = args.iter().map(|a| self.classes.object(py, a)).collect::<PyResult<Vec<_>>>();
+            let given = given.and_then(|given| PyTuple::new(py, given));
+            let result = given.and_then(|given| {
+                let _turn = if function.threads { None } else { Some(Turn::take(py)) };
+                let result = function.callable.bind(py).call1(given);
+                end_if_forked(process, "the host function");
+                result
+            });
+            let value = result.map_err(|error| self.failed(py, function, args, error))?;
+            // A value that a model cannot have is a fault of the program, in any run.
+            self.classes.value(&value).map_err(|error| {
+                let name = self.failed(py, function, args, error);
+                Fault::new(name.code, name.message.clone())
+            })
+        })
+    }
+
+    fn raised(&self) -> Option<Box<dyn Any + Send>> {
+        let error = self.raised.lock().unwrap_or_else(PoisonError::into_inner).take();
+        error.map(|error| Box::new(error) as Box<dyn Any + Send>)
+    }
+}
+
+/// Raises what a host function raised that is not about the model.
+///
+/// # Errors
+/// That.
+pub fn check(hosts: &dyn Hosts) -> PyResult<()> {
+    match hosts.raised().map(|raised| raised.downcast::<PyErr>()) {
+        Some(Ok(error)) => Err(*error),
+        _ => Ok(()),
+    }
+}
+
+/// The turn of a process: whether somebody has it.
+struct Queue {
+    process: u32,
+    taken: Mutex<bool>,
+    free: Condvar,
+}
+
+impl Queue {
+    /// Whether this is a child that was forked by who has the turn: the threads of its queue are not there, and one of them may
+    /// have been at its locks.
+    fn is_foreign(&self) -> bool {
+        self.process != std::process::id()
+    }
+
+    fn take(&self) {
+        if self.is_foreign() {
+            return;
+        }
+        let taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut taken = self.free.wait_while(taken, |taken| *taken).unwrap_or_else(PoisonError::into_inner);
+        *taken = true;
+    }
+
+    fn try_take(&self) -> bool {
+        !std::mem::replace(&mut *self.taken.lock().unwrap_or_else(PoisonError::into_inner), true)
+    }
+
+    fn leave(&self) {
+        if !self.is_foreign() {
+            *self.taken.lock().unwrap_or_else(PoisonError::into_inner) = false;
+            self.free.notify_one();
+        }
+    }
+}
+
+/// The queue of this process. As for the pools of threads, this lock is taken only with the interpreter's lock, which a fork has,
+/// too: no child finds it taken. A child has a queue of its own.
+static QUEUE: Mutex<Option<Arc<Queue>>> = Mutex::new(None);
+
+thread_local! {
+    /// The queue in which this thread has the turn.
+    static MINE: RefCell<Option<Arc<Queue>>> = const { RefCell::new(None) };
+}
+
+/// The turn of a host function; it is over when this is dropped.
+struct Turn;
+
+impl Turn {
+    /// Waits for the turn, without the interpreter's lock: whoever has the turn may need it.
+    ///
+    /// A thread that has the turn and calls another host function (a short search on the same thread) keeps it.
+    fn take(py: Python<'_>) -> Option<Turn> {
+        if MINE.with_borrow(Option::is_some) {
+            return None;
+        }
+        let queue = {
+            let mut queue = QUEUE.lock().unwrap_or_else(PoisonError::into_inner);
+            let own = queue.take().filter(|queue| !queue.is_foreign());
+            let new =
+                || Queue { process: std::process::id(), taken: Mutex::new(false), free: Condvar::new() };
+            queue.insert(own.unwrap_or_else(|| Arc::new(new()))).clone()
+        };
+        if !queue.try_take() {
+            py.detach(|| queue.take());
+        }
+        MINE.set(Some(queue));
+        Some(Turn)
+    }
+}
+
+impl Drop for Turn {
+    fn drop(&mut self) {
+        if let Some(queue) = MINE.take() {
+            queue.leave();
+        }
+    }
+}
+
+/// Lends the turn of this thread, where it has it, to whoever works for `work` on other threads. The interpreter's lock is
+/// not held: see [`Turn::take`].
+pub fn lend<T>(work: impl FnOnce() -> T) -> T {
+    /// Takes the turn again, also after a panic.
+    struct Lent(Option<Arc<Queue>>);
+    impl Drop for Lent {
+        fn drop(&mut self) {
+            if let Some(queue) = self.0.take() {
+                queue.take();
+                MINE.set(Some(queue));
+            }
+        }
+    }
+    let lent = Lent(MINE.take());
+    if let Some(queue) = &lent.0 {
+        queue.leave();
+    }
+    work()
+}

@@ -1,0 +1,158 @@
+"""Claim: a message about an argument names that argument, and its help is a cure for what is there.
+
+Every parameter of every shape gets a value of another kind, in the engine and as plain Python: about 90 calls.
+"""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import niwaki as nw
+import pytest
+from niwaki.words.shapes import SHAPES
+
+FRAME = ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 0.5)
+UPPER = ((0.0, 2.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 0.4)
+TOP = ((0.0, 4.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 0.3)
+
+#: Arguments that each shape takes.
+FIT: dict[str, dict[str, Any]] = {
+    "box": {"center": (0, 0, 0), "size": (1, 1, 1), "rotation": None, "taper": 0.5, "bevel": 0.1},
+    "cylinder": {
+        "center": (0, 0, 0),
+        "radius": 1,
+        "length": 1,
+        "axis": (0, 1, 0),
+        "top_radius": 0.5,
+        "bevel": 0.1,
+    },
+    "limb": {
+        "start": (0, 0, 0),
+        "end": (0, 1, 0),
+        "start_radius": 1,
+        "end_radius": 1,
+        "start_normal": (0, 1, 0),
+        "end_normal": (0, 1, 0),
+    },
+    "segment": {"start": FRAME, "split": UPPER, "end": TOP, "onto": ((0, 0, 0), 1, (0, 1, 0), 1)},
+    "mesh": {
+        "vertices": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+        "faces": [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)],
+        "center": (0, 0, 0),
+        "scale": 1.0,
+    },
+    "stroke": {"start": (0, 0, 0), "end": (1, 0, 0), "width": 0.1, "end_width": 0.1},
+    "ellipse": {"center": (0, 0, 0), "length": 1, "width": 1, "angle": 0.1},
+    "disc": {"center": (0, 0, 0), "radius": 1},
+}
+LOOK = {"color": (1, 0, 0), "metalness": 0.5, "roughness": 0.5}
+#: Letters have a message of their own, and in plain Python NumPy reads meshes.
+OTHERS = {("box", "taper_axis"), ("cylinder", "axis"), ("mesh", "vertices"), ("mesh", "faces")}
+
+
+def cases() -> list[tuple[Any, str]]:
+    return [
+        (word, name)
+        for word in SHAPES
+        for name in inspect.signature(word).parameters
+        if (word.__name__, name) not in OTHERS
+    ]
+
+
+@pytest.mark.parametrize(("word", "name"), cases(), ids=lambda one: getattr(one, "__name__", one))
+def test_a_value_of_another_kind_is_blamed_on_its_parameter(word: Any, name: str) -> None:
+    own = inspect.signature(word).parameters
+    given = {key: value for key, value in {**FIT[word.__name__], **LOOK}.items() if key in own}
+    assert word(**given) is not None
+    with pytest.raises(Exception, match=f"`{name}` of `{word.__name__}` takes") as caught:
+        word(**{**given, name: "#ff0000"})
+    assert not any(f"`{other}`" in str(caught.value) for other in own if other != name)
+
+
+def _limb(end: tuple[float, float, float], normal: Any = None) -> Any:
+    @nw.model
+    def model() -> None:
+        nw.emit(nw.limb((0, 0, 0), end, 1, 1, normal, normal))
+
+    return model
+
+
+@nw.model
+def colored() -> None:
+    nw.emit(nw.box((0, 0, 0), (1, 1, 1), color="#ff0000"))
+
+
+@nw.model
+def frequent() -> int:
+    return nw.poisson(1e18)
+
+
+@pytest.mark.parametrize(
+    ("model", "there", "not_there"),
+    [
+        (_limb((0, 0, 0)), ["the start and the end of a limb are the same point"], ["normal"]),
+        (
+            _limb((0, float("nan"), 0)),
+            ["the end of a limb is [0.0, NaN, 0.0], expected finite numbers"],
+            ["normal"],
+        ),
+        (_limb((0, 1, 0), (0, 0, 0)), ["the start normal is [0.0, 0.0, 0.0]"], []),
+        (colored, ["`color` of `box`", "red, green and blue from 0 to 1", "`hsv`"], ["`center`", "`size`"]),
+        (frequent, ["`rate` of poisson is 1e18, expected a number from 0 to 1e15", "`min`"], []),
+    ],
+    ids=[
+        "a limb of length 0",
+        "a limb to nowhere",
+        "a normal of length 0",
+        "a color as text",
+        "a rate of 1e18",
+    ],
+)
+@pytest.mark.parametrize("run", [nw.run, nw.run_python])
+def test_what_is_blamed(model: Any, there: list[str], not_there: list[str], run: Any) -> None:
+    with pytest.raises(nw.ModelFault) as caught:
+        run(model, seed=1)
+    said = str(caught.value).split("-->")[0] + str(caught.value).split("= ", 1)[1]
+    assert all(text in said for text in there), said
+    assert not any(text in said for text in not_there), said
+
+
+def item() -> dict[str, int]:
+    p = {"h": 1}
+    p["h"] = 2
+    return p
+
+
+def added() -> dict[str, int]:
+    p = {"h": 1}
+    p["h"] += 2
+    return p
+
+
+def popped() -> dict[str, int]:
+    p = {"h": 1}
+    p.pop("h")
+    return p
+
+
+def listed() -> list[int]:
+    xs = [1, 2]
+    xs[1] = 2
+    return xs
+
+
+@pytest.mark.parametrize(
+    ("function", "there", "not_there"),
+    [
+        (item, 'write a dict with all of its keys: `p = {"h": value, ...}`', "list"),
+        (added, 'write a dict with all of its keys: `p = {"h": value, ...}`', "list"),
+        (popped, "a dict with all its keys", "[:-1]"),
+        (listed, "for a list write `xs = xs[:1] + [value] + xs[1 + 1:]`", "popitem"),
+    ],
+)
+def test_a_cure_is_one_for_what_is_changed(function: Any, there: str, not_there: str) -> None:
+    with pytest.raises(nw.ModelError) as caught:
+        nw.model(function).core()
+    help = str(caught.value).split("= help: ")[1]
+    assert there in help and not_there not in help
