@@ -41,15 +41,16 @@ class Inside:
         self.now -= 1
 
 
-def using(*functions: Any) -> Any:
+def using(first: Any, second: Any = None) -> Any:
     """A model that calls host functions."""
+    second = second or first
 
     @nw.model
     def model() -> float:
         x = nw.uniform(0, 1)
-        y = functions[0](x)
+        y = first(x)
         nw.observe(Gaussian(y, 1.0), 0.3)
-        z = functions[-1](nw.uniform(0, 1))
+        z = second(nw.uniform(0, 1))
         nw.observe(Gaussian(z, 1.0), 0.3)
         return y + z
 
