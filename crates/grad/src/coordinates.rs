@@ -281,7 +281,7 @@ impl Recorder<'_> {
         }
         let number = interval.value(v);
         let mut value = number.value.at(x);
-        let Some((log_width, log_share)) = number.between else {
+        let Some((log_width, _)) = number.between else {
             return Ok(placed(Transform::Above, value, at(value) + number.log_slope, number.log_slope));
         };
         if let (Some(lo), Some(hi)) = (interval.lo, interval.hi)

@@ -193,12 +193,12 @@ class ViInfo(DrawnInfo):
                 f"{self.impossible} of {total} draws from the normal of `{name}` have density zero, so that its "
                 f"evidence bound is minus infinity; they are left out, and the weights of the others are right"
             )
-        why = self._missed(interrupted)
-        if why:
+        missed = self._missed(interrupted)
+        if missed:
             wider = "" if method.family == "full-rank" else ' take `family="full-rank"`, or'
             say(
-                f"{why}: the normal misses a part of the distribution, and estimates by weight are not to be trusted;"
-                f"{wider} use `nuts(metric=result.metric)` from `choices=result.best.choices`"
+                f"{missed}: the normal misses a part of the distribution, and estimates by weight are not to be "
+                f"trusted;{wider} use `nuts(metric=result.metric)` from `choices=result.best.choices`"
             )
 
     def _missed(self, interrupted: bool) -> str | None:

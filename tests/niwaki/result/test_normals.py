@@ -16,6 +16,7 @@ import pytest
 from niwaki import diagnostics, model
 from niwaki.errors import InputError
 from niwaki.result.hmc import GradientWarning
+from niwaki.words import Gaussian
 
 
 @model
@@ -37,6 +38,14 @@ def many(n):
 def improper():
     x = nw.gaussian(0.0, 1.0)
     nw.factor(math.exp(x))
+    return x
+
+
+@model
+def nearly_opposite():
+    x = nw.gaussian(0.0, 1.0)
+    y = nw.gaussian(0.0, 1.0)
+    nw.observe(Gaussian(x + y, 0.2), 0.0)
     return x
 
 
@@ -83,6 +92,16 @@ def test_it_says_what_it_found():
     assert set(result.statistics()) == {"log_ratio", "log_weight"}
     with pytest.raises(InputError, match="weigh"):
         result.summary()
+
+
+def test_a_tail_that_no_draw_has_reached_is_seen_by_the_slopes():
+    """Of 30 seeds 6 had a k of about 0.5 and a variance of 0.08 in place of 0.51, without a warning."""
+    for seed in range(30):
+        with pytest.warns(GradientWarning, match="misses a part"):
+            found = nw.run(nearly_opposite, method=nw.vi(), seed=seed)
+        # Of this model the largest eigenvalue is 25 / 26.
+        assert abs(found.k_curvature - 25.0 / 26.0) < 0.05
+        assert found.log_path_bound - found.log_evidence_bound > 1.0
 
 
 def test_it_outlives_its_process():

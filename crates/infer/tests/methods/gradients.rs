@@ -361,3 +361,30 @@ fn a_choice_keeps_its_place_in_a_distribution_that_moves() {
     exact.sort_by(f64::total_cmp);
     assert!(values.iter().zip(exact).all(|(x, y)| (x - y).abs() < 1e-12), "{values:?}");
 }
+
+/// Far out on its line a coordinate has the density of its tail, and the program sees a number inside the interval.
+#[test]
+fn a_value_stays_inside_where_its_coordinate_leaves_the_numbers() {
+    // The slopes far below and far above.
+    for (dist, below, above) in [
+        ("beta 0.2 0.3", 0.2, -0.3),
+        ("gamma 0.001 1000.0", 0.001, f64::NEG_INFINITY),
+        ("inverse_gamma 0.002 1.0", f64::INFINITY, -0.002),
+        ("log_normal 0.0 900.0", 5000.0 / 810_000.0, -5000.0 / 810_000.0),
+    ] {
+        let task = task(&format!("(set $x (sample (dist {dist}))) (return $x)"));
+        let recorded = record(&task, &choices(&task, 1)).expect("a density");
+        for (v, slope) in [(-5000.0, below), (5000.0, above)] {
+            if slope.is_finite() {
+                let mut g = [0.0];
+                let value = recorded.density.interpret(&[v], &mut g);
+                assert!(value.is_finite() && (g[0] - slope).abs() < 1e-9, "{dist} at {v}: {value} {}", g[0]);
+                assert!(recorded.density.broken(&[v]).is_none());
+            }
+            let (numbers, jacobian) = recorded.numbers_and_slope(&[v]);
+            let top = if dist.starts_with("beta") { 1.0 } else { f64::MAX };
+            assert!(numbers[0] > 0.0 && numbers[0] < top, "{dist} at {v}: {}", numbers[0]);
+            assert!(!slope.is_finite() || jacobian.is_finite());
+        }
+    }
+}

@@ -11,7 +11,7 @@ use crate::Failure;
 use crate::hamiltonian::potential::evaluate;
 use crate::hamiltonian::{Phase, Potential, Stop};
 use niwaki_grad::{Continuous, Live, Model, Rolling, Scope};
-use niwaki_math::{Draw, Family};
+use niwaki_math::{Draw, Family, Stream};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
@@ -277,7 +277,7 @@ impl Target {
         for (k, sign) in ends {
             let rate = -sign * slopes[k];
             if rate > 0.0 && rate.is_finite() {
-                self.full[k] -= sign * (1.0 - rng.uniform()).ln() / rate;
+                self.full[k] -= sign * rng.uniform().ln() / rate;
             }
         }
     }
