@@ -23,6 +23,12 @@ from niwaki.studio.security import Guard
 from niwaki.studio.server import COMMAND, application
 from niwaki.studio.session import Session, begin, reload
 
+resource: Any
+try:
+    import resource
+except ImportError:
+    resource = None
+
 #: Connections at one time, and seconds in which each has to ask something.
 CONNECTIONS, FIRST_WORD = 256, 15.0
 #: Bytes of a socket that wait for its other end, beside one message; seconds to read the rest after its end.
@@ -133,10 +139,8 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, 
 
 def _allow_files() -> None:
     """Let this process have as many connections as it takes; Windows has no such limit."""
-    if sys.platform == "win32":
+    if resource is None:
         return
-    import resource
-
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     with contextlib.suppress(OSError, ValueError):
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, 4096)), hard))
