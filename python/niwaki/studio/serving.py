@@ -9,7 +9,7 @@ import socket
 import sys
 import webbrowser
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
@@ -41,14 +41,20 @@ class Patient(H11Protocol):
     Where there are too many, that goes which has been silent for longest: whoever asks at once is answered.
     """
 
+    #: Those that have asked nothing, in the order in which they came; some have meanwhile asked.
+    _silent: ClassVar[dict[Patient, None]] = {}
+
     def connection_made(self, transport: Any) -> None:
         """Count it, and wait for its first request."""
         super().connection_made(transport)
-        self._since = self.loop.time()
+        self._silent[self] = None
         self._patience = self.loop.call_later(FIRST_WORD, self._lose_patience)
-        if len(self.connections) > CONNECTIONS:
-            silent = [one for one in self.connections if isinstance(one, Patient) and one._is_silent]
-            min(silent, key=lambda one: one._since).transport.close()
+        while len(self.connections) > CONNECTIONS:
+            oldest = next(iter(self._silent))
+            del self._silent[oldest]
+            if oldest._is_silent:
+                oldest.transport.close()
+                break
 
     @property
     def _is_silent(self) -> bool:
@@ -62,11 +68,13 @@ class Patient(H11Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """Wait no more."""
         self._patience.cancel()
+        self._silent.pop(self, None)
         super().connection_lost(exc)
 
     def handle_websocket_upgrade(self, event: Any) -> None:
         """A socket may be silent."""
         self._patience.cancel()
+        self._silent.pop(self, None)
         super().handle_websocket_upgrade(event)
 
 

@@ -159,7 +159,7 @@ def test_a_strange_command_is_answered(served, connected, fields):
     connected.ask("model", reference="spaceship")
 
 
-def test_half_sent_requests_keep_nobody_out(served):
+def test_half_sent_requests_keep_nobody_out(served, connected):
     """As many as are kept, and more, without a key: a request that is whole is answered at once."""
     silent = []
     try:
@@ -169,8 +169,10 @@ def test_half_sent_requests_keep_nobody_out(served):
             silent.append(one)
         for _ in range(3):
             assert fetch(served, "/").startswith(b"<!doctype html>")
-            with studio.connect(served.url, served.key) as one:
-                assert one.view
+            with studio.connect(served.url, served.key) as other:
+                assert other.view
+        # A window that was open stays.
+        connected.ask("set", settings={"count": 4})
     finally:
         for one in silent:
             one.close()
