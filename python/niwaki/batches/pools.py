@@ -151,8 +151,10 @@ class Workers:
             return
         processes = self._leaders() if at_once else {}
         self._own.shutdown(wait=False, cancel_futures=True)
-        for leader in processes:
+        for leader, process in processes.items():
             end_group(leader)
+            # One that has only just been started leads no group yet.
+            process.kill()
         for process in processes.values():
             process.join()
 
