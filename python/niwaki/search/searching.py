@@ -90,9 +90,6 @@ def carried_out(
         _check_guide(search, guide)
     if not isinstance(search.method, Forward):
         check_kinds(search.task, search.seed)
-    for method in (search.method, search.polish):
-        if isinstance(method, Mh):
-            check_reach(search.task, method.kernel, search.seed)
     if search.runs == 1 and search.keep == "all" and search.polish is None:
         result = once(search, search.seed, threads, watcher(progress, search), _stage(keeper, "0/search"))
         if guides:
@@ -364,6 +361,7 @@ def chains_of(
 
     Chains of a stage that was begun go on from where they were.
     """
+    check_reach(search.task, method.kernel, seed)
     text, attached = _written(method)
     counted = search.task.uncounted()
     kept = None if stage is None else stage.engine

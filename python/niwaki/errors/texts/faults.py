@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from niwaki.errors.texts.message import Message
 
+#: What an invalid run is in a search.
+INVALID = "in a search such a run has probability zero; it is an error in a single run, and if every run of a search has it"
+
 FAULTS = (
     Message(
         "list-index",
@@ -230,8 +233,7 @@ FAULTS = (
         "bad-parameter",
         "a distribution's parameter is out of range",
         "no such distribution",
-        why="in a search such a run has probability zero; it is an error in a single run, and if every run of a search "
-        "has it",
+        why=INVALID,
         help="keep the parameter in its range for all values of the choices that it depends on, for instance with `max`, `min` or `clip`",
         example="gaussian(0, -1)",
         cure="gaussian(0, max(s, 1e-6))",
@@ -284,6 +286,7 @@ FAULTS = (
         "bad-shape",
         "a shape has impossible measures",
         "created here",
+        why=INVALID,
         help="sizes, radii and lengths are finite and greater than 0",
         example="box((0, 0, 0), (1, 0, 1))",
         cure="box((0, 0, 0), (1, 0.1, 1))",
@@ -348,7 +351,8 @@ FAULTS = (
         "host-function",
         "a host function failed",
         "called here",
-        help="a host function must return a value for every argument that the model can pass; run it alone with these",
+        why=INVALID,
+        help="run it alone with these arguments; in a search, an exception may stand for what is impossible",
         example="@nw.host\ndef look_up(name):\n    return TABLE[name]",
         cure="@nw.host\ndef look_up(name):\n    return TABLE.get(name, 0)",
     ),
