@@ -133,7 +133,8 @@ def try_meshes(folder: Path, suffix: str, count: int, seed: int) -> Counter[str]
     data = whole.with_suffix(suffix).read_bytes()
     for at in range(count):
         place = folder / f"{at:064x}.stl"
-        for other in (".stl", ".light.stl", ".json"):
+        # Without a ghost the mesh itself is read.
+        for other in (".stl", ".light.stl", ".json") if suffix != ".stl" else (".stl",):
             shutil.copy(whole.with_suffix(other), place.with_suffix(other))
         if suffix == ".json":
             text = mutated(json.loads(data), chance)[1]
@@ -156,7 +157,7 @@ def try_meshes(folder: Path, suffix: str, count: int, seed: int) -> Counter[str]
             found["message"] += 1
         assert time.monotonic() - begun < LONGEST
         for other in (".stl", ".light.stl", ".json"):
-            place.with_suffix(other).unlink()
+            place.with_suffix(other).unlink(missing_ok=True)
     return found
 
 

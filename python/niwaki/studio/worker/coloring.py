@@ -23,6 +23,7 @@ from niwaki.color.rules import CHAINS
 from niwaki.color.search import default_method
 from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder, write_whole
+from niwaki.errors.schema import Unfit, fitted, inside
 from niwaki.result import Progress, Result
 from niwaki.shell import run_files
 from niwaki.shell.references import ModelReference
@@ -58,6 +59,13 @@ PREFIX, SENT = "drawing:", "upload:"
 MEASURED, PICTURES, FILE = 640, {"light": 512, "fine": 1400}, 2048
 #: What pixels of no region have in place of a region's number.
 NOWHERE = 65535
+
+
+class Told(msgspec.Struct):
+    """What stands beside a run of colourings in its file."""
+
+    drawing: str
+    rules: dict[str, Any]
 
 
 def is_drawing(reference: str) -> bool:
@@ -196,13 +204,23 @@ def is_coloring(source: str) -> bool:
 
 def stored(source: str, number: int) -> Coloring:
     """A colouring of a stored run."""
-    told = run_files.load(source)["coloring"]
-    name = told["drawing"]
-    sent = Path(source).parents[1] / "uploads" / name.removeprefix(PREFIX + SENT)
-    read = _drawing(name, str(sent) if SENT in name else "")
+    try:
+        with inside(".coloring"):
+            told: Told = fitted(run_files.load(source)["coloring"], Told)
+    except Unfit as error:
+        raise InputError("bad-run-file", path=source, reason=str(error)) from error
+    sent = Path(source).parents[1] / "uploads" / Path(told.drawing.removeprefix(PREFIX + SENT)).name
+    read = _drawing(told.drawing, str(sent) if SENT in told.drawing else "")
     sample = runs.sample(source, number)
-    colors = {name: lab.hexed(value) for name, value in zip(read.names, sample.value, strict=True)}
-    return Coloring(read, Rules.of(told["rules"]), colors, sample, sample.search.args)
+    try:
+        values = np.array([list(value) for value in sample.value], dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.shape != (len(read.names), 3) or not np.isfinite(values).all():
+        reason = "its model returns no colours of the drawing's regions"
+        raise InputError("bad-run-file", path=source, reason=reason)
+    colors = {name: lab.hexed(value) for name, value in zip(read.names, values, strict=True)}
+    return Coloring(read, Rules.of(told.rules), colors, sample, sample.search.args)
 
 
 def _stored(

@@ -44,7 +44,7 @@ def sample(source: str, number: int) -> Sample:
     if key not in _samples:
         data = run_files.load(source)
         _samples[key] = run_files.replayed(data, number, allowed.modules(data))
-        _samples[key].seed = data["runs"][number]["seed"]
+        _samples[key].seed = data["runs"][number].get("seed", 0)
         if len(_samples) > KEPT:
             _samples.popitem(last=False)
     _samples.move_to_end(key)
