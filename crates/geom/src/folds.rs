@@ -76,6 +76,18 @@ pub(crate) fn folds(mesh: &TriMesh) -> Vec<Fold> {
         (b - a).cross(c - a)
     };
     let areas: Vec<Vec3> = triangles.iter().map(area).collect();
+    let edges = Edges::of(&triangles);
+    // Where a flat part has two sides, two of its triangles that face away from each other share an edge, or one that is nearly a line
+    // stands between them. Few meshes have such an edge.
+    let is_line = |i: u32| {
+        let t = &triangles[i as usize];
+        let longest = sides(t).map(|[a, b]| points[a as usize] - points[b as usize]).map(|d| d.dot(d));
+        areas[i as usize].norm() <= LINE * longest.into_iter().fold(0.0, f64::max)
+    };
+    let face_away = |i: u32, j: u32| areas[i as usize].dot(areas[j as usize]) < 0.0;
+    if !edges.any(|i, j| face_away(i, j) || is_line(i) || is_line(j)) {
+        return Vec::new();
+    }
     let largest =
         mesh.corners().flatten().flat_map(Vec3::to_array).fold(0.0, |most: f64, x| most.max(x.abs()));
     // From the largest triangle on: its plane is known best.
