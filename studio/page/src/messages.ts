@@ -9,7 +9,7 @@ export interface Hello {
   id?: number;
 }
 
-/** Take a model: a name of the gallery, or a reference that was named at the start. */
+/** Take a model: a name of the gallery, or a reference of a file that was named at the start. */
 export interface ChooseModel {
   kind: "model";
   reference: string;
