@@ -50,17 +50,15 @@ def test_a_batch_goes_on_after_each_fault_of_the_disk(
     assert {call for call, _ in kinds} >= {"open", "write", "fsync", "mkdir", "replace"}
 
 
-def test_a_full_disk_is_named_and_no_worker_is_blamed(tmp_path: Path) -> None:
-    begun = nw.batch(batched.PILES, seeds=8, folder=tmp_path, processes=2, chunk=0.0)
-    next(begun)
-
+def test_a_full_disk_is_named_and_no_worker_is_blamed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    with pytest.MonkeyPatch.context() as changed:
-        changed.setattr("niwaki.batches.segments._write", full)
-        with pytest.raises(FileError, match="No space left on device") as error:
-            list(begun)
+    monkeypatch.setattr("niwaki.batches.segments._write", full)
+    with pytest.raises(FileError, match="No space left on device") as error:
+        list(nw.batch(batched.PILES, seeds=8, folder=tmp_path, processes=2))
     assert "worker" not in str(error.value)
 
 
