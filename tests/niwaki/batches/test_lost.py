@@ -19,6 +19,7 @@ import batched
 import niwaki as nw
 import pytest
 from niwaki import batches
+from niwaki.batches import pools
 from niwaki.batches.pools import local
 from niwaki.errors import InputError
 
@@ -119,6 +120,18 @@ def test_what_a_host_function_started_ends_with_its_batch(end: str, tmp_path: Pa
     assert child.returncode == 0 or end in ("Ctrl-C", "a kill"), error
     numbers = {int(one.name) for one in (tmp_path / "numbers").iterdir()}
     assert len(numbers) >= 10 and ended(numbers)
+
+
+@UNIX
+def test_a_worker_that_leads_no_group_yet_ends_with_its_batch(monkeypatch: pytest.MonkeyPatch) -> None:
+    # As one that is still being started: nobody would wait for it, and it waits for others.
+    monkeypatch.setattr(pools, "end_group", lambda leader: None)
+    workers = pools.Workers(processes=1)
+    assert workers._own is not None
+    workers._own.submit(time.sleep, 60)
+    (process,) = workers._leaders().values()
+    workers.close(at_once=True)
+    assert process.exitcode == -signal.SIGKILL
 
 
 def test_what_ends_its_worker_is_given_up_alone(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
