@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import batched
@@ -115,11 +116,18 @@ def test_what_a_host_function_started_ends_with_its_batch(end: str, tmp_path: Pa
             os.kill(int(str(next(notes(tmp_path / "out"))["process"])), signal.SIGKILL)
         elif end in ("Ctrl-C", "a kill"):
             child.send_signal(signal.SIGINT if end == "Ctrl-C" else signal.SIGKILL)
-        # What it left behind would keep the pipe open.
-        _, error = child.communicate(timeout=60)
+        try:
+            # What it left behind would keep the pipe open.
+            _, error = child.communicate(timeout=60)
+        finally:
+            child.kill()
+            numbers = {int(one.name) for one in (tmp_path / "numbers").iterdir()}
+            gone = ended(numbers)
+            for number in () if gone else numbers:
+                with suppress(ProcessLookupError):
+                    os.kill(number, signal.SIGKILL)
     assert child.returncode == 0 or end in ("Ctrl-C", "a kill"), error
-    numbers = {int(one.name) for one in (tmp_path / "numbers").iterdir()}
-    assert len(numbers) >= 10 and ended(numbers)
+    assert len(numbers) >= 10 and gone
 
 
 @UNIX
