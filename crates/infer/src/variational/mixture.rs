@@ -41,24 +41,24 @@ pub fn log_density(normals: &[&Normal], angles: &[usize], x: &[Row]) -> Row {
         }
         parts.push((turns.iter().map(|(at, _)| z[*at]).collect(), log));
     }
+    let constant = |deviation: f64| deviation.ln() + HALF_LOG_TWO_PI;
     std::array::from_fn(|l| {
+        let of = |j: usize, k: usize| (parts[j].0[k][l], turns[j][k].1);
         let mut logs: Vec<f64> = parts.iter().map(|(_, log)| log[l]).collect();
         let mut before = log_sum_exp(logs.iter().copied());
         let mut total = before - (normals.len() as f64).ln();
         for k in 0..angles.len() {
-            let of = |j: usize| (parts[j].0[k][l], turns[j][k].1);
-            let constant = |deviation: f64| deviation.ln() + HALF_LOG_TWO_PI;
             let around: Vec<f64> = logs
                 .iter()
                 .enumerate()
                 .map(|(j, log)| {
-                    let (z, deviation) = of(j);
+                    let (z, deviation) = of(j, k);
                     log + wound(z, deviation).0 - constant(deviation)
                 })
                 .collect();
             total += log_sum_exp(around.iter().copied()) - before;
             for (j, log) in logs.iter_mut().enumerate() {
-                let (z, deviation) = of(j);
+                let (z, deviation) = of(j, k);
                 *log -= 0.5 * z * z + constant(deviation);
             }
             before = log_sum_exp(logs.iter().copied());
