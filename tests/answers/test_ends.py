@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
+from functools import cached_property
 
 import niwaki as nw
 import numpy as np
@@ -20,6 +21,7 @@ from niwaki import kernels, model
 from niwaki.result.hmc import GradientWarning
 from niwaki.words import (
     Beta,
+    Binomial,
     Cauchy,
     Dirichlet,
     Exponential,
@@ -45,7 +47,7 @@ def alone(distribution):
 @model
 def ten_heads(a, b):
     share = nw.beta(a, b)
-    nw.observe(nw.Binomial(10, share), 10)
+    nw.observe(Binomial(10, share), 10)
     return share
 
 
@@ -77,11 +79,13 @@ class Case:
     def coordinate(self, x: np.ndarray) -> np.ndarray:
         return np.log(x) - np.log1p(-x) if self.unit else np.log(x)
 
-    def below(self, place: float) -> float:
-        """The probability that the coordinate is below a place."""
+    @cached_property
+    def below(self) -> dict[float, float]:
+        """The probabilities that the coordinate is below each of the places."""
         v = np.linspace(-60_000.0, 60_000.0, 12_000_001)
         density = np.exp(self.log_density(v))
-        return float(density[v < place].sum() / density.sum())
+        # Rounding may leave a share above one.
+        return {place: min(1.0, float(density[v < place].sum() / density.sum())) for place in PLACES}
 
 
 def beta(a, b):
@@ -142,7 +146,7 @@ def judged(case: Case, x: np.ndarray, weights: np.ndarray | None = None) -> None
     for place in PLACES:
         if case.unit and place > 36.0:
             continue
-        truth, side = case.below(place), (v < place).astype(float)
+        truth, side = case.below[place], (v < place).astype(float)
         if weights is None:
             mean, error = float(side.mean()), batch_error(side)
         else:
