@@ -19,7 +19,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from niwaki.errors import FileError
-from niwaki.errors.files import sync_folder, unwritable
+from niwaki.errors.files import sync_folder, unwritable, write_all
 from niwaki.inputs import regular
 
 #: What a record begins with.
@@ -113,8 +113,8 @@ class Segment:
             for key, body in found:
                 places.append(end + len(whole) + HEAD.size)
                 whole += record(key, body)
-            _write(self._numbers[0], bytes(whole))
-            _write(self._numbers[1], "".join(f"{line}\n" for line in lines).encode())
+            write_all(self._numbers[0], bytes(whole))
+            write_all(self._numbers[1], "".join(f"{line}\n" for line in lines).encode())
             if time.monotonic() - self._synced >= SYNC:
                 os.fsync(self._numbers[0])
                 self._synced = time.monotonic()
@@ -144,9 +144,3 @@ class Segment:
 def _created(place: Path) -> int:
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_BINARY", 0)
     return os.open(place, flags, 0o666)
-
-
-def _write(number: int, data: bytes) -> None:
-    left = memoryview(data)
-    while left:
-        left = left[os.write(number, left) :]

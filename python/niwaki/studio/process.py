@@ -9,7 +9,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import os
-import signal
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from itertools import count
@@ -18,6 +17,7 @@ from pathlib import Path
 import msgspec
 
 from niwaki.errors import InputError
+from niwaki.errors.processes import end_group
 from niwaki.studio.frames import LENGTH, LONGEST, frame, opened
 from niwaki.studio.messages import Answer, AnyJob, AnyReport, Loading, Problem
 from niwaki.studio.refused import problem
@@ -181,12 +181,9 @@ class Worker:
         """End the process at once."""
         process, self._process = self._process, None
         if process is not None:
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                if os.name == "posix" and process.returncode is None:
-                    # It leads a group: what a file of models has started ends with it.
-                    os.killpg(process.pid, signal.SIGKILL)
-                else:
-                    process.kill()
+            if process.returncode is None:
+                # It leads a group: what a file of models has started ends with it.
+                end_group(process.pid)
             await process.wait()
 
 

@@ -56,7 +56,7 @@ def test_a_full_disk_is_named_and_no_worker_is_blamed(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("niwaki.batches.segments._write", full)
+    monkeypatch.setattr("niwaki.batches.segments.write_all", full)
     with pytest.raises(FileError, match="No space left on device") as error:
         list(nw.batch(batched.PILES, seeds=8, folder=tmp_path, processes=2))
     assert "worker" not in str(error.value)
@@ -68,7 +68,7 @@ def test_a_segment_goes_on_after_a_write_that_failed(tmp_path: Path) -> None:
     segment = Segment(tmp_path)
     segment.append([(b"a" * 32, b"first")])
     with pytest.MonkeyPatch.context() as changed:
-        changed.setattr("niwaki.batches.segments._write", _half)
+        changed.setattr("niwaki.batches.segments.write_all", _half)
         with pytest.raises(FileError):
             segment.append([(b"b" * 32, b"second")])
     (place,) = segment.append([(b"c" * 32, b"third")])
