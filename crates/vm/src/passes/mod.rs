@@ -260,8 +260,8 @@ mod tests {
             "`m` is too large: it has more than 65535 arguments in one call or list"
         );
         let many: Vec<String> =
-            (0..=Operand::MAX_INDEX).map(|i| format!("(set $x{i} (sample (dist bernoulli 0.5)))")).collect();
-        let values = format!("(module (fn \"m\" (params) {} (return 1)) (entry \"m\"))", many.join(" "));
+            (0..=Operand::MAX_INDEX).map(|i| format!("(set $x{i} (sample (dist bernoulli $p)))")).collect();
+        let values = format!("(module (fn \"m\" (params $p) {} (return 1)) (entry \"m\"))", many.join(" "));
         assert!(
             error(&values).starts_with("`m` is too large: it has more than 16384 values"),
             "{}",
