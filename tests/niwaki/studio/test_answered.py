@@ -49,7 +49,7 @@ def events(one: Window) -> list[dict]:
 @pytest.mark.parametrize(
     "error", [ZeroDivisionError("x"), OSError(28, "No space left on device"), RecursionError()]
 )
-@pytest.mark.parametrize("is_late", [False, True], ids=["at once", "late"])
+@pytest.mark.parametrize("is_late", [False, True], ids=["at-once", "late"])
 def test_a_command_that_fails_is_answered_with_why(tmp_path, monkeypatch, error, is_late):
     """Each kind of command, failing at once or beside others."""
 

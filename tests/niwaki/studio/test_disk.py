@@ -239,6 +239,18 @@ def test_many_damaged_sessions(tmp_path, name):
         ("[]", "line 2"),
         ("\x00" * 40, "line 2: it is not JSON"),
     ],
+    ids=[
+        "head",
+        "below",
+        "own-parent",
+        "circle",
+        "changes",
+        "results",
+        "running",
+        "unknown",
+        "list",
+        "zeros",
+    ],
 )
 def test_a_wrong_line_is_named_or_left_out_where_it_is_the_last(tmp_path, line, reason):
     journal = Journal(tmp_path)
