@@ -15,11 +15,10 @@ import struct
 import time
 import zlib
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 
-from niwaki.errors import FileError
-from niwaki.errors.files import sync_folder, unwritable, write_all
+from niwaki.errors.files import sync_folder, unreadable, unwritable, write_all
 from niwaki.inputs import regular
 
 #: What a record begins with.
@@ -35,16 +34,6 @@ SEGMENT, LOG = "seg-", "log-"
 SYNC = 1.0
 
 
-@contextmanager
-def unreadable(place: Path, what: str = "a segment") -> Iterator[None]:
-    """What the system says inside, as the error about a segment, or something else, that cannot be read."""
-    try:
-        yield
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise FileError("file-unreadable", place, suffix=what, reason=reason) from error
-
-
 def record(key: bytes, body: bytes) -> bytes:
     """The bytes of one record."""
     return HEAD.pack(MARK, key, len(body), _crc(key, body)) + body
@@ -58,7 +47,7 @@ def records(place: Path) -> Iterator[tuple[bytes, int, int]]:
     FileError
         The segment cannot be read.
     """
-    with unreadable(place), regular(place).open("rb") as file:
+    with unreadable(place, "a segment"), regular(place).open("rb") as file:
         if os.fstat(file.fileno()).st_size == 0:
             return
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:

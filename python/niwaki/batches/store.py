@@ -16,10 +16,10 @@ from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
-from niwaki.batches.segments import HEAD, SEGMENT, Segment, records, unreadable
+from niwaki.batches.segments import HEAD, SEGMENT, Segment, records
 from niwaki.batches.spec import SPEC, Spec
 from niwaki.errors import InputError
-from niwaki.errors.files import ensure_folder, write_whole
+from niwaki.errors.files import ensure_folder, unreadable, write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.inputs import bytes_of
 
@@ -137,7 +137,7 @@ class Store:
 
     def _read(self, place: tuple[int, int, int]) -> bytes:
         file, at, length = place
-        with unreadable(self._files[file]), self._files[file].open("rb") as opened:
+        with unreadable(self._files[file], "a segment"), self._files[file].open("rb") as opened:
             opened.seek(at)
             return opened.read(length)
 

@@ -185,6 +185,16 @@ def unwritable(place: str | PathLike[str], error: Exception) -> FileError:
     return FileError("file-unwritable", place, reason=reason)
 
 
+@contextmanager
+def unreadable(place: Path, what: str = "a file") -> Iterator[None]:
+    """What the system says inside, as the error about a place that cannot be read."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise FileError("file-unreadable", place, suffix=what, reason=reason) from error
+
+
 def ensure_folder(place: Path) -> Path:
     """The folder, created if it does not exist."""
     try:

@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from niwaki.errors import FileError, NiwakiError
-from niwaki.errors.files import unwritable, write_whole, written_beside
+from niwaki.errors.files import unreadable, unwritable, write_whole, written_beside
 from niwaki.shell import run_files, writing
 
 RUN = "run.json"
@@ -147,8 +147,5 @@ def _hashed(folder: Path, files: dict[str, str | None]) -> dict[str, str | None]
 
 
 def _digest(place: Path) -> str:
-    try:
+    with unreadable(place):
         return hashlib.sha256(place.read_bytes()).hexdigest()
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise FileError("file-unreadable", place, suffix="a file", reason=reason) from error

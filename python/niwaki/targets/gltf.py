@@ -398,7 +398,7 @@ def _triangles(flat: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     if mode == _STRIP:
         return polygons.strips(flat)
     if mode == _FAN:
-        return np.stack([np.broadcast_to(flat[:1], flat[2:].shape), flat[1:-1], flat[2:]], axis=1)
+        return polygons.fans(flat.reshape(1, -1)).reshape(-1, 3)
     if len(flat) % 3:
         raise Unreadable(f"{len(flat)} indices make no triangles")
     return flat.reshape(-1, 3)

@@ -50,9 +50,9 @@ def triangles(
         rows = corners[starts[which, None] + np.arange(count)]
         # A quad is covered by its fan from the first corner or from the second.
         for first in (0, 1):
-            fans = _fans(np.roll(rows, -first, axis=1))
-            cover = _cover(vertices, fans) if count > 3 else np.ones(len(rows), bool)
-            found.append(fans[cover].reshape(-1, 3))
+            cut = fans(np.roll(rows, -first, axis=1))
+            cover = _cover(vertices, cut) if count > 3 else np.ones(len(rows), bool)
+            found.append(cut[cover].reshape(-1, 3))
             owners.append(np.repeat(which[cover], count - 2))
             rows, which = rows[~cover], which[~cover]
         compared += count * count * len(rows)
@@ -66,7 +66,7 @@ def triangles(
     return np.concatenate(found)[np.argsort(np.concatenate(owners), kind="stable")]
 
 
-def _fans(rows: NDArray[np.int64]) -> NDArray[np.int64]:
+def fans(rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """Triangles (m, k, 3) from the first corner of each row to all others."""
     return np.stack([np.broadcast_to(rows[:, :1], rows[:, 2:].shape), rows[:, 1:-1], rows[:, 2:]], axis=2)
 

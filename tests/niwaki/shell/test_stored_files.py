@@ -17,9 +17,10 @@ from typing import Any
 
 import niwaki as nw
 import pytest
+from batched import pile
 from faults import trials
 from mutated import mutated, tracebacks
-from niwaki import batches, box, emit, factor, flip, model, uniform
+from niwaki import batches
 from niwaki.batches import export
 from niwaki.batches.segments import record, records
 from niwaki.batches.spec import Spec
@@ -33,15 +34,6 @@ pytestmark = pytest.mark.filterwarnings("ignore::niwaki.search.worth.SearchWarni
 
 #: Mutations of each kind of file in the long form.
 MANY = 3000
-
-
-@model
-def pile(y=0.0, width=2.0):
-    height = uniform(0.5, 1.5)
-    emit(box((0, y + height / 2, 0), (width, height, width)))
-    factor(-abs(y + height - 3.0))
-    if flip(0.6):
-        pile(y + height, width * uniform(0.6, 1.0))
 
 
 SEARCHES = [

@@ -259,6 +259,20 @@ def test_more_commands_than_can_wait_are_refused(tmp_path):
     asyncio.run(lived())
 
 
+async def upload(guard: Any, send: Any) -> None:
+    """A request with a mesh of one byte."""
+    scope = {
+        "type": "http", "http_version": "1.1", "method": "POST", "path": "/upload", "raw_path": b"/upload",
+        "query_string": b"name=a.stl",
+        "headers": [(b"host", b"127.0.0.1:1234"), (b"authorization", f"Bearer {guard.key}".encode())],
+    }  # fmt: skip
+
+    async def receive() -> dict:
+        return {"type": "http.request", "body": b"x", "more_body": False}
+
+    await guard(scope, receive, send)
+
+
 def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
     """Twelve at once: no more than the limit are taken and read, and each is answered."""
     most = [0, 0]
@@ -278,20 +292,11 @@ def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
         guard = server.application(session, 1234)
 
         async def one() -> None:
-            scope = {
-                "type": "http", "http_version": "1.1", "method": "POST", "path": "/upload", "raw_path": b"/upload",
-                "query_string": b"name=a.stl",
-                "headers": [(b"host", b"127.0.0.1:1234"), (b"authorization", f"Bearer {guard.key}".encode())],
-            }  # fmt: skip
-
-            async def receive() -> dict:
-                return {"type": "http.request", "body": b"x", "more_body": False}
-
             async def send(message: dict) -> None:
                 if message["type"] == "http.response.start":
                     answered.append(message["status"])
 
-            await guard(scope, receive, send)
+            await upload(guard, send)
 
         async with asyncio.timeout(30):
             await asyncio.gather(*(one() for _ in range(12)))
@@ -311,19 +316,11 @@ def test_an_upload_on_a_full_disk_says_so(tmp_path, monkeypatch):
     async def asked() -> None:
         session = Session(tmp_path, [])
         guard = server.application(session, 1234)
-        scope = {
-            "type": "http", "http_version": "1.1", "method": "POST", "path": "/upload", "raw_path": b"/upload",
-            "query_string": b"name=a.stl",
-            "headers": [(b"host", b"127.0.0.1:1234"), (b"authorization", f"Bearer {guard.key}".encode())],
-        }  # fmt: skip
-
-        async def receive() -> dict:
-            return {"type": "http.request", "body": b"x", "more_body": False}
 
         async def send(message: dict) -> None:
             said.append(message)
 
-        await guard(scope, receive, send)
+        await upload(guard, send)
         await session.end()
 
     asyncio.run(asked())
