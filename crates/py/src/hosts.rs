@@ -26,6 +26,13 @@ struct Function {
     threads: bool,
 }
 
+impl Function {
+    fn name(&self, py: Python<'_>) -> String {
+        let name = self.callable.bind(py).getattr("__name__");
+        name.map_or_else(|_| "it".into(), |name| name.to_string())
+    }
+}
+
 /// The functions of a program by the number of the constant that names them.
 pub struct PyHosts {
     functions: Vec<Option<Function>>,
@@ -49,17 +56,18 @@ impl PyHosts {
         Ok(PyHosts { functions: functions.collect::<PyResult<_>>()?, classes, raised: Mutex::new(None) })
     }
 
-    fn failed(&self, py: Python<'_>, function: &Function, args: &[Value], error: PyErr) -> Fault {
-        let name = function.callable.bind(py).getattr("__name__");
-        let name = name.map_or_else(|_| "it".into(), |name| name.to_string());
+    /// An exception as a fault of the program, and whether it is about the model: any other is kept, and ends the search.
+    fn failed(&self, py: Python<'_>, function: &Function, error: PyErr) -> (Fault, bool) {
+        let name = function.name(py);
         let kind = error.get_type(py).name().map_or_else(|_| "an error".into(), |name| name.to_string());
         let text = error.value(py).to_string();
         let fault = Fault::new("host-function", format!("the host function `{name}` failed: {kind}: {text}"));
-        if error.is_instance_of::<PyException>(py) && !error.is_instance_of::<PyMemoryError>(py) {
-            return fault.of_call(&name, args);
+        let is_about_it =
+            error.is_instance_of::<PyException>(py) && !error.is_instance_of::<PyMemoryError>(py);
+        if !is_about_it {
+            self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
         }
-        self.raised.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
-        fault
+        (fault, is_about_it)
     }
 }
 
@@ -78,12 +86,12 @@ impl Hosts for PyHosts {
                 end_if_forked(process, "the host function");
                 result
             });
-            let value = result.map_err(|error| self.failed(py, function, args, error))?;
+            let value = result.map_err(|error| match self.failed(py, function, error) {
+                (fault, true) => fault.of_call(&function.name(py), args),
+                (fault, false) => fault,
+            })?;
             // A value that a model cannot have is a fault of the program, in any run.
-            self.classes.value(&value).map_err(|error| {
-                let name = self.failed(py, function, args, error);
-                Fault::new(name.code, name.message.clone())
-            })
+            self.classes.value(&value).map_err(|error| self.failed(py, function, error).0)
         })
     }
 

@@ -149,16 +149,10 @@ impl Normal {
         }
         let (dim, covariance) = (self.dim(), self.covariance());
         let order = order(dim, angles);
-        let is_diagonal = matches!(self.scale, Scale::Diagonal(_));
-        let entry = |i: usize, j: usize| match is_diagonal {
-            true => {
-                if i == j {
-                    covariance[i]
-                } else {
-                    0.0
-                }
-            }
-            false => covariance[i * dim + j],
+        let entry = |i: usize, j: usize| match self.scale {
+            Scale::Diagonal(_) if i == j => covariance[i],
+            Scale::Diagonal(_) => 0.0,
+            _ => covariance[i * dim + j],
         };
         let moved: Vec<f64> = order.iter().flat_map(|i| order.iter().map(|j| entry(*i, *j))).collect();
         let triangle = cholesky(&moved)?;

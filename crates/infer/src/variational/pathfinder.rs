@@ -177,10 +177,7 @@ impl Draws {
         let Some(normal) = normal.in_order(&batch.angles) else { return Ok(f64::NEG_INFINITY) };
         normal.place(&self.z, &mut self.x);
         let values = batch.evaluate(&self.x, &mut self.g, LANES)?;
-        let own = match batch.angles.is_empty() {
-            true => normal.log_density(&self.z),
-            false => normal.log_density_around(&self.z, &batch.angles),
-        };
+        let own = normal.log_density_around(&self.z, &batch.angles);
         let mean = values.iter().zip(own).map(|(p, q)| p - q).sum::<f64>() / LANES as f64;
         Ok(if mean.is_nan() { f64::NEG_INFINITY } else { mean })
     }
