@@ -185,6 +185,9 @@ def neighbour(reach: int = 1) -> Kernel:
 def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kernel:
     """Many choices move a little at once.
 
+    A discrete choice that takes part moves to a value near by or stays, each with probability 1/2. Lists of counts or
+    of truth values stay: a search with this kernel alone then warns.
+
     Parameters
     ----------
     step

@@ -203,10 +203,16 @@ class MhInfo(Info):
     def warn(self) -> None:
         """Warn about trajectories that affect the use of the samples."""
         name = self.search.model.name
-        if self._leaves and all(leaf.name in ("hmc_step", "nuts_step") for leaf in self._leaves):
-            values = (item for sample in self.last for item in sample.choices.items())
-            if held := sorted({path for path, value in values if isinstance(value, (bool, int))}):
-                say(kept(held, name))
+        names = {leaf.name for leaf in self._leaves}
+        if names and names <= {"block", "hmc_step", "nuts_step"}:
+            # A block moves single discrete choices, and no lists of them.
+            stays = tuple if "block" in names else (bool, int, tuple)
+            values = [item for sample in self.last for item in sample.choices.items()]
+            if held := sorted(
+                {path for path, value in values if isinstance(value, stays) and is_discrete(value)}
+            ):
+                mover = "block" if "block" in names else "gradient"
+                say(kept(held, name, mover, "write `kernels.cycle(kernels.prior(), ...)`"))
         for one in self.trajectories:
             broke = one.divergences
             if broke.structure and (unmoved := self._unmoved()):
@@ -232,6 +238,11 @@ class MhInfo(Info):
             path.rsplit("/", 1)[-1]
             for sample in self.last
             for path, value in sample.choices.items()
-            if not isinstance(value, (bool, int))
+            if not is_discrete(value)
         }
         return sorted(sites - proposed)
+
+
+def is_discrete(value: Any) -> bool:
+    """Whether a choice's value is a truth value, a whole number, or a list of these."""
+    return isinstance(value, (bool, int)) or (isinstance(value, tuple) and all(map(is_discrete, value)))

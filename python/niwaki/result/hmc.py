@@ -46,14 +46,14 @@ def listed(paths: Sequence[str]) -> str:
     )
 
 
-def kept(paths: Sequence[str], name: str) -> str:
-    """The warning that discrete choices kept their values."""
+def kept(paths: Sequence[str], name: str, mover: str = "gradient", cure: str = "use `mh()`") -> str:
+    """The warning that discrete choices kept their values, because nothing but a `mover` moves any."""
     many = len(paths) > 1
     return (
         f"{len(paths)} discrete choice{'s' if many else ''} of `{name}` kept the value of each "
-        f"chain's start, because a gradient does not move {'them' if many else 'it'}: {listed(paths)}; "
+        f"chain's start, because a {mover} does not move {'them' if many else 'it'}: {listed(paths)}; "
         f"draws are conditional on {'those values' if many else 'that value'}; "
-        f"use `mh()` where {'they' if many else 'it'} should vary"
+        f"{cure} where {'they' if many else 'it'} should vary"
     )
 
 

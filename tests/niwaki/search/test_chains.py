@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import linecache
+import math
 import os
 import re
 import signal
@@ -18,6 +19,7 @@ import pytest
 from niwaki import _engine
 from niwaki import kernels as k
 from niwaki.lang import compiled
+from niwaki.result.hmc import GradientWarning
 from niwaki.search import SearchWarning
 from niwaki.shell.main import app
 from niwaki.words import Gaussian
@@ -360,3 +362,45 @@ def test_kernels_that_reach_all_runs_are_not(kernel):
         result = nw.run(rounds, nw.mh(steps=300, kernel=kernel, chains=4), seed=1)
         nw.run(even, nw.mh(steps=30, kernel=k.regrow(4, pick="choice")), seed=1)
     assert all(len({tuple(sample.choices) for sample in chain}) > 1 for chain in result.by_chain)
+
+
+@nw.model
+def discrete():
+    n = nw.discrete_uniform(0, 3)
+    return [nw.flip(0.3), nw.flip(0.6), n, nw.flip(0.1 + 0.2 * n)]
+
+
+def test_a_block_alone_reaches_all_values_of_discrete_choices():
+    exact = nw.run(discrete, nw.enumerate_all()).distribution()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", SearchWarning)
+        result = nw.run(discrete, nw.mh(steps=80_000, kernel=k.block(), chains=4, keep=4000), seed=1)
+    for chain in result.by_chain:
+        told = [str(sample.value) for sample in chain]
+        for value, probability in exact.items():
+            # 4000 samples, 20 proposals apart: six standard errors of independent ones, in 128 comparisons.
+            limit = 6.0 * math.sqrt(probability * (1.0 - probability) / len(told))
+            assert abs(told.count(value) / len(told) - probability) < limit, value
+
+
+@nw.model
+def counts():
+    return nw.multinomial(4, [0.5, 0.5]), nw.gaussian(0.0, 1.0), nw.flip(0.5)
+
+
+@pytest.mark.parametrize(
+    ("kernel", "kept"),
+    [
+        (k.block(), "a block does not move it: `multinomial`"),
+        (k.hmc_step(), "a gradient does not move them: `bernoulli`, `multinomial`"),
+        (k.cycle(k.block(), k.nuts_step()), "a block does not move it: `multinomial`"),
+    ],
+    ids=repr,
+)
+def test_choices_that_a_kernel_never_changes_are_named(kernel, kept):
+    with pytest.warns(GradientWarning, match=kept):
+        result = nw.run(counts, nw.mh(steps=200, kernel=kernel, chains=2), seed=1)
+    assert all(len({str(sample.value[0]) for sample in chain}) == 1 for chain in result.by_chain)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", GradientWarning)
+        nw.run(counts, nw.mh(steps=20, kernel=k.cycle(kernel, k.prior())), seed=1)

@@ -4,6 +4,9 @@
 //! in the coordinates of its *family* (positive ones by a factor, bounded ones in plain steps, which
 //! are rejected outside), by its spread in the chain's first state. The step of a choice that is gone after the
 //! proposal, or has another family, does not count in either direction.
+//!
+//! A discrete choice that takes part moves to a neighbour or stays, each with probability 1/2. If all of them always moved, what
+//! two of them have in common could never change: two truth values that are equal would stay equal.
 
 use super::Chain;
 use super::accept::Rules;
@@ -41,6 +44,9 @@ pub(crate) fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> 
         _ => None,
     };
     if let Some(value) = discrete {
+        if rng.uniform() < 0.5 {
+            return None;
+        }
         return Some(Proposed { value, forward: 0.0, backward: 0.0 });
     }
     let (old, coordinates) = (value_to_draw(old)?, space.coordinates()?);

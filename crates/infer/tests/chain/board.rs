@@ -117,6 +117,7 @@ fn rows() -> Vec<Row> {
         row("drift", leaf("drift", json!({"step": 0.5, "target": 0.44}))),
         row("regenerate 0", leaf("regenerate", json!({"levels": 0}))),
         row("regenerate 1", leaf("regenerate", json!({"levels": 1}))),
+        row("block, all choices", leaf("block", json!({"step": 0.3, "share": 1.0, "target": 0.23}))),
         row("cycle", Kernel::Cycle(vec![prior(), block()])),
         row(
             "mixture",
