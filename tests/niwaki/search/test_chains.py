@@ -395,7 +395,7 @@ def counts():
         (k.hmc_step(), "a gradient does not move them: `bernoulli`, `multinomial`"),
         (k.cycle(k.block(), k.nuts_step()), "a block does not move it: `multinomial`"),
     ],
-    ids=repr,
+    ids=["block", "trajectory", "both"],
 )
 def test_choices_that_a_kernel_never_changes_are_named(kernel, kept):
     with pytest.warns(GradientWarning, match=kept):
