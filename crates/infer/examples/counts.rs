@@ -24,7 +24,6 @@ use niwaki_infer::hamiltonian;
 use niwaki_infer::hamiltonian::chains::{Length, run};
 use niwaki_infer::importance::importance;
 use niwaki_infer::method::{Given, Method};
-use niwaki_infer::proposal::Proposal;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::{List, Value};
@@ -126,7 +125,7 @@ fn parts(kind: &str, count: u64) -> u64 {
 fn guided(runs: u64) -> u64 {
     let task = programs::task(programs::BRANCHING);
     let guide = Kernel::guided(guides::random(&task, 1, guides::MILD));
-    let proposal = Proposal::of(&guide).expect("a proposal");
+    let proposal = guide.proposal().expect("a proposal");
     let found = importance(&task, Some(&proposal), runs as usize, 1, &mut |_| true).expect("runs");
     found.runs.iter().map(|run| run.log.entries().len() as u64).sum()
 }

@@ -1,64 +1,32 @@
 //! Which parts of scenes break a constraint: for what is told of runs that became impossible.
 
 use crate::Task;
-use crate::log::Entry;
+use crate::failure::{Blame, Dead, Emitted, Failure};
 use crate::replay::{Missing, Part, Source, by_address, replay};
 use niwaki_geom::Primitive;
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Most runs that are looked at.
 pub(crate) const RUNS: usize = 300;
 
-/// A run that became impossible.
-#[derive(Clone, Debug)]
-pub struct Dead {
-    /// What made it impossible: the name of a sketch, or of a factor.
-    pub(crate) cause: String,
-    /// Its choices.
-    pub(crate) entries: Vec<Entry>,
-}
-
-/// Where parts that break a constraint are emitted, and in how many runs.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Blame {
-    /// The name of the constraint.
-    pub constraint: String,
-    /// The part that breaks it.
-    pub part: Emitted,
-    /// The part before it that it breaks it with, where one alone does not.
-    pub other: Option<Emitted>,
-    /// In how many of the runs.
-    pub runs: usize,
-}
-
 /// Where a part is emitted.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Emitted {
-    /// The readable address of one such part.
-    pub path: String,
-    /// Qualified name of the function.
-    pub function: String,
-    /// Number of its source file.
-    pub file: u32,
-    /// First line, first column, last line, column after the last character.
-    pub span: [u32; 4],
+fn emitted(part: &Part) -> Emitted {
+    let (call, s) = (&part.place, part.place.span);
+    let span = [s.line, s.column, s.end_line, s.end_column];
+    Emitted { path: part.path.clone(), function: call.function.to_string(), file: call.file, span }
 }
 
-impl Emitted {
-    fn of(part: &Part) -> Emitted {
-        let (call, s) = (&part.place, part.place.span);
-        let span = [s.line, s.column, s.end_line, s.end_column];
-        Emitted { path: part.path.clone(), function: call.function.to_string(), file: call.file, span }
+/// A failure with the parts that break a constraint. They are looked for only in what a person reads: searches that go on after
+/// a population has died do not need them.
+pub fn explained(mut failure: Failure, task: &Task) -> Failure {
+    if let Failure::Impossible { dead, blame: found, .. } = &mut failure {
+        *found = blame(task, &std::mem::take(dead));
     }
-
-    fn place(&self) -> (u32, [u32; 4]) {
-        (self.file, self.span)
-    }
+    failure
 }
 
 /// The parts of impossible runs that break a constraint, most frequent first, and how many runs were looked at. Runs that something
@@ -87,7 +55,7 @@ fn blame_in(task: &Task, Dead { cause, entries }: &Dead) -> Option<Blame> {
     let own = Task { sketches, ..task.uncounted() };
     let trace = replay(&own, Source::Addresses(by_address(entries)), Missing::Stop).ok()?;
     let (part, other) = first_forbidden(&own.sketches, &trace.parts)?;
-    let (part, other) = (Emitted::of(part), other.map(Emitted::of));
+    let (part, other) = (emitted(part), other.map(emitted));
     Some(Blame { constraint: cause.clone(), part, other, runs: 0 })
 }
 

@@ -1,9 +1,9 @@
 //! Why a search gives no result.
 
-use crate::Task;
-use crate::blame::{Blame, Dead, blame};
+use crate::log::Entry;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Why a search gives no result.
@@ -35,6 +35,48 @@ pub enum Failure {
     },
 }
 
+/// A run that became impossible.
+#[derive(Clone, Debug)]
+pub struct Dead {
+    /// What made it impossible: the name of a sketch, or of a factor.
+    pub(crate) cause: String,
+    /// Its choices.
+    pub(crate) entries: Vec<Entry>,
+}
+
+/// Where parts that break a constraint are emitted, and in how many runs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Blame {
+    /// The name of the constraint.
+    pub constraint: String,
+    /// The part that breaks it.
+    pub part: Emitted,
+    /// The part before it that it breaks it with, where one alone does not.
+    pub other: Option<Emitted>,
+    /// In how many of the runs.
+    pub runs: usize,
+}
+
+/// Where a part is emitted.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Emitted {
+    /// The readable address of one such part.
+    pub path: String,
+    /// Qualified name of the function.
+    pub function: String,
+    /// Number of its source file.
+    pub file: u32,
+    /// First line, first column, last line, column after the last character.
+    pub span: [u32; 4],
+}
+
+impl Emitted {
+    /// Number of its source file, and its place there.
+    pub(crate) fn place(&self) -> (u32, [u32; 4]) {
+        (self.file, self.span)
+    }
+}
+
 /// A population of a search for the best.
 #[derive(Clone, Debug)]
 pub struct Attempt {
@@ -54,15 +96,6 @@ impl Failure {
         let mut causes: Vec<(String, usize)> = counts.into_iter().map(|(c, n)| (c.to_string(), n)).collect();
         causes.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
         Failure::Impossible { barrier, causes, dead: vec![], blame: (vec![], 0), attempts: vec![] }
-    }
-
-    /// With the parts that break a constraint. They are looked for only in what a person reads: searches that go on after
-    /// a population has died do not need them.
-    pub(crate) fn explained(mut self, task: &Task) -> Failure {
-        if let Failure::Impossible { dead, blame: found, .. } = &mut self {
-            *found = blame(task, &std::mem::take(dead));
-        }
-        self
     }
 
     /// A run that was given is impossible: nothing was tried.

@@ -1,7 +1,7 @@
 //! Tasks with choices held: see [`niwaki_vm::machine::held`].
 
 use crate::Task;
-use crate::chain::select::{labels, no_choice};
+use crate::select::{labels, no_choice};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::held::Held;
 use niwaki_vm::value::Value;

@@ -1,7 +1,8 @@
 //! Partial runs that became impossible while others of their population lived: how many, by what, and by which parts.
 
 use crate::Task;
-use crate::blame::{Blame, Dead, blame};
+use crate::blame::blame;
+use crate::failure::{Blame, Dead};
 use crate::record::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -3,6 +3,7 @@
 //! The fields are those of Python's classes of the same names, which describe them.
 
 use crate::annealed::{self, Annealed, Powers, annealed};
+use crate::blame::explained;
 use crate::chain::form::{Attached, Form};
 use crate::chain::kernel::Kernel;
 use crate::enumeration::{Visit, visit};
@@ -13,10 +14,11 @@ use crate::hamiltonian::{self, Metric, Shape};
 use crate::importance::importance;
 use crate::improve::{Improve, Improved, Seen};
 use crate::log::Entry;
+use crate::look_ahead::LookAhead;
 use crate::losses::Lost;
 use crate::particles::{
-    self, Ancestors, FinalChains, LookAhead, Moment, Progress, Rejuvenation, Resampling, Settings,
-    particle_gibbs, pimh, populations, within,
+    self, Ancestors, FinalChains, Moment, Progress, Rejuvenation, Resampling, Settings, particle_gibbs, pimh,
+    populations, within,
 };
 use crate::proposal::Proposal;
 use crate::record::AllInvalid;
@@ -324,7 +326,7 @@ impl Method {
     /// # Errors
     /// The failure of the method.
     pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
-        self.results(task, given, watch).map_err(|failure| failure.explained(task))
+        self.results(task, given, watch).map_err(|failure| explained(failure, task))
     }
 
     fn results(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
@@ -615,7 +617,7 @@ impl Mh {
 /// The proposal for the choices of new runs.
 fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
     let Some(form) = form else { return Ok(None) };
-    Ok(Some(Arc::new(Proposal::of(&form.kernel(given.attached)?)?)))
+    Ok(Some(Arc::new(form.kernel(given.attached)?.proposal()?)))
 }
 
 /// What weights count of the rest of a run: so much of what a guide of the proposal says.

@@ -9,6 +9,7 @@
 use crate::Failure;
 use crate::chain;
 use crate::chain::many::Chains;
+use crate::inside::{Inside, fault_of, limits_inside, too_long};
 use crate::method::{Given, Info, Method, Mh};
 use crate::run::Run;
 use crate::streams::Reserved;
@@ -21,9 +22,6 @@ use niwaki_vm::value::{Closure, Value, same};
 use std::any::Any;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
-
-/// How many `infer` may be inside one another. Each takes some of the host's stack.
-const DEPTH: usize = 16;
 
 /// What an `infer` returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,8 +141,6 @@ pub struct Inferences {
 /// How many answers are remembered.
 const REMEMBERED: usize = 16;
 
-/// Bytes that the runs of an `infer` have at least, so that many inside one another end by their depth.
-const SMALLEST: usize = 1 << 20;
 /// Most bytes of one of them, with its arguments.
 const REMEMBERED_BYTES: usize = 1 << 20;
 
@@ -181,8 +177,11 @@ impl Hosts for Inferences {
         self.hosts.raised()
     }
 
-    fn inference(&self, constant: u16) -> Option<&Inner> {
-        self.methods.get(&constant)
+    fn inference(&self, constant: u16) -> Option<Inside> {
+        self.methods.get(&constant).map(|inner| match inner.method {
+            Method::EnumerateAll { max_runs, .. } => Inside::Enumeration { max_runs },
+            _ => Inside::Random,
+        })
     }
 
     fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
@@ -252,48 +251,6 @@ impl Inferences {
             // Of parallel runs any may be the one that meets the bound: the message is the same.
             if together.is_spent() { too_long(name, self.limits.steps) } else { fault_of(name, failure) }
         })
-    }
-}
-
-/// The limits of the runs of an `infer` inside of a run with these limits, itself inside of so many.
-///
-/// # Errors
-/// Too many are inside one another.
-pub(crate) fn limits_inside(limits: Limits, depth: usize) -> Result<Limits, Fault> {
-    if depth == DEPTH {
-        return Err(Fault::new("infer-failed", format!("more than {DEPTH} `infer` are inside one another")));
-    }
-    let bytes = (limits.bytes / 4).clamp(SMALLEST.min(limits.bytes), limits.bytes);
-    Ok(Limits { bytes, ..limits })
-}
-
-pub(crate) fn too_long(name: &str, steps: u64) -> Fault {
-    let message = format!("with the runs of `infer` of `{name}` the model took more than {steps} steps");
-    Fault::new("step-budget", message).with_help("search with fewer runs inside, or raise `max_steps`")
-}
-
-/// The failure of an inner search as a fault of the run around it.
-pub(crate) fn fault_of(name: &str, failure: Failure) -> Fault {
-    match failure {
-        Failure::Run(inner) => {
-            let line = inner.stack.last().map_or(0, |call| call.span.line);
-            let message = format!("inside `infer` of `{name}`, at line {line}: {}", inner.fault.message);
-            // What all of its runs meet, the run around it meets.
-            let fault = Fault::new(inner.fault.code, message).caused_by(&inner.fault);
-            match &inner.fault.help {
-                Some(help) => fault.with_help(help.clone()),
-                None => fault,
-            }
-        }
-        Failure::Setting(fault) if fault.code == "wrong-arity" => fault,
-        Failure::Setting(fault) => {
-            Fault::new("infer-failed", format!("`infer` of `{name}`: {}", fault.message))
-        }
-        Failure::Impossible { causes, .. } | Failure::NoStart { causes, .. } => {
-            let causes: Vec<String> = causes.iter().map(|(cause, n)| format!("{cause} ({n})")).collect();
-            let causes = if causes.is_empty() { String::new() } else { format!(": {}", causes.join(", ")) };
-            Fault::new("infer-failed", format!("every run of `{name}` is impossible{causes}"))
-        }
     }
 }
 

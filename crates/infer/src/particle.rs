@@ -37,7 +37,7 @@ pub(crate) struct Particle {
     pub pending: f64,
     /// What its guide saw when it paused.
     pub glance: Glance,
-    /// Log of its twist at this barrier, at power 1, nats ([`LookAhead`](crate::particles::LookAhead)).
+    /// Log of its twist at this barrier, at power 1, nats ([`LookAhead`](crate::look_ahead::LookAhead)).
     pub ahead: f64,
     /// The log twist that is in its weight.
     pub foreseen: f64,

@@ -1,15 +1,14 @@
 //! Users' proposals and guides for the choices of a run that begins, as a chooser.
 
-use crate::chain::glob::{last, matches};
-use crate::chain::kernel::{Kernel, Selection};
-use crate::chain::leaf::Proposer;
-use crate::chain::select::{labels, no_choice};
-use crate::chain::user::User;
 use crate::chooser::{Chooser, Chosen, Context};
+use crate::glob::{last, matches};
 use crate::guide::ahead::Foresight;
 use crate::guide::bound::{BoundGuide, Sight};
-use crate::particles::Forecast;
+use crate::look_ahead::Forecast;
 use crate::record::log_density;
+use crate::select::Selection;
+use crate::select::{labels, no_choice};
+use crate::user::User;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
@@ -73,47 +72,31 @@ enum Drawer {
 }
 
 /// Proposals for the choices of a run that begins: of those whose patterns match a choice's address the first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Proposal {
     parts: Vec<(Selection, Drawer)>,
 }
 
 impl Proposal {
-    /// The proposals of a kernel that consists of `proposal` and `guided`, of `on` around them, and of `cycle` around those.
+    /// Adds a user's function, for the choices of a selection by patterns.
     ///
     /// # Errors
-    /// Any other kernel; a function that needs the value before, which a new run does not have.
-    pub fn of(kernel: &Kernel) -> Result<Proposal, Fault> {
-        let mut proposal = Proposal { parts: vec![] };
-        proposal.add(kernel, &Selection::default())?;
-        Ok(proposal)
+    /// A function that needs the value before, which a new run does not have.
+    pub fn add_user(&mut self, selection: Selection, user: Arc<User>) -> Result<(), Fault> {
+        if user.needs_old() {
+            let name = user.name();
+            let message =
+                format!("the proposal `{name}` asks for `old`, the value before, which a new run has not");
+            return Err(Fault::new("bad-proposal", message)
+                .with_help("name variables of the model instead, or nothing; `old` is for `mh`"));
+        }
+        self.parts.push((selection, Drawer::User(user)));
+        Ok(())
     }
 
-    fn add(&mut self, kernel: &Kernel, selection: &Selection) -> Result<(), Fault> {
-        match kernel {
-            Kernel::Leaf(Proposer::Proposal(user)) if user.needs_old() => Err(Fault::new(
-                "bad-proposal",
-                format!(
-                    "the proposal `{}` asks for `old`, the value before, which a new run has not",
-                    user.name()
-                ),
-            )
-            .with_help("name variables of the model instead, or nothing; `old` is for `mh`")),
-            Kernel::Leaf(Proposer::Proposal(user)) => {
-                self.parts.push((selection.clone(), Drawer::User(user.clone())));
-                Ok(())
-            }
-            Kernel::Leaf(Proposer::Guided(guide)) => {
-                self.parts.push((selection.clone(), Drawer::Guide(guide.guide.clone())));
-                Ok(())
-            }
-            Kernel::On(own, inner) if own.is_by_pattern() => self.add(inner, &selection.and(own)),
-            Kernel::Cycle(parts) => parts.iter().try_for_each(|part| self.add(part, selection)),
-            _ => Err(Fault::new("bad-proposal", "a run that begins cannot be proposed by this kernel")
-                .with_help(
-                    "use `guided(guide)`, `proposal(function)`, `on(pattern, ...)` around them, or a `cycle` of those",
-                )),
-        }
+    /// Adds a guide, for the choices of a selection by patterns.
+    pub fn add_guide(&mut self, selection: Selection, guide: Arc<BoundGuide>) {
+        self.parts.push((selection, Drawer::Guide(guide)));
     }
 
     /// Refuses a pattern that no choice of the program can match.

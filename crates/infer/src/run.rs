@@ -16,13 +16,13 @@ pub struct Run {
     #[serde(skip)]
     pub value: Value,
     /// Log densities of the choices.
-    #[serde(with = "bits")]
+    #[serde(with = "niwaki_math::bits")]
     pub log_prior: f64,
     /// Factors, observations and sketches.
-    #[serde(with = "bits")]
+    #[serde(with = "niwaki_math::bits")]
     pub log_score: f64,
     /// The weight in its population; 0 where all weigh the same.
-    #[serde(with = "bits")]
+    #[serde(with = "niwaki_math::bits")]
     pub log_weight: f64,
     /// Primitives of the scene.
     pub primitives: usize,
@@ -86,19 +86,6 @@ impl Run {
             visit: 0,
             is_bare: false,
         }
-    }
-}
-
-/// Reals as the numbers of their bits: JSON has no infinity.
-pub(crate) mod bits {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_u64(x.to_bits())
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-        u64::deserialize(from).map(f64::from_bits)
     }
 }
 

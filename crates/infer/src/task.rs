@@ -1,6 +1,6 @@
 //! The task of a search: a program with its arguments, and the sketches that score its scene.
 
-use crate::nested::Inner;
+use crate::inside::Inside;
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -29,8 +29,8 @@ pub trait Hosts: Send + Sync {
         None
     }
 
-    /// The inference that a call of this constant is, where it is one.
-    fn inference(&self, _: u16) -> Option<&Inner> {
+    /// What the inference does that a call of this constant is, where it is one.
+    fn inference(&self, _: u16) -> Option<Inside> {
         None
     }
 }

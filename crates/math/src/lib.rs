@@ -19,6 +19,7 @@
 
 #![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
 
+pub mod bits;
 pub mod color;
 pub mod distributions;
 pub mod fingerprint;

@@ -5,7 +5,7 @@
 //! and causes) or "compile" (a defect of the text or a limit of the machine).
 
 use crate::hosts;
-use niwaki_infer::blame::{Blame, Emitted};
+use niwaki_infer::failure::{Blame, Emitted};
 use niwaki_infer::losses::Lost;
 use niwaki_infer::{Failure, Task};
 use niwaki_vm::code::Program;

@@ -13,7 +13,7 @@ use super::accept::Rules;
 use super::drift::{Step, normal};
 use super::metropolis::Decision;
 use super::neighbour::near;
-use super::state::Fresh;
+use crate::fresh::Fresh;
 use crate::{Failure, Task};
 use niwaki_math::{Family, Space, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};

@@ -5,7 +5,8 @@
 
 use super::metropolis::Decision;
 use super::proposal::{FromPrior, Move};
-use niwaki_math::{Dist, Draw, Interval, Space, Stream, Support};
+use crate::fresh::spread;
+use niwaki_math::{Dist, Draw, Stream};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -124,19 +125,5 @@ pub(super) fn normal(rng: &mut Stream) -> f64 {
     match (Dist::Gaussian { mean: 0.0, sd: 1.0 }).sample(rng) {
         Draw::Real(x) => x,
         _ => 0.0,
-    }
-}
-
-/// The approximate spread of a distribution, in the coordinate in which its values drift.
-pub(super) fn spread(dist: &Dist) -> f64 {
-    let own = if dist.family().space() == Space::Components { None } else { dist.scale() };
-    own.unwrap_or(1.0)
-}
-
-/// The same in the choice's own coordinate, for steps that may leave the support.
-pub(crate) fn plain_spread(dist: &Dist) -> f64 {
-    match (dist.family().space(), dist.support()) {
-        (Space::Bounded, Support::Reals(Interval { lo: Some(lo), hi: Some(hi) })) => (hi - lo) * 0.3,
-        _ => spread(dist),
     }
 }

@@ -1,10 +1,11 @@
 //! What each strategy does for one proposal: which activations it creates, invokes, unwinds into, skips and removes
 //! (dissertation figure 3.1, for any program).
 
-use super::glob::matches;
-use super::select::no_choice;
-use super::state::{Fresh, State};
+use super::state::State;
 use super::streams::Streams;
+use crate::fresh::Fresh;
+use crate::glob::matches;
+use crate::select::no_choice;
 use crate::{Failure, Task};
 use niwaki_math::{Dist, StreamKey, grid};
 use niwaki_vm::builtins::draw_to_value;

@@ -7,9 +7,9 @@
 use super::guided::Guided;
 use super::kernel::{Kernel, Selection};
 use super::leaf::Proposer;
-use super::user::User;
 use crate::guide::bound::BoundGuide;
 use crate::proposal::Proposal;
+use crate::user::User;
 use niwaki_vm::fault::Fault;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -112,7 +112,7 @@ impl Form {
                 match (self.function, self.attached(attached)) {
                     (None, _) => leaf,
                     (Some(_), Some(Attached::Guide(guide))) if name == "regrow" => {
-                        leaf.drawn_by(Arc::new(Proposal::of(&Kernel::guided(guide.clone()))?))
+                        leaf.drawn_by(Arc::new(Kernel::guided(guide.clone()).proposal()?))
                     }
                     (Some(_), _) => return Err(own.wrong("has no guide here")),
                 }
@@ -131,6 +131,33 @@ impl Form {
 }
 
 impl Kernel {
+    /// The proposals of a kernel that consists of `proposal` and `guided`, of `on` around them, and of `cycle` around those: for
+    /// runs that begin.
+    ///
+    /// # Errors
+    /// Any other kernel; a function that needs the value before, which a new run does not have.
+    pub fn proposal(&self) -> Result<Proposal, Fault> {
+        let mut proposal = Proposal::default();
+        self.add_to(&mut proposal, &Selection::default())?;
+        Ok(proposal)
+    }
+
+    fn add_to(&self, proposal: &mut Proposal, selection: &Selection) -> Result<(), Fault> {
+        match self {
+            Kernel::Leaf(Proposer::Proposal(user)) => proposal.add_user(selection.clone(), user.clone()),
+            Kernel::Leaf(Proposer::Guided(guide)) => {
+                proposal.add_guide(selection.clone(), guide.guide.clone());
+                Ok(())
+            }
+            Kernel::On(own, inner) if own.is_by_pattern() => inner.add_to(proposal, &selection.and(own)),
+            Kernel::Cycle(parts) => parts.iter().try_for_each(|part| part.add_to(proposal, selection)),
+            _ => Err(Fault::new("bad-proposal", "a run that begins cannot be proposed by this kernel")
+                .with_help(
+                    "use `guided(guide)`, `proposal(function)`, `on(pattern, ...)` around them, or a `cycle` of those",
+                )),
+        }
+    }
+
     /// The leaf of a guide.
     pub fn guided(guide: Arc<BoundGuide>) -> Kernel {
         Kernel::Leaf(Proposer::Guided(Box::new(Guided::new(guide))))

@@ -4,19 +4,7 @@
 //! counts proposals, so it may stop in the middle of a cycle and go on there.
 
 use super::leaf::Proposer;
-
-/// Which choices a kernel may change, and with what selection weights.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Selection {
-    /// Patterns over readable addresses: of each list, one must match.
-    pub sites: Vec<Vec<String>>,
-    /// Selection weights by number of calls above the choice; the last one counts for all deeper choices.
-    pub depth: Vec<f64>,
-    /// The names in addresses of the calls that count as depth; all calls where it is empty.
-    pub calls: String,
-    /// Selection weights by pattern over readable addresses; the first match counts, and 1 where none matches.
-    pub weights: Vec<(String, f64)>,
-}
+pub use crate::select::Selection;
 
 /// A Markov kernel.
 #[derive(Clone, Debug)]

@@ -19,8 +19,8 @@
 use super::Chain;
 use super::accept::{Rules, Terms, accepts, selected};
 use super::proposal::{Move, MoveProposal};
-use super::state::Fresh;
 use super::streams::scaled;
+use crate::fresh::Fresh;
 use crate::{Failure, Task};
 use niwaki_math::RngCore;
 use niwaki_vm::code::Program;

@@ -6,10 +6,10 @@
 
 use super::accept::Rules;
 use super::leaf::ChainMove;
-use super::state::Fresh;
 use super::streams::below;
 use super::{Chain, Proposing};
 use crate::Failure;
+use crate::fresh::Fresh;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::state::NodeId;
 use serde::Deserialize;

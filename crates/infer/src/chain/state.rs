@@ -1,60 +1,21 @@
 //! The state of a chain: a kept run and the sketches of its scene. A proposal opens a transaction on both.
 
-use super::drift::plain_spread;
 use super::streams::Streams;
 use crate::checkpoint::unfit;
-use crate::chooser::{Chooser, Known, Prior};
+use crate::fresh::Fresh;
 use crate::record::{AllInvalid, score_of};
 use crate::run::Run;
-use crate::task::{Hosts, Task};
+use crate::task::Task;
 use crate::{Failure, forward};
 use niwaki_geom::sketch::product::Sketches;
-use niwaki_math::{Dist, StreamKey, Total};
+use niwaki_math::{StreamKey, Total};
 use niwaki_vm::code::{Program, SiteKind};
-use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
+use niwaki_vm::machine::answers::Factor;
 use niwaki_vm::machine::kept::inspect::Item;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 use std::sync::Arc;
-
-/// Gives values to the new choices of a kept run: known ones, else draws from their distributions.
-pub struct Fresh<'a> {
-    /// The chooser of the new values.
-    pub chooser: Known<'a, Prior>,
-    /// Host functions.
-    pub hosts: &'a dyn Hosts,
-    /// Where to note the spread of each site's distribution, by the site's key.
-    pub spreads: Option<&'a mut HashMap<u128, f64>>,
-}
-
-impl<'a> Fresh<'a> {
-    /// New choices from that stream, and nothing noted.
-    pub fn plain(key: StreamKey, hosts: &'a dyn Hosts) -> Fresh<'a> {
-        Fresh::of(key, None, hosts)
-    }
-
-    /// The same, where some choices are known.
-    pub fn of(key: StreamKey, known: Option<&'a HashMap<u128, Value>>, hosts: &'a dyn Hosts) -> Fresh<'a> {
-        Fresh { chooser: Known { values: known, otherwise: Prior(key) }, hosts, spreads: None }
-    }
-}
-
-// A kept run holds its own scores, scene and queries.
-impl Answers<f64> for Fresh<'_> {
-    #[inline]
-    fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        if let Some(spreads) = &mut self.spreads {
-            spreads.entry(at.site.key).or_insert_with(|| plain_spread(dist));
-        }
-        Ok(self.chooser.draw(at, dist)?.map_or(Answer::Pause, Answer::Go))
-    }
-
-    fn host(&mut self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
-        self.hosts.call(constant, args, steps)
-    }
-}
 
 /// The state of a chain.
 pub struct State {

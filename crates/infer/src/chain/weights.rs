@@ -1,19 +1,23 @@
 //! Selection weights: the weight with which each choice is chosen to be changed.
 //!
-//! Weights are whole numbers (in units of [`UNIT`]), so that their sums are exact for any births and deaths, and a tree of
+//! Weights are whole numbers (in units of [`UNIT`](crate::select::UNIT)), so that their sums are exact for any births and deaths, and a tree of
 //! partial sums (Fenwick 1994) finds a choice, adds one and drops one in O(log n).
 
+use crate::select::Selection;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::machine::kept::inspect::Place;
-
-/// The unit of selection weights.
-pub const UNIT: f64 = 65536.0;
 
 /// How a choice is weighed, by its place in the trace.
 pub trait Weigh: Send + Sync {
     /// Its weight; it must not depend on any value.
     fn weight(&self, place: &Place<'_, f64>) -> u64;
+}
+
+impl Weigh for Selection {
+    fn weight(&self, place: &Place<'_, f64>) -> u64 {
+        self.weigh(|| place.path(), || place.depth())
+    }
 }
 
 /// The weights of all choices, in the order of the trace's table.

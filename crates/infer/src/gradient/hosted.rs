@@ -4,7 +4,7 @@
 //! derivative (`nested`); a function of Python has none, and an inference that draws numbers has none either.
 
 use super::nested::enumerated;
-use crate::method::Method;
+use crate::inside::Inside;
 use crate::task::Hosts;
 use niwaki_grad::Var;
 use niwaki_math::Scalar;
@@ -42,10 +42,10 @@ impl Hosted {
             let given: Vec<Value> = args.iter().map(|arg| arg.convert(&Var::value)).collect();
             return Ok(self.hosts.call(constant, &given, steps)?.convert(&Var::from_f64));
         }
-        match self.hosts.inference(constant).map(|inner| &inner.method) {
+        match self.hosts.inference(constant) {
             None => Err(Fault::no_derivative("a host function")),
-            Some(Method::EnumerateAll { max_runs, .. }) => enumerated(self, args, *max_runs, steps),
-            Some(_) => Err(Fault::no_derivative("an `infer` whose method draws random numbers")
+            Some(Inside::Enumeration { max_runs }) => enumerated(self, args, max_runs, steps),
+            Some(Inside::Random) => Err(Fault::no_derivative("an `infer` whose method draws random numbers")
                 .with_help("search inside by `enumerate_all()`, whose result has a derivative; or search the whole model by `mh()` or particles, which need none")),
         }
     }

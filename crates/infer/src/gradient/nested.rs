@@ -19,7 +19,7 @@ use super::hosted::Hosted;
 use crate::Failure;
 use crate::enumeration::{not_enumerable, too_many};
 use crate::forward::named;
-use crate::nested::{fault_of, limits_inside, too_long};
+use crate::inside::{fault_of, limits_inside, too_long};
 use crate::record::{AllInvalid, check_factor};
 use niwaki_grad::Var;
 use niwaki_math::log_sums::{log_sum_exp, log_sum_exp_of};

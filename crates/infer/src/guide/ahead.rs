@@ -24,7 +24,7 @@
 use super::Network;
 use super::bound::{BoundGuide, Sight};
 use crate::chooser::Context;
-use crate::particles::{Forecast, Paused};
+use crate::look_ahead::{Forecast, Paused};
 use crate::task::Hosts;
 use niwaki_geom::Shape;
 use niwaki_guide::Net;

@@ -7,7 +7,7 @@ use super::bound::{BoundGuide, Sight};
 use super::credit::Objective;
 use super::form::GuideForm;
 use super::survey::Survey;
-use super::{Guide, Network, images};
+use super::{Guide, Network, drawings};
 use crate::checkpoint::{Checkpoint, unfit};
 use crate::chooser::{Chooser, Chosen, Context, Refuse};
 use crate::log::Entry;
@@ -319,11 +319,11 @@ pub fn train(
     };
     let net = match (start.map(|start| &start.net), examples) {
         (Some(Network::Filtered(net)), _) => {
-            return images::train(examples, making, form, net.clone(), watch, way);
+            return drawings::train(examples, making, form, net.clone(), watch, way);
         }
         (None, [first, ..]) if making.architecture == Architecture::Dissertation => {
-            let net = images::network(&mut form, making, &first.task)?;
-            return images::train(examples, making, form, net, watch, way);
+            let net = drawings::network(&mut form, making, &first.task)?;
+            return drawings::train(examples, making, form, net, watch, way);
         }
         (Some(Network::Shared(net)), _) => net.clone(),
         (None, _) => {

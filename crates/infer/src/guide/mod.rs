@@ -11,7 +11,7 @@
 //! - [`lessons`]: traces as rows, by the code that draws; training;
 //! - [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: how much each run counts;
 //! - [`ahead`]: a guide as a forecast of what a paused run will still gain; [`rehearse`]: how it learns that; `ridge`: its line;
-//! - `images`: the same for the dissertation's architecture, which looks at whole images.
+//! - `images`: what the dissertation's architecture sees, whole images; `drawings`: how it learns.
 //!
 //! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
 
@@ -21,6 +21,7 @@ pub mod climb;
 #[cfg(test)]
 mod climbing;
 pub mod credit;
+mod drawings;
 pub mod form;
 mod images;
 pub mod inputs;

@@ -12,9 +12,9 @@ use super::ridge::{Examples, ridge};
 use super::{Guide, Network};
 use crate::Failure;
 use crate::chain::kernel::Kernel;
+use crate::look_ahead::Paused;
+use crate::particles::Settings;
 use crate::particles::rises::{paused, plainly, rise};
-use crate::particles::{Paused, Settings};
-use crate::proposal::Proposal;
 use crate::streams::Reserved;
 use niwaki_math::streams::RngCore;
 use niwaki_vm::fault::Fault;
@@ -160,7 +160,7 @@ pub fn rehearse(
 /// Inputs and rises of some paused particles of a search.
 fn search(case: &Case, guide: &Arc<BoundGuide>, plan: &Rehearsal, seed: u64) -> Result<Vec<Lesson>, Failure> {
     let task = &case.task;
-    let proposal = Some(Arc::new(Proposal::of(&Kernel::guided(guide.clone()))?));
+    let proposal = Some(Arc::new(Kernel::guided(guide.clone()).proposal()?));
     let [particles, few] = plan.particles;
     let own = Settings { particles, seed, proposal, ..plainly(&plan.settings) };
     let (mut machine, mut sight) = (task.machine(), Sight::default());

@@ -7,10 +7,11 @@ use super::lessons::{Example, Making, follow, survey, train};
 use super::{Guide, Network};
 use crate::Task;
 use crate::chain::kernel::Kernel;
-use crate::chain::state::{Fresh, State};
+use crate::chain::state::State;
 use crate::chain::streams::Streams;
 use crate::chooser::{Chooser, Chosen, Context, Prior};
 use crate::forward::forward;
+use crate::fresh::Fresh;
 use crate::particle::Particle;
 use crate::proposal::{ByProposal, Proposal};
 use crate::record::Record;
@@ -114,7 +115,7 @@ impl Chooser for Noting<'_> {
 fn rows_are_what_the_guide_saw() {
     let task = limbs();
     let guide = blank(&task);
-    let proposal = Proposal::of(&Kernel::guided(guide.clone())).unwrap();
+    let proposal = Kernel::guided(guide.clone()).proposal().unwrap();
     let mut machine = task.machine();
     let mut start = task.start(&machine, false).unwrap();
     start.note_parts();

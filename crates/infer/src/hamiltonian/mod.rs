@@ -20,6 +20,7 @@ pub mod estimate;
 pub mod hmc;
 pub mod lanes;
 pub mod leapfrog;
+mod live;
 pub mod metric;
 pub mod nuts;
 pub mod potential;

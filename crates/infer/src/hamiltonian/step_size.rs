@@ -7,8 +7,8 @@ use super::leapfrog::{Phase, leapfrog};
 use super::metric::Metric;
 use super::potential::Potential;
 use super::transition::acceptance;
-use crate::run::bits;
 use niwaki_math::Stream;
+use niwaki_math::bits;
 use serde::{Deserialize, Serialize};
 
 /// How strongly the log step is drawn to `mu` (Hoffman & Gelman 2014, section 3.2.1: gamma).

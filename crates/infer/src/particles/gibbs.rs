@@ -21,7 +21,7 @@
 //! alone. Without it a past that is kept would keep its order, too. What a guide says of the held choices is computed as the
 //! run is followed, so it is that of the new order. An order that is impossible at some barrier is not taken.
 //!
-//! What a forecast counted of the prefix ([`look_ahead`](super::look_ahead)) is in `w_i` and divided out above: the whole
+//! What a forecast counted of the prefix ([`look_ahead`](crate::look_ahead)) is in `w_i` and divided out above: the whole
 //! run is followed to its end, where it has none. The held run has its forecasts as it is followed, like any other.
 //!
 //! The weight above is zero where the prefix leads to other addresses, to other barriers or to another family at an

@@ -8,7 +8,7 @@
 //!    Particles at the same place run together (`in_lanes`).
 //! 2. *Weigh* (`weights`): `w *= (s(r_n) / s(r_{n-1}))^T`. One that has ended carries its last score. Of choices that a
 //!    proposal drew since the last barrier ([`Proposal`](crate::proposal::Proposal)) `p(x) / q(x)` counts too, which is
-//!    not raised to a power. A forecast of what is still to come may count on the way ([`look_ahead`]).
+//!    not raised to a power. A forecast of what is still to come may count on the way ([`look_ahead`](crate::look_ahead)).
 //! 3. *Resample* ([`resampling`](crate::resampling)): at every barrier, or when the effective sample size is low; weights
 //!    are reset, or keep what the particles were not drawn by (`tempered`). Copies (`copies`) are made when the particles
 //!    run again, by the thread that ran their parent (`shared`).
@@ -35,7 +35,6 @@ pub mod distinct;
 mod final_chains;
 mod gibbs;
 mod in_lanes;
-pub mod look_ahead;
 mod many;
 mod moves;
 mod partial_run;
@@ -56,7 +55,6 @@ pub use crate::order::{Order, Policy};
 pub use crate::resampling::Resampling;
 pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
-pub use look_ahead::{Forecast, LookAhead, Paused};
 pub(crate) use many::side_by_side;
 pub use many::{AT_ONCE, Share, Watch, population_seed, populations, united, within};
 pub use pimh::pimh;

@@ -6,10 +6,10 @@
 //! equal probability (one over the number of futures that can run, or what a learned policy says, pick by pick), so it
 //! cancels in a ratio. A learned policy whose weights of the futures at a pick differ to the bit has another skeleton there.
 
-use super::look_ahead::LookAhead;
 use crate::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use crate::guide::bound::Sight;
 use crate::log::{Entry, Log};
+use crate::look_ahead::LookAhead;
 use crate::order::{Order, Past};
 use crate::particle::Particle;
 use crate::proposal::{Proposal, as_if_drawn};

@@ -20,7 +20,7 @@ use super::settings::{Settings, Weights};
 use crate::chain::counts::Count;
 use crate::chain::kernel::Kernel;
 use crate::chain::plan::Plan;
-use crate::chain::state::Fresh;
+use crate::fresh::Fresh;
 use crate::particle::Particle;
 use crate::streams::Reserved;
 use crate::{Failure, Task};

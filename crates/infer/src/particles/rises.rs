@@ -1,4 +1,4 @@
-//! What short searches from paused particles gain: the lessons of a forecast ([`look_ahead`](super::look_ahead)).
+//! What short searches from paused particles gain: the lessons of a forecast ([`look_ahead`](crate::look_ahead)).
 //!
 //! A population is paused at each barrier. Of its running particles there one is drawn, and of these a few are kept, such that
 //! each barrier is as likely (Vitter 1985, algorithm R). From each of them a population of its own grows to the end. If

@@ -1,7 +1,7 @@
 //! The settings of SMC.
 
-use super::look_ahead::LookAhead;
 use super::rejuvenation::{Moment, Rejuvenation};
+use crate::look_ahead::LookAhead;
 use crate::order::Order;
 use crate::proposal::Proposal;
 use crate::resampling::Resampling;

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 /// The proposal that is a guide.
 pub fn by(task: &Task, number: u64, spread: f64) -> Arc<Proposal> {
-    Arc::new(Proposal::of(&Kernel::guided(random(task, number, spread))).expect("a proposal"))
+    Arc::new(Kernel::guided(random(task, number, spread)).proposal().expect("a proposal"))
 }
 
 /// What is wrong with the estimates of populations with these settings.

@@ -13,7 +13,7 @@
 //! from the number of choices that it made.
 
 use super::sweep::Seen;
-use crate::chain::glob::{matches, nearest};
+use crate::glob::{matches, nearest};
 use crate::weights::index;
 use niwaki_math::Stream;
 use niwaki_vm::code::Program;

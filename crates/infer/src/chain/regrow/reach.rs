@@ -9,8 +9,8 @@
 //!     if flip(0.2): break            runs with one, two and three iterations are apart
 //! ```
 
-use super::super::state::Fresh;
 use crate::Task;
+use crate::fresh::Fresh;
 use niwaki_math::StreamKey;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::part::{Part, Piece};

@@ -16,7 +16,7 @@ pub struct TrajectoryCounts {
     /// Transitions after the warm-up.
     pub settled: u64,
     /// Sum over them of the mean acceptance of the trajectory's points.
-    #[serde(with = "crate::run::bits")]
+    #[serde(with = "niwaki_math::bits")]
     pub accept: f64,
     /// Gradients, without those of first guesses of a step.
     pub gradients: u64,

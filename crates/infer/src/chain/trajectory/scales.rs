@@ -11,7 +11,7 @@
 
 use crate::hamiltonian::Metric;
 use crate::hamiltonian::step_size::DualAveraging;
-use crate::run::bits;
+use niwaki_math::bits;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 

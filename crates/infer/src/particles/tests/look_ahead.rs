@@ -8,6 +8,7 @@
 use super::chains::{counted, exact_draws, values_after};
 use super::*;
 use crate::guide::bound::Sight;
+use crate::look_ahead::{Forecast, LookAhead, Paused};
 use niwaki_vm::machine::Machine;
 
 /// Up to this many nats.

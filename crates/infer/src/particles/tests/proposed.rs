@@ -8,9 +8,9 @@ use super::chains::{counted, exact_draws, small, values_after};
 use super::*;
 use crate::chain::kernel::{Kernel, Selection};
 use crate::chain::leaf::Proposer;
-use crate::chain::user::User;
 use crate::importance::importance;
 use crate::proposal::Proposal;
+use crate::user::User;
 use niwaki_vm::core::Name;
 use niwaki_vm::passes::{Kept, compile_keeping};
 
@@ -70,7 +70,7 @@ fn guided(text: &str, parts: &[(&str, &str)]) -> (Task, Proposal) {
     let program = compile_keeping(&parse(text).unwrap(), vec![], Kept::Names(&names)).unwrap();
     let kernels =
         parts.into_iter().map(|(on, user)| Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(user)))));
-    (Task::new(Arc::new(program)), Proposal::of(&Kernel::Cycle(kernels.collect())).unwrap())
+    (Task::new(Arc::new(program)), Kernel::Cycle(kernels.collect()).proposal().unwrap())
 }
 
 /// Every program with its proposals.
@@ -276,8 +276,8 @@ fn what_a_proposal_cannot_be_is_refused() {
     assert_eq!(refused("b", "(params) (return 0.5)").0, "bad-proposal");
     let old = r#"(module (fn "q" (params $old) (return (dist bernoulli 0.5))) (entry "q"))"#;
     let user = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(old)).unwrap())));
-    assert_eq!(Proposal::of(&user).unwrap_err().code, "bad-proposal");
-    assert_eq!(Proposal::of(&Kernel::PRIOR).unwrap_err().code, "bad-proposal");
+    assert_eq!(user.proposal().unwrap_err().code, "bad-proposal");
+    assert_eq!(Kernel::PRIOR.proposal().unwrap_err().code, "bad-proposal");
     let (_, proposal) = guided(text, &[("b", "(params) (return (dist bernoulli 0.5))")]);
     let absolute = Settings { weights: Weights::Absolute, ..with(&Arc::new(proposal), Order::Stochastic, 8) };
     assert_eq!(absolute.check().unwrap_err().code, "bad-setting");

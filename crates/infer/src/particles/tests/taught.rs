@@ -13,8 +13,9 @@ use crate::guide::climb::Case;
 use crate::guide::rehearse::{Rehearsal, Rehearsed, rehearse};
 use crate::guide::tests::{blank, limbs, trained};
 use crate::guide::{Guide, Network};
+use crate::look_ahead::{Forecast, LookAhead, Paused};
 use crate::particles::rises::{paused, rise};
-use crate::proposal::{ByProposal, Proposal};
+use crate::proposal::ByProposal;
 use niwaki_geom::{Drawing, Page, match_drawing};
 use niwaki_math::Dist;
 use niwaki_vm::fault::Fault;
@@ -78,7 +79,7 @@ fn guides(task: &Task) -> [Arc<BoundGuide>; 2] {
 }
 
 fn looking(guide: &Arc<BoundGuide>, settings: Settings) -> Settings {
-    let proposal = Proposal::of(&Kernel::guided(guide.clone())).unwrap();
+    let proposal = Kernel::guided(guide.clone()).proposal().unwrap();
     let look_ahead = Some(LookAhead { strength: 0.6, forecast: proposal.forecast().unwrap() });
     Settings { proposal: Some(Arc::new(proposal)), look_ahead, ..settings }
 }
@@ -142,7 +143,7 @@ impl Chooser for Noting<'_> {
 fn it_foresees_by_what_it_will_see_at_the_next_choice() {
     let task = limbs();
     let guide = blank(&task);
-    let proposal = Proposal::of(&Kernel::guided(guide.clone())).unwrap();
+    let proposal = Kernel::guided(guide.clone()).proposal().unwrap();
     let own = Settings { particles: 6, seed: 3, ..settings(Order::DepthFirst, Resampling::Systematic) };
     let own = Settings { proposal: Some(Arc::new(proposal.clone())), ..own };
     let mut population = Population::start(&task, &own, true).unwrap();
@@ -233,9 +234,9 @@ fn only_a_guide_that_has_learned_it_looks_ahead() {
     let task = strokes();
     let [taught, _] = guides(&task);
     let plain = Kernel::guided(blank(&task));
-    assert!(Proposal::of(&plain).unwrap().forecast().is_none());
+    assert!(plain.proposal().unwrap().forecast().is_none());
     let both = Kernel::Cycle(vec![plain, Kernel::guided(taught.clone())]);
-    let forecast = format!("{:?}", Proposal::of(&both).unwrap().forecast().unwrap());
+    let forecast = format!("{:?}", both.proposal().unwrap().forecast().unwrap());
     assert_eq!(forecast, format!("{:?}", Foresight { guide: taught.clone(), owner: 1 }));
     // Training on changes the network, which the line was for.
     assert_eq!(taught.guide().form.to_train().ahead, None);

@@ -1,14 +1,27 @@
 //! Selections as weights: patterns over addresses and weights by depth, computed once for each new choice.
 
-use super::glob::{last, matches, nearest};
-use super::kernel::Selection;
-use super::weights::{UNIT, Weigh};
 use crate::Failure;
+use crate::glob::{last, matches, nearest};
 use niwaki_vm::code::{FunctionId, Program, SiteKind, Source};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Trace;
-use niwaki_vm::machine::kept::inspect::Place;
 use std::collections::HashMap;
+
+/// The unit of selection weights.
+pub const UNIT: f64 = 65536.0;
+
+/// Which choices a kernel may change, and with what selection weights.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Patterns over readable addresses: of each list, one must match.
+    pub sites: Vec<Vec<String>>,
+    /// Selection weights by number of calls above the choice; the last one counts for all deeper choices.
+    pub depth: Vec<f64>,
+    /// The names in addresses of the calls that count as depth; all calls where it is empty.
+    pub calls: String,
+    /// Selection weights by pattern over readable addresses; the first match counts, and 1 where none matches.
+    pub weights: Vec<(String, f64)>,
+}
 
 impl Selection {
     /// Both selections at once.
@@ -35,7 +48,7 @@ impl Selection {
 
     /// Whether a selected site may draw real numbers. Where the program does not decide this, the trace does, if it reached
     /// the site.
-    pub(super) fn may_be_continuous(&self, trace: &Trace, program: &Program) -> bool {
+    pub(crate) fn may_be_continuous(&self, trace: &Trace, program: &Program) -> bool {
         let mut seen: HashMap<_, bool> = HashMap::new();
         for choice in trace.numbers() {
             let is_real = trace.family(choice).is_some_and(|family| family.space().is_continuous());
@@ -64,7 +77,7 @@ impl Selection {
 
     /// A selection that no address of the trace matches is an error, unless it names a site that the program has
     /// and this run did not reach.
-    pub(super) fn check(&self, trace: &Trace, program: &Program) -> Result<(), Failure> {
+    pub(crate) fn check(&self, trace: &Trace, program: &Program) -> Result<(), Failure> {
         for patterns in self.sites.iter().chain(std::iter::once(
             &self.weights.iter().map(|(pattern, _)| pattern.clone()).collect::<Vec<_>>(),
         )) {
@@ -108,12 +121,6 @@ pub(crate) fn labels(program: &Program) -> Vec<String> {
         }
     }
     labels
-}
-
-impl Weigh for Selection {
-    fn weight(&self, place: &Place<'_, f64>) -> u64 {
-        self.weigh(|| place.path(), || place.depth())
-    }
 }
 
 impl Selection {

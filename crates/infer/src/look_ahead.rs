@@ -53,7 +53,7 @@ pub struct LookAhead {
 
 impl Particle {
     /// Notes its twist at this barrier, and what was seen for it.
-    pub(super) fn foresee(
+    pub(crate) fn foresee(
         &mut self,
         with: Option<&LookAhead>,
         task: &Task,
