@@ -47,7 +47,7 @@ PARTS = (
     ("streams and densities", r"niwaki_math::"),
     ("the machine", r"niwaki_vm::"),
     ("copying and memory", r"malloc|calloc|free|memmove|memcpy|memset|drop_in_place|Arc<|alloc::|clone"),
-    ("the search", r"niwaki_infer::|niwaki_guide::"),
+    ("the search", r"niwaki_(run|propose|chain|particles|search|continuous|guide)::"),
     ("threads", r"rayon|crossbeam|sched_yield|futex"),
 )
 

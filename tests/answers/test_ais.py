@@ -3,7 +3,7 @@ finite programs whose structure changes, by any kernel. Its settings are held. A
 has.
 
 The evidence is judged by the mean weight and its standard error over particles, within 4.5 of them: once in 150,000 a
-true mean is not, and about ten are judged. The engine's tests (`crates/infer/tests/methods/annealed.rs`) have its
+true mean is not, and about ten are judged. The engine's tests (`crates/search/tests/methods/annealed.rs`) have its
 unbiasedness over many searches, and mutants.
 """
 

@@ -3,7 +3,7 @@
 Fixed seeds. Each row takes 40,000 proposals after a warm-up of 2,000 and compares the share of each value with the
 exact one, by the spread of the shares of 40 stretches of the chain, which are nearly independent: |t| with 39 degrees
 of freedom passes 6 once in two million. Some 250 shares are looked at: a re-seeded board fails once in eight thousand
-runs. The mutants that must be rejected, and continuous models, are in `crates/infer/tests/chain`.
+runs. The mutants that must be rejected, and continuous models, are in `crates/search/tests/chain`.
 """
 
 from __future__ import annotations

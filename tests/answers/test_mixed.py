@@ -5,7 +5,7 @@ A mixture whose number of components, labels and means are random is conjugate g
 of every number of components can be summed: the exact probabilities of the numbers, of two points sharing a component,
 and the exact means of two functions of the means. Each is compared with 40 stretches of a chain of 30,000 proposals
 after a warm-up; |t| with 39 degrees of freedom passes 6 once in two million, and some 60 are looked at: a re-seeded
-board fails once in 35,000 runs. The mutants that must be rejected are in `crates/infer/tests/chain/mixed.rs`.
+board fails once in 35,000 runs. The mutants that must be rejected are in `crates/search/tests/chain/mixed.rs`.
 """
 
 from __future__ import annotations

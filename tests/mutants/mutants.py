@@ -34,7 +34,7 @@ REPORT = ROOT / "out" / "mutants.md"
 SCRATCH = ROOT / "target" / "mutants"
 TREE = SCRATCH / "tree"
 
-CRATES = ["math", "geom", "vm", "grad", "guide", "infer"]
+CRATES = sorted(manifest.parent.name for manifest in (ROOT / "crates").glob("*/Cargo.toml"))
 # Builds that take seconds: incremental, in many units, without debugging information. Third-party crates are built
 # once, as for a release.
 OWN = ("codegen-units=64", "debug=false")
@@ -52,7 +52,7 @@ MARKS = ("<!-- table of mutants: begin -->", "<!-- table of mutants: end -->")
 
 @dataclass(frozen=True)
 class Judge:
-    """Tests of one target: `infer chain: board calibration` is `cargo test -p niwaki-infer --test chain` of both.
+    """Tests of one target: `infer chain: board calibration` is `cargo test -p niwaki-search --test chain` of both.
 
     `python studio/test_variety: order` are the tests of `tests/niwaki/studio/test_variety.py` with that name.
     """

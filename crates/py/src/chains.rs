@@ -6,16 +6,16 @@ use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
 use crate::shared::Shared;
 use crate::trajectories::broken_off;
-use niwaki_infer::chain::agreement::compare;
-use niwaki_infer::chain::counts::{Count, Counts};
-use niwaki_infer::chain::explain::Event;
-use niwaki_infer::chain::ladder::Ladder;
-use niwaki_infer::chain::many::Chains;
-use niwaki_infer::chain::trajectory::counts::TrajectoryCounts;
-use niwaki_infer::chain::{Chain, Settings};
-use niwaki_infer::method::{Given, Method, Mh};
-use niwaki_infer::run::Run;
-use niwaki_infer::{Failure, Task};
+use niwaki_chain::agreement::compare;
+use niwaki_chain::counts::{Count, Counts};
+use niwaki_chain::explain::Event;
+use niwaki_chain::ladder::Ladder;
+use niwaki_chain::many::Chains;
+use niwaki_chain::trajectory::counts::TrajectoryCounts;
+use niwaki_chain::{Chain, Settings};
+use niwaki_run::run::Run;
+use niwaki_run::{Failure, Task};
+use niwaki_search::method::{Given, Method, Mh};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -287,7 +287,7 @@ fn explain<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let own = task.get();
     let (explained, _) = detached(py, &own.task, None, None, |_| {
-        niwaki_infer::chain::explain::explain(&own.task, seed, tries, address)
+        niwaki_chain::explain::explain(&own.task, seed, tries, address)
     })?;
     let number: HashMap<u128, usize> =
         explained.activations.iter().enumerate().map(|(i, a)| (a.key, i)).collect();

@@ -1,6 +1,6 @@
 //! Checkpoints for Python: the parts of a search as texts, by number.
 
-use niwaki_infer::checkpoint::Checkpoint;
+use niwaki_run::checkpoint::Checkpoint;
 use pyo3::prelude::*;
 use std::collections::HashMap;
 

@@ -5,9 +5,9 @@
 //! and causes) or "compile" (a defect of the text or a limit of the machine).
 
 use crate::hosts;
-use niwaki_infer::failure::{Blame, Emitted};
-use niwaki_infer::losses::Lost;
-use niwaki_infer::{Failure, Task};
+use niwaki_run::failure::{Blame, Emitted};
+use niwaki_run::losses::Lost;
+use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::Call;

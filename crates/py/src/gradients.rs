@@ -4,7 +4,7 @@ use crate::faults;
 use crate::shared::Shared;
 use crate::values::Classes;
 use niwaki_grad::{Continuous, Live, Refused, jax};
-use niwaki_infer::{Failure, Task};
+use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;

@@ -9,7 +9,7 @@
 
 use crate::search::end_if_forked;
 use crate::values::Classes;
-use niwaki_infer::task::Hosts;
+use niwaki_run::task::Hosts;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 use pyo3::exceptions::{PyException, PyMemoryError};

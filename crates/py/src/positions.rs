@@ -3,8 +3,8 @@
 use crate::faults;
 use crate::model::PyProgram;
 use niwaki_grad::Positions;
-use niwaki_infer::Task;
-use niwaki_infer::gradient::positions::{Lifted, Placer};
+use niwaki_propose::gradient::positions::{Lifted, Placer};
+use niwaki_run::Task;
 use niwaki_vm::value::Value;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyIndexError;

@@ -2,10 +2,11 @@
 
 use crate::geometry::PyShape;
 use crate::values::Classes;
-use niwaki_infer::log::Entry;
-use niwaki_infer::particles::distinct::Choices;
-use niwaki_infer::replay::{self, Part, Trace, by_address};
-use niwaki_infer::run::Run;
+use niwaki_particles::distinct::Choices;
+use niwaki_run::log::Entry;
+use niwaki_run::replay;
+use niwaki_run::replay::{Part, Trace, by_address};
+use niwaki_run::run::Run;
 use niwaki_vm::value::Value;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

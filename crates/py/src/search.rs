@@ -15,25 +15,26 @@ use crate::positions::PyPlacer;
 use crate::runs::{PyRun, PyTrace};
 use crate::threads::Pool;
 use crate::values::Classes;
-use niwaki_infer::chain::counts::Count;
-use niwaki_infer::chain::form::Attached;
-use niwaki_infer::chain::regrow::{Afresh, afresh, is_apart};
-use niwaki_infer::glob;
-use niwaki_infer::gradient::live;
-use niwaki_infer::gradient::positions::Placer;
-use niwaki_infer::guide::bound::BoundGuide;
-use niwaki_infer::hold::hold;
-use niwaki_infer::improve::{Round, Seen};
-use niwaki_infer::method::{self, Given, Info, Method};
-use niwaki_infer::mixed::{Place, mixed};
-use niwaki_infer::nested::Inner;
-use niwaki_infer::particles::{self, Share};
-use niwaki_infer::record::Record;
-use niwaki_infer::replay::{Missing, Source, Trace, replay};
-use niwaki_infer::run::Shown;
-use niwaki_infer::user::User;
-use niwaki_infer::{Failure, Task};
+use niwaki_chain::counts::Count;
+use niwaki_chain::form::Attached;
+use niwaki_chain::regrow::{Afresh, afresh, is_apart};
 use niwaki_math::log_sums::log_sum_exp;
+use niwaki_particles::Share;
+use niwaki_propose::gradient::live;
+use niwaki_propose::gradient::positions::Placer;
+use niwaki_propose::guide::bound::BoundGuide;
+use niwaki_propose::user::User;
+use niwaki_run::glob;
+use niwaki_run::hold::hold;
+use niwaki_run::mixed::{Place, mixed};
+use niwaki_run::record::Record;
+use niwaki_run::replay::{Missing, Source, Trace, replay};
+use niwaki_run::run::Shown;
+use niwaki_run::{Failure, Task};
+use niwaki_search::improve::{Round, Seen};
+use niwaki_search::method;
+use niwaki_search::method::{Given, Info, Method};
+use niwaki_search::nested::Inner;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::invalid::{self, Count as InvalidCount};
@@ -543,7 +544,7 @@ fn fingerprint() -> String {
 /// The seed of one of several populations, and the share of `max_memory` (bytes) that is its own of `count`.
 #[pyfunction]
 fn population(seed: u64, number: usize, count: usize, max_memory: usize) -> (u64, usize) {
-    (particles::population_seed(seed, number), max_memory / count.clamp(1, particles::AT_ONCE))
+    (niwaki_particles::population_seed(seed, number), max_memory / count.clamp(1, niwaki_particles::AT_ONCE))
 }
 
 /// Populations that lived as one of `total` particles. Each is its size, its own normalising constant (nats) and the log
@@ -558,7 +559,7 @@ fn united(lived: Vec<(usize, Option<f64>, Vec<f64>)>, total: usize) -> (Option<f
             log_sum: log_sum_exp(logs.into_iter()),
         })
         .collect();
-    particles::united(&shares, total)
+    niwaki_particles::united(&shares, total)
 }
 
 /// Puts this part into the module.

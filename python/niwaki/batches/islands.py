@@ -2,7 +2,7 @@
 
 A population shares nothing with the others but its search's seed, which gives each a seed of its own. So it is a search
 by itself, and a batch does it. What comes back is combined as the engine combines populations that it ran itself
-(crates/infer/src/particles/many.rs): by their estimates of the normalising constant, those that died as zero.
+(crates/particles/src/many.rs): by their estimates of the normalising constant, those that died as zero.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which parts of scenes broke a constraint, in words; the engine counts them (`crates/infer/src/blame.rs`)."""
+"""Which parts of scenes broke a constraint, in words; the engine counts them (`crates/run/src/blame.rs`)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Which parts of a scene break the constraints of a search, and a run that shows it.
 
 The engine's sketches judge part by part, as they do when a search says why every run was impossible
-(`crates/infer/src/blame.rs`); here every part is found, not the first alone.
+(`crates/run/src/blame.rs`); here every part is found, not the first alone.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Keeping a checkpoint while a search goes on: when it is written, and what an earlier process left.
 
 A search consists of stages, such as the third run, or the chains that polish it. A stage runs on the engine, which
-stores its parts at its own borders (crates/infer/src/checkpoint.rs). A stage that is done leaves its result.
+stores its parts at its own borders (crates/run/src/checkpoint.rs). A stage that is done leaves its result.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@
 
 mod convert;
 mod disassemble;
+pub mod kinds;
 mod verify;
 
 pub use disassemble::disassemble;

@@ -1,0 +1,93 @@
+//! The acceptance ratio of a proposal that may change the set of choices.
+//!
+//! ```text
+//! log a =   log prior' - log prior + beta (log score' - log score)
+//!         + stale - fresh          log densities of removed choices, less new ones; those drawn anew are in both
+//!         + backward - forward     log densities of proposing the changed values, back and there
+//!         + selection              log probability that this move is chosen, back less there
+//! ```
+//!
+//! Differences are exact before they are rounded, so that a ratio is right however large the terms are that cancel in it.
+//! Dissertation 3.2, with selection weights in place of the numbers of choices.
+
+use niwaki_math::streams::open_unit;
+use niwaki_math::{RngCore, Total, grid};
+
+/// The terms of the acceptance ratio, nats.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms<'a> {
+    /// Change of the log density of the choices.
+    pub prior: &'a Total,
+    /// Change of factors, observations and sketches.
+    pub score: &'a Total,
+    /// The power of the score.
+    pub beta: f64,
+    /// Log densities of the choices that were removed or drawn anew, before.
+    pub stale: &'a Total,
+    /// Log densities of the choices that are new or drawn anew, after.
+    pub fresh: &'a Total,
+    /// Log density of proposing the old values from the new ones.
+    pub backward: f64,
+    /// Log density of proposing the new values from the old ones.
+    pub forward: f64,
+    /// Log probability of choosing this move, afterwards less before.
+    pub selection: f64,
+}
+
+impl Terms<'_> {
+    /// Log of the acceptance ratio, where a sum is too large to be exact as an `f64`: what may cancel is added first.
+    #[cold]
+    #[inline(never)]
+    fn wide_log_ratio(&self) -> f64 {
+        if [self.prior, self.score, self.stale, self.fresh].iter().all(|sum| !sum.near().is_nan()) {
+            return f64::NAN;
+        }
+        let mut sum = self.prior.less(self.fresh);
+        sum.add_total(self.stale);
+        sum.add(grid(self.backward));
+        sum.remove(grid(self.forward));
+        if self.beta == 1.0 {
+            sum.add_total(self.score);
+            return sum.value() + self.selection;
+        }
+        sum.value() + self.beta * self.score.value() + self.selection
+    }
+}
+
+/// Log probability of picking a choice whose weight is unchanged, afterwards less before. The arguments are the sums of
+/// all weights.
+#[inline(always)]
+pub fn selected(total: u64, after: u64) -> f64 {
+    if after == total { 0.0 } else { (total as f64 / after as f64).ln() }
+}
+
+/// Whether a proposal is accepted: with probability `min(1, exp(log_ratio))`, by the next number of `rng`.
+#[inline(always)]
+pub fn accepts(log_ratio: f64, rng: &mut impl RngCore) -> bool {
+    let u = open_unit(rng);
+    log_ratio >= 0.0 || u.ln() < log_ratio
+}
+
+/// How a chain accepts. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
+pub trait Rules: Send {
+    /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
+    #[inline(always)]
+    fn log_ratio(t: &Terms<'_>) -> f64 {
+        let (prior, score, stale, fresh) = (t.prior.near(), t.score.near(), t.stale.near(), t.fresh.near());
+        let ratio = (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.selection;
+        if ratio.is_nan() { t.wide_log_ratio() } else { ratio }
+    }
+
+    /// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
+    /// their states; the hotter one's log score is larger by `gain` nats.
+    #[inline]
+    fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
+        (powers.0 - powers.1) * gain
+    }
+}
+
+/// The rules.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MetropolisHastings;
+
+impl Rules for MetropolisHastings {}

@@ -1,0 +1,124 @@
+//! Blocks: many choices move a little at once, each with a probability of taking part.
+//!
+//! The support of a choice can depend on another choice of the block, so steps must not depend on parameters: a choice moves
+//! in the coordinates of its *family* (positive ones by a factor, bounded ones in plain steps, which
+//! are rejected outside), by its spread in the chain's first state. The step of a choice that is gone after the
+//! proposal, or has another family, does not count in either direction.
+//!
+//! A discrete choice that takes part moves to a neighbour or stays, each with probability 1/2. If all of them always moved, what
+//! two of them have in common could never change: two truth values that are equal would stay equal.
+
+use crate::Chain;
+use crate::accept::Rules;
+use crate::drift::{Step, normal};
+use crate::metropolis::Decision;
+use crate::neighbour::near;
+use niwaki_math::{Family, Space, Stream};
+use niwaki_run::fresh::Fresh;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::builtins::{draw_to_value, value_to_draw};
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::{Changed, Proposed};
+use niwaki_vm::value::Value;
+use serde::Deserialize;
+
+/// A block.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// The step, in spreads of each choice's first distribution.
+    pub(crate) step: Step,
+    /// Probability with which each choice takes part.
+    pub(crate) share: f64,
+    /// Acceptance that the step is adapted to while the chain warms up.
+    target: f64,
+}
+
+impl Block {
+    /// The step so far, in spreads of each choice's first distribution.
+    pub fn size(&self) -> f64 {
+        self.step.size
+    }
+
+    /// Probability with which each choice takes part.
+    pub fn share(&self) -> f64 {
+        self.share
+    }
+}
+
+/// A step of one choice; `None` where it has none.
+pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<Proposed<f64>> {
+    let space = family.space();
+    let discrete = match old {
+        _ if space == Space::Fixed => return None,
+        Value::Bool(b) => Some(Value::Bool(!b)),
+        Value::Int(k) => Some(Value::Int(near(*k, 1, rng))),
+        _ => None,
+    };
+    if let Some(value) = discrete {
+        if rng.uniform() < 0.5 {
+            return None;
+        }
+        return Some(Proposed { value, forward: 0.0, backward: 0.0 });
+    }
+    let (old, coordinates) = (value_to_draw(old)?, space.coordinates()?);
+    let (new, forward, backward) = coordinates.moved(&old, || size * normal(rng))?;
+    // How much the last number inside stands for depends on parameters: a block moves between the others.
+    if !(coordinates.has_inside(&old) && coordinates.has_inside(&new)) {
+        return None;
+    }
+    Some(Proposed { value: draw_to_value(new), forward, backward })
+}
+
+impl<R: Rules> Chain<R> {
+    /// One proposal for a whole block.
+    pub(super) fn block(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        block: &mut Block,
+        table: Option<usize>,
+        beta: f64,
+    ) -> Result<(), Failure> {
+        let (visit, program) = (self.visit, &*task.program);
+        self.visit += 1;
+        let (mut rng, key, size) =
+            (self.streams.decisions(visit), self.streams.moves(visit), block.step.size);
+        let (mut changes, mut moved) = (Vec::new(), Vec::new());
+        let trace = &self.state.trace;
+        for choice in trace.numbers() {
+            if table.is_some_and(|t| self.tables[t].weight(choice) == 0) {
+                continue;
+            }
+            let address = trace.address(program, choice);
+            let mut own = key.at(address);
+            if own.uniform() >= block.share {
+                continue;
+            }
+            let Some(family) = trace.family(choice) else { continue };
+            let spread = self.spreads[self.counts.number(trace.site_of(choice))];
+            let old = trace.choice(program, choice).0;
+            if let Some(proposed) = step(family, old, size * spread, &mut own) {
+                moved.push((address, old.clone()));
+                changes.push(Changed { choice, proposed });
+            }
+        }
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
+        let change =
+            match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
+                Ok(change) => change,
+                Err(met) => self.give_up(task, met)?,
+            };
+        let decision = self.decide(task, change, beta, &mut rng, |_| 0.0, moved)?;
+        self.count_many(decision);
+        if self.warming(visit).is_some() && !decision.same {
+            block.step.adapt(decision, block.target);
+        }
+        Ok(())
+    }
+
+    pub(super) fn count_many(&mut self, decision: Decision) {
+        self.counts.many.proposed += 1;
+        self.counts.many.accepted += u64::from(decision.accepted);
+    }
+}

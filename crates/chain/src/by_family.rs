@@ -1,0 +1,33 @@
+//! The original's single-site proposals (Ritchie's prototype, the Metropolis-Hastings baseline of dissertation 5.6), by
+//! the family of the choice: a coin is always flipped, a Gaussian number drifts by its own distribution's standard
+//! deviation, anything else is drawn from its distribution. Flips and drifts are symmetric.
+
+use crate::drift::normal;
+use crate::proposal::{FromPrior, Move};
+use niwaki_math::{Dist, Stream};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::kept::Proposed;
+use niwaki_vm::value::Value;
+
+/// The move.
+pub(crate) struct ByFamily;
+
+impl Move for ByFamily {
+    fn propose(
+        &mut self,
+        at: &At<'_, f64>,
+        site: usize,
+        dist: &Dist,
+        old: &Value,
+        log_density: f64,
+        rng: &mut Stream,
+    ) -> Result<Proposed<f64>, Fault> {
+        let value = match (dist, old) {
+            (Dist::Bernoulli { .. }, Value::Bool(b)) => Value::Bool(!b),
+            (Dist::Gaussian { sd, .. }, Value::Real(x)) => Value::Real(x + sd * normal(rng)),
+            _ => return FromPrior.propose(at, site, dist, old, log_density, rng),
+        };
+        Ok(Proposed { value, forward: 0.0, backward: 0.0 })
+    }
+}

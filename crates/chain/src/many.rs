@@ -1,0 +1,147 @@
+//! Several chains of one seed, in parallel. Each chain is the same on any number of threads.
+
+use crate::Settings;
+use crate::accept::{MetropolisHastings, Rules};
+use crate::ladder::Ladder;
+use niwaki_run::checkpoint::Checkpoint;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::machine::invalid::{Count, Counts, Place};
+use niwaki_vm::value::Value;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Mutex;
+use std::sync::PoisonError;
+
+/// By how much counts by place have grown.
+fn more(counts: Counts, before: &Counts) -> Counts {
+    let before: BTreeMap<&Place, u64> = before.iter().map(|(place, count)| (place, count.runs)).collect();
+    let grown = |(place, count): (Place, Count)| {
+        let runs = count.runs - before.get(&place).unwrap_or(&0);
+        (place, Count { runs, ..count })
+    };
+    counts.into_iter().map(grown).filter(|(_, count)| count.runs > 0).collect()
+}
+
+/// Several chains.
+pub struct Chains<R: Rules = MetropolisHastings> {
+    /// The chains.
+    pub chains: Vec<Ladder<R>>,
+}
+
+impl<R: Rules> Chains<R> {
+    /// `count` chains in their first states.
+    ///
+    /// # Errors
+    /// As for [`Ladder::start`].
+    pub fn start(
+        task: &Task,
+        settings: &Settings,
+        count: usize,
+        known: Option<&HashMap<u128, Value>>,
+    ) -> Result<Chains<R>, Failure> {
+        Chains::start_from(task, settings, count, known, None)
+    }
+
+    /// The same, or where a checkpoint has data of a chain, that chain.
+    ///
+    /// # Errors
+    /// As for [`Chains::start`]; data that is not of such a chain.
+    pub fn start_from(
+        task: &Task,
+        settings: &Settings,
+        count: usize,
+        known: Option<&HashMap<u128, Value>>,
+        checkpoint: Option<&Checkpoint>,
+    ) -> Result<Chains<R>, Failure> {
+        let task = &task.shared_by(count);
+        let chains = (0..count as u64).into_par_iter().map(|number| {
+            if let Some(stored) = checkpoint.map_or(Ok(None), |own| own.left(number))? {
+                return Ladder::restored(task, settings, number, stored);
+            }
+            // Counted apart, so that a chain is stored with its own count.
+            let own = task.uncounted();
+            let mut ladder = Ladder::start(&own, settings, number, known)?;
+            ladder.invalid = own.invalid.counts();
+            Ok(ladder)
+        });
+        let chains: Vec<Ladder<R>> = chains.collect::<Result<_, _>>()?;
+        for chain in &chains {
+            task.invalid.add(chain.invalid.iter().cloned());
+        }
+        Ok(Chains { chains })
+    }
+
+    /// Makes `steps` proposals in each. `watch` is called with the proposals of all chains so far and the best score;
+    /// when it returns false, the chains stop. Returns whether they were stopped.
+    ///
+    /// # Errors
+    /// As for [`Ladder::advance`]: the failure of the first chain that failed.
+    pub fn advance(
+        &mut self,
+        task: &Task,
+        steps: u64,
+        watch: &(dyn Fn(u64, f64) -> bool + Sync),
+    ) -> Result<bool, Failure> {
+        self.aim(steps);
+        self.go_on(task, watch, None)
+    }
+
+    /// From now on each chain is on its way to so many more proposals.
+    pub fn aim(&mut self, steps: u64) {
+        self.chains.iter_mut().for_each(|chain| chain.end = chain.visit() + steps);
+    }
+
+    /// The same for chains that have made none yet.
+    pub fn aim_anew(&mut self, steps: u64) {
+        self.chains.iter_mut().filter(|chain| chain.visit() == 0).for_each(|chain| chain.end = steps);
+    }
+
+    /// Makes the proposals that are left in each chain; as for [`Chains::advance`]. A chain is a part of the checkpoint: it is
+    /// stored before the first proposal where it has made some, at borders when it is asked for, and at the end.
+    ///
+    /// # Errors
+    /// As for [`Chains::advance`].
+    pub fn go_on(
+        &mut self,
+        task: &Task,
+        watch: &(dyn Fn(u64, f64) -> bool + Sync),
+        checkpoint: Option<&Checkpoint>,
+    ) -> Result<bool, Failure> {
+        let store = |number: usize, chain: &Ladder<R>| {
+            let content = || chain.stored(&task.program, chain.invalid.clone());
+            checkpoint.inspect(|own| own.store(number as u64, content));
+        };
+        let begun = self.chains.iter().enumerate().filter(|(_, chain)| chain.visit() > 0);
+        begun.for_each(|(number, chain)| store(number, chain));
+        let each: Vec<(u64, f64)> = self.chains.iter().map(|c| (c.visit(), c.best_score())).collect();
+        let progress = Mutex::new((each, false));
+        let task = &task.shared_by(self.chains.len());
+        self.chains
+            .par_iter_mut()
+            .enumerate()
+            .map(|(i, chain)| {
+                let (own, before) = (task.uncounted(), std::mem::take(&mut chain.invalid));
+                own.invalid.add(before.iter().cloned());
+                let done = chain.go_on(&own, &mut |chain| {
+                    if let Some(checkpoint) = checkpoint {
+                        let content = || chain.stored(&task.program, own.invalid.counts());
+                        checkpoint.at_border(i as u64, content);
+                    }
+                    let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
+                    progress.0[i] = (chain.visit(), chain.best_score());
+                    let done = progress.0.iter().map(|c| c.0).sum();
+                    let best = progress.0.iter().map(|c| c.1).fold(f64::NEG_INFINITY, f64::max);
+                    let go_on = watch(done, best);
+                    progress.1 |= !go_on;
+                    go_on
+                });
+                chain.invalid = own.invalid.counts();
+                task.invalid.add(more(chain.invalid.clone(), &before));
+                done.inspect(|()| store(i, chain))
+            })
+            .collect::<Vec<_>>()
+            .into_iter()
+            .collect::<Result<(), Failure>>()?;
+        Ok(progress.into_inner().unwrap_or_else(PoisonError::into_inner).1)
+    }
+}

@@ -1,0 +1,197 @@
+//! Metropolis-Hastings with one choice (dissertation 3.2).
+//!
+//! 1. *Pick* a choice of the present run: evenly, or by selection weights; `W` is their sum.
+//! 2. *Propose* a new value `x' ~ q(. | x)` for it ([`proposal`](crate::proposal)).
+//! 3. *Run on* from there. Everything that reads the value is run again; new choices are drawn from their priors.
+//! 4. *Accept* with probability `min(1, a)`, where `p` is the density of all choices and `s` the score:
+//!
+//! ```text
+//! log a =   log p' - log p + beta (log s' - log s)
+//!         + stale - fresh                        removed choices, new choices: their log densities
+//!         + log q(x | x') - log q(x' | x)        backward - forward
+//!         + log 1 / W' - log 1 / W               selection: the picked choice weighs the same before and after
+//! ```
+//!
+//! 5. *Keep* the run that was proposed, or *undo* it, on the trace and on the sketches together.
+//!
+//! Kernels that change many choices differ in the first two steps and in the selection, and share the others (`decide`).
+
+use crate::Chain;
+use crate::accept::{Rules, Terms, accepts, selected};
+use crate::proposal::{Move, MoveProposal};
+use crate::streams::scaled;
+use niwaki_math::RngCore;
+use niwaki_run::fresh::Fresh;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::code::Program;
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::Change;
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::value::Value;
+
+/// The decision on a proposal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Decision {
+    /// Whether the proposal was the present state.
+    pub same: bool,
+    /// Whether it was kept.
+    pub accepted: bool,
+    /// Log of the acceptance ratio; minus infinity for an impossible proposal.
+    pub log_ratio: f64,
+}
+
+impl<R: Rules> Chain<R> {
+    /// One proposal; choices are picked evenly, or by the weights of a table.
+    #[inline(always)]
+    pub(super) fn single<M: Move>(
+        &mut self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        proposer: &mut M,
+        table: Option<usize>,
+        beta: f64,
+    ) -> Result<(), Failure> {
+        let visit = self.visit;
+        self.visit += 1;
+        let total = table.map_or(self.state.trace.len() as u64, |t| self.tables[t].total());
+        if total == 0 {
+            return Ok(());
+        }
+        let (trace, program) = (&self.state.trace, &*task.program);
+        let guess = |first: u64| match table {
+            None => trace.approach(program, scaled(first, total) as usize),
+            Some(_) => 0,
+        };
+        let now = *self.ahead.of(&self.streams, visit, guess);
+        let at = now.below(total);
+        let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
+
+        let site = self.counts.number(self.state.trace.site_of(choice));
+        proposer.look(&self.state, &task.program, choice);
+        let noting = self.best.is_noting();
+        let mut proposal = MoveProposal { proposer, site, moves: now.moves, noting, old: None };
+        let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
+        let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
+        let change = match machine.propose(trace, choice, strategy, &mut proposal, &mut answers) {
+            Ok(change) => change,
+            Err(met) => self.give_up(task, met)?,
+        };
+        let (old, outside) = (proposal.old.take(), self.state.trace.left_support());
+        if change == Change::Done
+            && let Some(backward) = proposer.look_back(&self.state, &task.program, choice)
+        {
+            self.state.trace.set_backward(backward);
+        }
+        let selection = |chain: &Self| {
+            let trace = &chain.state.trace;
+            let after =
+                table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, &task.program));
+            selected(total, after)
+        };
+        let mut rng = now.rest();
+        let decision = self.decide(task, change, beta, &mut rng, selection, old)?;
+        let count = &mut self.counts.sites[site];
+        count.proposed += 1;
+        count.accepted += u64::from(decision.accepted);
+        count.outside += u64::from(outside);
+        if self.warming(visit).is_some() && !decision.same {
+            proposer.learn(site, decision);
+        }
+        Ok(())
+    }
+
+    /// Decides over the open transaction. `selection` is the log probability of choosing the move, afterwards less before;
+    /// `moved` names the choices that the proposal itself changed, with their values before. The acceptance draw is
+    /// the next number of `rng`.
+    #[inline(always)]
+    pub(super) fn decide(
+        &mut self,
+        task: &Task,
+        change: Change,
+        beta: f64,
+        rng: &mut impl RngCore,
+        selection: impl FnOnce(&Self) -> f64,
+        moved: impl IntoIterator<Item = (u128, Value)>,
+    ) -> Result<Decision, Failure> {
+        let program = &*task.program;
+        match change {
+            Change::Same => {
+                self.state.trace.commit(program);
+                self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+                return Ok(self.last);
+            }
+            Change::Impossible => {
+                self.state.trace.rollback(program);
+                self.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+                return Ok(self.last);
+            }
+            Change::Done => {}
+        }
+        self.show(program)?;
+        let trace = &self.state.trace;
+        let (totals, changed) = (trace.totals(), trace.change());
+        let (fresh, stale) = trace.fresh_and_stale();
+        let (forward, backward) = trace.forward_and_backward();
+        let with_sketches = self.state.sketch_change().map(|change| changed.log_factors.plus(&change));
+        let terms = Terms {
+            prior: &changed.log_prior,
+            score: with_sketches.as_ref().unwrap_or(&changed.log_factors),
+            beta,
+            stale,
+            fresh,
+            backward,
+            forward,
+            selection: selection(self),
+        };
+        let log_ratio = R::log_ratio(&terms);
+        let barriers = || self.state.primitives as i64 + totals.factors + changed.factors;
+        let fits = self.barriers.is_none_or(|n| barriers() == n as i64);
+        let accepted = accepts(log_ratio, rng) && fits && !changed.is_impossible() && !self.undoing;
+        if accepted {
+            self.keep(program, moved);
+        } else {
+            self.state.restore_sketches();
+            self.state.trace.rollback(program);
+        }
+        self.last = Decision { same: false, accepted, log_ratio };
+        Ok(self.last)
+    }
+
+    /// Shows the scene of the open transaction to the sketches.
+    ///
+    /// # Errors
+    /// A sketch scores NaN; the chain is back in its last state.
+    #[inline(always)]
+    pub(super) fn show(&mut self, program: &Program) -> Result<(), Failure> {
+        self.state.update_sketches().inspect_err(|_| {
+            self.state.restore_sketches();
+            self.state.trace.rollback(program);
+        })
+    }
+
+    /// Keeps the open transaction.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
+        if self.best.is_noting() {
+            self.best.note(&self.state, program, moved);
+        }
+        for table in &mut self.tables {
+            table.follow(&self.state.trace, program);
+        }
+        self.state.trace.commit(program);
+        self.best.compare(&self.state, program, self.visit);
+    }
+
+    /// A proposal raised a fault. Where that makes the run invalid, the proposal is impossible, and counted.
+    ///
+    /// # Errors
+    /// Any other fault; the chain is back in its last state.
+    #[cold]
+    pub(super) fn give_up(&mut self, task: &Task, met: Box<RunFault>) -> Result<Change, Failure> {
+        if task.invalid.count(&met).is_some() {
+            return Ok(Change::Impossible);
+        }
+        self.state.trace.rollback(&task.program);
+        Err(met.into())
+    }
+}

@@ -1,0 +1,89 @@
+//! Neighbour moves: a truth value flips, a whole number moves up or down by a few, a category becomes another; of a list of
+//! truth values one flips, and of counts some go from one to another.
+//!
+//! The moves are symmetric, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
+
+use crate::proposal::{FromPrior, Move};
+use niwaki_math::{Dist, Space, Stream, Support};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::kept::Proposed;
+use niwaki_vm::value::Value;
+use serde::Deserialize;
+use std::num::NonZeroU64;
+
+/// A move to a value near by.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbour {
+    /// How far at most.
+    reach: NonZeroU64,
+}
+
+impl Move for Neighbour {
+    fn propose(
+        &mut self,
+        at: &At<'_, f64>,
+        site: usize,
+        dist: &Dist,
+        old: &Value,
+        log_density: f64,
+        rng: &mut Stream,
+    ) -> Result<Proposed<f64>, Fault> {
+        let value = match (dist.family().space(), old) {
+            (Space::Fixed, _) => None,
+            (_, Value::Bool(b)) => Some(Value::Bool(!b)),
+            (_, Value::Int(k)) => Some(Value::Int(match dist.support() {
+                Support::Categories(n @ 2..) => {
+                    // One of the other categories: numbers from the old one on are one higher.
+                    let other = crate::streams::below(rng, n as u64 - 1) as i64;
+                    other + i64::from(other >= *k)
+                }
+                _ => near(*k, self.reach.get(), rng),
+            })),
+            (Space::Truths, Value::Tuple(all)) => flipped(all.items(), rng),
+            (Space::Counts, Value::Tuple(all)) => shifted(all.items(), self.reach.get(), rng),
+            _ => None,
+        };
+        match value {
+            Some(value) => Ok(Proposed { value, forward: 0.0, backward: 0.0 }),
+            None => FromPrior.propose(at, site, dist, old, log_density, rng),
+        }
+    }
+}
+
+/// The same truth values, one of them flipped.
+fn flipped(all: &[Value], rng: &mut Stream) -> Option<Value> {
+    let at = crate::streams::below(rng, all.len() as u64) as usize;
+    let one = |(i, x): (usize, &Value)| match x {
+        Value::Bool(b) => Some(Value::Bool(*b != (i == at))),
+        _ => None,
+    };
+    all.iter().enumerate().map(one).collect::<Option<_>>().map(Value::tuple)
+}
+
+/// The same counts, at most `reach` of one gone to another.
+fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
+    let n = all.len() as u64;
+    if n < 2 {
+        return None;
+    }
+    let from = crate::streams::below(rng, n);
+    let other = crate::streams::below(rng, n - 1);
+    let to = other + u64::from(other >= from);
+    let by = (crate::streams::below(rng, reach) + 1) as i64;
+    let one = |(i, x): (u64, &Value)| match x {
+        Value::Int(k) if i == from => Some(Value::Int(k.saturating_sub(by))),
+        Value::Int(k) if i == to => Some(Value::Int(k.saturating_add(by))),
+        Value::Int(k) => Some(Value::Int(*k)),
+        _ => None,
+    };
+    (0..).zip(all).map(one).collect::<Option<_>>().map(Value::tuple)
+}
+
+/// A whole number at most `reach` from another, and not the same.
+pub(super) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
+    let at = crate::streams::below(rng, 2 * reach);
+    let by = (at / 2 + 1) as i64;
+    k.saturating_add(if at.is_multiple_of(2) { by } else { -by })
+}

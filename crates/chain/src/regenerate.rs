@@ -1,0 +1,80 @@
+//! Regeneration: a call and everything below it are drawn anew from the prior, in program order.
+//!
+//! A choice is picked, and with it the activation a fixed number of levels above it. The activation keeps its place
+//! for any draws below, so the probability of choosing it is the weight of the choices that lead to it over the weight
+//! of all, before and after.
+
+use crate::Chain;
+use crate::Proposing;
+use crate::accept::Rules;
+use crate::leaf::ChainMove;
+use crate::streams::below;
+use niwaki_run::Failure;
+use niwaki_run::fresh::Fresh;
+use niwaki_vm::code::Program;
+use niwaki_vm::machine::state::NodeId;
+use serde::Deserialize;
+
+/// One regenerated call.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Regenerate {
+    /// How many levels the call is above the picked choice.
+    levels: usize,
+}
+
+impl ChainMove for Regenerate {
+    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+        let (levels, Proposing { chain, task, machine, table, beta }) = (self.levels, proposing);
+        let (visit, program) = (chain.visit, &*task.program);
+        chain.visit += 1;
+        let mut rng = chain.streams.decisions(visit);
+        let total = table.map_or(chain.state.trace.len() as u64, |t| chain.tables[t].total());
+        if total == 0 {
+            return Ok(());
+        }
+        let at = below(&mut rng, total);
+        let choice = table.map_or(at as usize, |t| chain.tables[t].find(at));
+        let activation = chain.state.trace.activation(choice, levels);
+        let weight = chain.leading(program, activation, levels, table);
+        let (mut choices, trace) = (Vec::new(), &chain.state.trace);
+        trace.below(program, activation, |_, number, _| choices.extend(number));
+        let old = |n: &usize| (trace.address(program, *n), trace.choice(program, *n).0.clone());
+        let moved: Vec<_> = if chain.best.is_noting() { choices.iter().map(old).collect() } else { vec![] };
+        let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
+        let change =
+            match machine.redraw(&mut chain.state.trace, &choices, chain.settings.strategy, &mut answers) {
+                Ok(change) => change,
+                Err(met) => chain.give_up(task, met)?,
+            };
+        let selection = |chain: &Chain<R>| {
+            let trace = &chain.state.trace;
+            let after =
+                table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
+            let leading = chain.leading(program, activation, levels, table);
+            (leading as f64 / after as f64).ln() - (weight as f64 / total as f64).ln()
+        };
+        let decision = chain.decide(task, change, beta, &mut rng, selection, moved)?;
+        chain.count_many(decision);
+        Ok(())
+    }
+}
+
+impl<R: Rules> Chain<R> {
+    /// The weight of the choices that lead to an activation: those `levels` below it. The root also takes
+    /// the choices that are nearer to it, because their activation would be above the root.
+    fn leading(&self, program: &Program, activation: NodeId, levels: usize, table: Option<usize>) -> u64 {
+        let (mut weight, trace) = (0, &self.state.trace);
+        let root = activation == NodeId(0);
+        trace.below(program, activation, |place, number, level| {
+            if level == levels || (root && level < levels) {
+                weight += match (table, number) {
+                    (None, _) => 1,
+                    (Some(t), Some(n)) => self.tables[t].weight(n),
+                    (Some(t), None) => self.tables[t].weigh(&place),
+                };
+            }
+        });
+        weight
+    }
+}

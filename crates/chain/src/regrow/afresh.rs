@@ -1,0 +1,101 @@
+//! One part of a run grown again, and everything outside of it as it was.
+//!
+//! Particles grow the part from its inputs, in a scene that has everything else. Their weights are those of regrowth, but
+//! none of them holds the present values: they follow the law of the part given the rest, by weight.
+
+use super::{Contents, Regrow, Weighing, pick};
+use crate::kernel::Kernel;
+use crate::plan::Plan;
+use crate::state::State;
+use crate::streams::Streams;
+use crate::{Chain, Settings};
+use niwaki_math::RngCore;
+use niwaki_run::run::Run;
+use niwaki_run::select::Selection;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::value::Value;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// How a part is grown again.
+#[derive(Clone, Copy, Debug)]
+pub struct Afresh<'a> {
+    /// A pattern that matches the part alone.
+    pub part: &'a str,
+    /// How many particles.
+    pub particles: usize,
+    /// The power of the score.
+    pub power: f64,
+    /// Decides every random number.
+    pub seed: u64,
+}
+
+/// The runs that are the one with these values outside of the part: one for each particle that is possible, with its
+/// weight.
+///
+/// # Errors
+/// A pattern that matches no part or several, no particles, values of an impossible run, particles that are all impossible, a fault of the
+/// program.
+pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> Result<Vec<Run>, Failure> {
+    if with.particles == 0 {
+        let fault = Fault::new("no-particles", "the number of particles is 0").with_help("use at least one");
+        return Err(fault.into());
+    }
+    let (program, streams) = (&*task.program, Streams::new(with.seed, 0));
+    super::refuse_memoised(program)?;
+    let (state, spreads) = State::start(task, streams, 1, Some(known))?;
+    let outside = |part: &HashMap<u128, Value>| -> HashMap<u128, Value> {
+        state.choices(program).filter(|(address, _)| !part.contains_key(address)).collect()
+    };
+    let picked = pick::only(with.part, &state.trace, program)?;
+    let contents = Contents::of(&state, program, picked.part, &|_| true);
+    let (Contents { held, rest, numbers }, sketches) = contents.ok_or_else(Failure::no_start)?;
+    let (outside, start) = (outside(&held), state.trace.start_part(program, picked.part, false));
+    let (selection, path) = (Selection::default(), state.trace.part_path(picked.part));
+    let own = Regrow {
+        particles: with.particles,
+        turn: 0.0,
+        pick: pick::Pick::default(),
+        best: false,
+        proposal: None,
+        selection: Selection::default(),
+    };
+    let block = |particles| super::Block {
+        task,
+        start: start.clone(),
+        path,
+        sketches: sketches.fork(),
+        held: &held,
+        rest: &rest,
+        selection: &selection,
+        proposal: None,
+        beta: with.power,
+        particles,
+    };
+    let settings = Settings { seed: with.seed, thin: 0, ..Settings::default() };
+    let mut chain: Chain = Chain::at(task, &settings, 0, Plan::new(&Kernel::PRIOR)?, state, &spreads)?;
+    let mut machine = task.machine();
+    let moves = streams.moves(0);
+    // The present part, which scores what the others are compared with.
+    let present = block(1).conditional(&mut machine, None, moves.at(0).next_u64())?;
+    let block = block(with.particles);
+    let mut set = block.free(&mut machine, None, moves.at(1).next_u64())?;
+    let weighing =
+        Weighing { task, own: &own, picked: &picked, block: &block, numbers: &numbers, emits: None };
+    let before = (&present.grown[0], present.grown[0].result());
+    chain.weigh_last(&mut machine, &weighing, &mut set, Some(before))?;
+    if set.log_mean == f64::NEG_INFINITY {
+        let causes = set.grown.iter().map(|one| one.particle.record.cause.as_deref());
+        let named = causes.map(|cause| (cause.unwrap_or("a change outside of the part"), 1));
+        return Err(Failure::impossible(0, named));
+    }
+    let weighed = set.grown.iter().zip(&set.weights.relative).filter(|(_, weight)| **weight > 0.0);
+    let parts: Vec<_> = weighed.map(|(one, weight)| (one.values(&block), weight.ln())).collect();
+    let whole = |(part, log_weight): (HashMap<u128, Value>, f64)| {
+        let known = outside.iter().map(|(address, value)| (*address, value.clone())).chain(part).collect();
+        let (state, _) = State::start(task, streams, 1, Some(&known))?;
+        Ok(Run { log_weight, ..state.run(program, 0) })
+    };
+    parts.into_par_iter().map(whole).collect()
+}

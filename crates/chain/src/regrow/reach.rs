@@ -1,0 +1,62 @@
+//! Whether a chain that grows only the activations of choices again reaches every run.
+//!
+//! Such a kernel changes one activation with choices of its own, and what is below it. All choices outside stay, also which there
+//! are: a run with others has weight zero. So the *outermost* activations with choices of their own are the same in every run that
+//! a chain reaches. Where two runs of the model differ in them, no chain comes from the one to the other:
+//!
+//! ```text
+//! for i in range(3):                 an activation for each iteration, and the loop itself makes no choice:
+//!     if flip(0.2): break            runs with one, two and three iterations are apart
+//! ```
+
+use niwaki_math::StreamKey;
+use niwaki_run::Task;
+use niwaki_run::fresh::Fresh;
+use niwaki_vm::code::Program;
+use niwaki_vm::machine::kept::part::{Part, Piece};
+use niwaki_vm::machine::kept::{Change, Trace};
+use std::collections::BTreeSet;
+
+/// Runs from the prior that are looked at.
+const RUNS: u64 = 64;
+
+/// The outermost activations of a run that make choices, by the hashes of their paths.
+fn outermost(trace: &Trace, program: &Program) -> BTreeSet<u128> {
+    let (mut found, mut work) = (BTreeSet::new(), vec![Part::WHOLE]);
+    while let Some(part) = work.pop() {
+        let (mut below, mut chooses) = (vec![], false);
+        trace.pieces(program, part, |piece| match piece {
+            Piece::Choice(_) => chooses = true,
+            Piece::Part(part) => below.push(part),
+            Piece::Emit(_) | Piece::Held(_) => {}
+        });
+        if chooses {
+            found.insert(trace.part_path(part));
+        } else {
+            work.extend(below);
+        }
+    }
+    found
+}
+
+/// Whether a few runs from the prior show that a kernel which grows only the activations of choices again cannot reach all runs.
+pub fn is_apart(task: &Task, seed: u64) -> bool {
+    let (mut machine, mut first) = (task.machine(), None);
+    for stream in 0..RUNS {
+        let mut answers = Fresh::plain(StreamKey::new(seed, stream, 0), &*task.hosts);
+        match task.begin(&mut machine, &mut answers) {
+            // An impossible run has ended early.
+            Ok((_, Change::Impossible)) => {}
+            Ok((trace, _)) => {
+                let found = outermost(&trace, &task.program);
+                if first.get_or_insert_with(|| found.clone()) != &found {
+                    return true;
+                }
+            }
+            Err(met) if met.is_invalid() => {}
+            // The search tells it.
+            Err(_) => return false,
+        }
+    }
+    false
+}

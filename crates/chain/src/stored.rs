@@ -1,0 +1,161 @@
+//! A chain as data, at a border between two proposals, and a chain that goes on from it with the same bits.
+//!
+//! The run is stored as the values of its choices, in the order of their numbers, and is made again from them: scores and
+//! sketches are exact, so they come back to the bit, and this is checked. Beside it stands what the proposals so far have
+//! taught: steps, scales, the place in the kernel, counts, the best state, the samples.
+
+use crate::accept::Rules;
+use crate::best::Best;
+use crate::counts::Count;
+use crate::ladder::Ladder;
+use crate::plan;
+use crate::plan::Plan;
+use crate::state::State;
+use crate::{Chain, Settings};
+use niwaki_math::bits;
+use niwaki_run::checkpoint::unfit;
+use niwaki_run::log::Log;
+use niwaki_run::run::Run;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::code::Program;
+use niwaki_vm::machine::invalid::Counts;
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A state.
+#[derive(Serialize, Deserialize)]
+pub struct StoredState {
+    /// Its choices, in the order of their numbers.
+    choices: Log,
+    #[serde(with = "bits")]
+    log_prior: f64,
+    #[serde(with = "bits")]
+    log_score: f64,
+    moved: u64,
+}
+
+impl StoredState {
+    /// Of a state without an open transaction.
+    pub fn of(state: &State, program: &Program) -> StoredState {
+        StoredState {
+            choices: state.choices(program).collect(),
+            log_prior: state.trace.totals().log_prior.value(),
+            log_score: state.log_score(),
+            moved: state.moved,
+        }
+    }
+
+    /// The state.
+    ///
+    /// # Errors
+    /// A fault of the program; choices that are not those of a run, or have other scores than they had.
+    pub fn state(&self, task: &Task) -> Result<State, Failure> {
+        let choices: Vec<_> =
+            self.choices.entries().into_iter().map(|entry| (entry.address(), entry.value)).collect();
+        let mut state = State::of_choices(task, &choices)?;
+        let scores = (state.trace.totals().log_prior.value(), state.log_score());
+        if (scores.0.to_bits(), scores.1.to_bits()) != (self.log_prior.to_bits(), self.log_score.to_bits()) {
+            return Err(unfit(
+                "its choices score differently here: a function of Python answers differently",
+            ));
+        }
+        state.moved = self.moved;
+        Ok(state)
+    }
+}
+
+/// A chain; `S` are its samples.
+#[derive(Serialize, Deserialize)]
+struct StoredChain<S> {
+    state: StoredState,
+    best: Run,
+    samples: S,
+    thin: u64,
+    spreads: Vec<u64>,
+    visit: u64,
+    grown: u64,
+    sites: Vec<Count>,
+    many: Count,
+    plan: plan::Stored,
+}
+
+/// A ladder of chains, on its way to so many proposals.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct StoredLadder<S> {
+    rungs: Vec<StoredChain<S>>,
+    exchanges: Vec<(u64, u64)>,
+    end: u64,
+    invalid: Counts,
+}
+
+impl<R: Rules> Chain<R> {
+    fn stored(&self, program: &Program) -> StoredChain<Vec<&Run>> {
+        StoredChain {
+            state: StoredState::of(&self.state, program),
+            best: self.best.stored(&self.state, program),
+            samples: self.samples.all.iter().map(Arc::as_ref).collect(),
+            thin: self.samples.thin,
+            spreads: self.spreads.iter().map(|spread| spread.to_bits()).collect(),
+            visit: self.visit,
+            grown: self.grown,
+            sites: self.counts.sites.clone(),
+            many: self.counts.many,
+            plan: self.plan.stored(),
+        }
+    }
+
+    /// The `number`-th chain of a seed, from its data.
+    fn restored(
+        task: &Task,
+        settings: &Settings,
+        number: u64,
+        stored: StoredChain<Vec<Run>>,
+    ) -> Result<Chain<R>, Failure> {
+        let state = stored.state.state(task)?;
+        let plan = Plan::new(&settings.kernel)?;
+        let mut chain = Chain::at(task, settings, number, plan, state, &HashMap::new())?;
+        let fits = chain.plan.restore(stored.plan)
+            && chain.counts.sites.len() == stored.sites.len()
+            && chain.spreads.len() == stored.spreads.len();
+        if !fits {
+            return Err(unfit("it is of chains by another kernel"));
+        }
+        chain.spreads = stored.spreads.into_iter().map(f64::from_bits).collect();
+        (chain.counts.sites, chain.counts.many) = (stored.sites, stored.many);
+        chain.best = Best::restored(stored.best);
+        chain.samples.restore(stored.samples, stored.thin);
+        (chain.visit, chain.grown) = (stored.visit, stored.grown);
+        Ok(chain)
+    }
+}
+
+impl<R: Rules> Ladder<R> {
+    /// Its data; `invalid` are the invalid runs that it counted so far.
+    pub(super) fn stored(&self, program: &Program, invalid: Counts) -> StoredLadder<Vec<&Run>> {
+        let rungs = self.rungs.iter().map(|rung| rung.stored(program)).collect();
+        StoredLadder { rungs, exchanges: self.exchanges.clone(), end: self.end, invalid }
+    }
+
+    /// The `number`-th ladder of a seed, from its data.
+    ///
+    /// # Errors
+    /// As for [`StoredState::state`]; data of another kernel.
+    pub(super) fn restored(
+        task: &Task,
+        settings: &Settings,
+        number: u64,
+        stored: StoredLadder<Vec<Run>>,
+    ) -> Result<Ladder<R>, Failure> {
+        let StoredLadder { rungs, exchanges, end, invalid } = stored;
+        let mut ladder = Ladder::without_rungs(settings, number);
+        if rungs.len() != settings.powers.len() || exchanges.len() != ladder.exchanges.len() {
+            return Err(unfit("it is of chains at other powers"));
+        }
+        for (rung, stored) in rungs.into_iter().enumerate() {
+            ladder.add(rung, settings, |own, number| Chain::restored(task, own, number, stored))?;
+        }
+        (ladder.exchanges, ladder.end, ladder.invalid) = (exchanges, end, invalid);
+        Ok(ladder)
+    }
+}

@@ -1,0 +1,127 @@
+//! The random streams of a chain: a function of (seed, chain, address, visit). The visit is the number of the
+//! proposal. So no draw depends on how much of the program was run again.
+
+use niwaki_math::first_blocks::{Begun, EIGHT, eight};
+use niwaki_math::{RngCore, Stream, StreamKey};
+
+/// Stream numbers for each chain, one for each purpose.
+const STREAMS: u64 = 8;
+
+/// The streams of one chain.
+#[derive(Clone, Copy, Debug)]
+pub struct Streams {
+    fresh: StreamKey,
+    moves: StreamKey,
+    decisions: StreamKey,
+    schedule: StreamKey,
+}
+
+impl Streams {
+    /// Of the `chain`-th chain of a seed.
+    pub fn new(seed: u64, chain: u64) -> Streams {
+        let key = |which| StreamKey::new(seed, chain.wrapping_mul(STREAMS).wrapping_add(which), 0);
+        Streams { fresh: key(0), moves: key(1), decisions: key(2), schedule: key(3) }
+    }
+
+    /// For new choices, and for choices that are drawn anew.
+    #[inline]
+    pub fn fresh(self, visit: u64) -> StreamKey {
+        self.fresh.revisited(visit)
+    }
+
+    /// For new values of old choices.
+    #[inline]
+    pub fn moves(self, visit: u64) -> StreamKey {
+        self.moves.revisited(visit)
+    }
+
+    /// For the choice that is changed, and for the acceptance: the first two numbers.
+    #[inline]
+    pub fn decisions(self, visit: u64) -> Stream {
+        self.decisions.revisited(visit).at(0)
+    }
+
+    /// For the next kernel of a mixture.
+    #[inline]
+    pub fn schedule(self, visit: u64) -> Stream {
+        self.schedule.revisited(visit).at(0)
+    }
+}
+
+/// The random numbers of the next proposals. They are made together, which is quicker, and before the proposals run, so that
+/// memory can be prefetched.
+#[derive(Debug, Default)]
+pub(crate) struct Ahead {
+    /// The number of the first of these proposals.
+    from: u64,
+    made: Vec<Decisions>,
+}
+
+/// Those of one proposal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Decisions {
+    decisions: Begun,
+    /// For the new value of the choice at an address.
+    pub moves: Begun,
+}
+
+impl Decisions {
+    /// The first number as one below `n`.
+    #[inline(always)]
+    pub fn below(&self, n: u64) -> u64 {
+        scaled(self.decisions.first(), n)
+    }
+
+    /// The numbers after it.
+    #[inline(always)]
+    pub fn rest(&self) -> Stream {
+        let mut stream = self.decisions.at(0);
+        stream.next_u64();
+        stream
+    }
+}
+
+impl Ahead {
+    /// Those of a proposal. `guess` is where the choice probably is that a proposal changes whose first number is this.
+    #[inline(always)]
+    pub fn of(&mut self, streams: &Streams, visit: u64, guess: impl Fn(u64) -> u128) -> &Decisions {
+        let mut lane = visit.wrapping_sub(self.from);
+        if lane >= self.made.len() as u64 {
+            lane = 0;
+            self.make(streams, visit, guess);
+        }
+        &self.made[lane as usize]
+    }
+
+    #[inline(never)]
+    fn make(&mut self, streams: &Streams, visit: u64, guess: impl Fn(u64) -> u128) {
+        self.from = visit;
+        let (mut decisive, mut moving) = ([streams.decisions; EIGHT], [streams.moves; EIGHT]);
+        for lane in 0..EIGHT {
+            let visit = visit + lane as u64;
+            decisive[lane] = streams.decisions.revisited(visit);
+            moving[lane] = streams.moves.revisited(visit);
+        }
+        let decisions = eight(decisive, [0; EIGHT]);
+        let mut addresses = [0; EIGHT];
+        for lane in 0..EIGHT {
+            addresses[lane] = guess(decisions[lane].first());
+        }
+        let moves = eight(moving, addresses);
+        self.made.clear();
+        let both = decisions.into_iter().zip(moves);
+        self.made.extend(both.map(|(decisions, moves)| Decisions { decisions, moves }));
+    }
+}
+
+/// A number below `n` from the first number of a proposal's decisions, evenly (up to `n / 2^64`).
+#[inline(always)]
+pub(crate) fn scaled(bits: u64, n: u64) -> u64 {
+    ((u128::from(bits) * u128::from(n)) >> 64) as u64
+}
+
+/// A number below `n`, evenly (up to `n / 2^64`).
+#[inline(always)]
+pub fn below(rng: &mut Stream, n: u64) -> u64 {
+    scaled(rng.next_u64(), n)
+}

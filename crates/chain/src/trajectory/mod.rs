@@ -1,0 +1,247 @@
+//! Trajectories: the continuous choices of a trace move together along their gradient, within a chain whose other kernels
+//! move the discrete ones (dissertation 7.1).
+//!
+//! One transition, of fixed length or without a U-turn, in the coordinates of [`niwaki_grad::coordinates`]:
+//!
+//! 1. the trace's structure (which choices there are, and the values of the discrete ones) has a graph of its density,
+//!    which is recorded where it is new: `structures`;
+//! 2. a Hamiltonian transition goes from `x` to `x'`, with one step and one set of scales for all structures: `scales`;
+//! 3. the values at `x'` are written as one block, through the same transaction as every other proposal, so that scores,
+//!    scene and queries stay exact.
+//!
+//! The second step leaves the recorded density `g` invariant. So it is a proposal that is reversible under `g`, and the
+//! transaction is kept with probability `min(1, p(x') g(x) / (p(x) g(x')))`, where `p` is the density of the trace
+//! itself. This is 1 up to rounding, as the two are the same density (Liu 2001, section 9.4.3, calls a `g` that is not
+//! `p` a surrogate). A trajectory that reaches another structure, a density of zero or a NaN is rejected, and counted.
+
+pub mod counts;
+pub(crate) mod scales;
+pub(crate) mod structures;
+
+use crate::Chain;
+use crate::Proposing;
+use crate::accept::Rules;
+use crate::leaf::ChainMove;
+use crate::metropolis::Decision;
+use counts::TrajectoryCounts;
+use niwaki_continuous::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
+use niwaki_continuous::hamiltonian::step_size::first_guess;
+use niwaki_continuous::hamiltonian::{Cause, Kernel};
+use niwaki_grad::{Continuous, Model, Transform};
+use niwaki_propose::gradient;
+use niwaki_propose::gradient::follow::reason;
+use niwaki_run::fresh::Fresh;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::machine::kept::{Changed, Proposed};
+use scales::Scales;
+use serde::{Deserialize, Deserializer, Serialize};
+use structures::{Moving, Structures};
+
+/// Trajectories of one leaf of a kernel.
+pub struct Trajectory {
+    kernel: Kernel,
+    scales: Scales,
+    structures: Structures,
+    model: Option<Model>,
+    /// Their counts.
+    pub(crate) counts: TrajectoryCounts,
+}
+
+/// What trajectories have learnt, as data.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Learnt {
+    scales: scales::Stored,
+    counts: TrajectoryCounts,
+    /// Structures met, and runs recorded.
+    recorded: (u64, u64),
+}
+
+/// One of fixed length, from its settings.
+pub(super) fn hmc_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Settings {
+        steps: u32,
+        jitter: f64,
+        step: f64,
+        target: f64,
+    }
+    let Settings { steps, jitter, step, target } = Settings::deserialize(from)?;
+    Ok(Box::new(Trajectory::new(Length::Fixed { steps, jitter }, step, target)))
+}
+
+/// One without a U-turn, from its settings.
+pub(super) fn nuts_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Settings {
+        max_depth: u32,
+        step: f64,
+        target: f64,
+    }
+    let Settings { max_depth, step, target } = Settings::deserialize(from)?;
+    Ok(Box::new(Trajectory::new(Length::NoUTurn { max_depth }, step, target)))
+}
+
+impl Clone for Trajectory {
+    /// Copies what was adapted; graphs are recorded anew.
+    fn clone(&self) -> Self {
+        Trajectory {
+            kernel: self.kernel.clone(),
+            scales: self.scales.clone(),
+            structures: Structures::default(),
+            model: self.model.clone(),
+            counts: TrajectoryCounts::default(),
+        }
+    }
+}
+
+impl std::fmt::Debug for Trajectory {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Trajectory").field("kernel", &self.kernel).field("counts", &self.counts).finish()
+    }
+}
+
+impl Trajectory {
+    fn new(length: Length, step: f64, target: f64) -> Trajectory {
+        Trajectory {
+            kernel: length.kernel(MAX_ENERGY_ERROR),
+            scales: Scales::new(step, target),
+            structures: Structures::default(),
+            model: None,
+            counts: TrajectoryCounts::default(),
+        }
+    }
+
+    /// Prepares the recording; once for a task.
+    ///
+    /// # Errors
+    /// Sketches, which have no gradient.
+    pub(crate) fn prepare(&mut self, task: &Task) -> Result<(), Failure> {
+        if self.model.is_none() {
+            self.model = Some(gradient::model(task)?);
+        }
+        Ok(())
+    }
+
+    /// What it has learnt and counted.
+    pub(super) fn learnt(&self) -> Learnt {
+        let (counts, recorded) = (self.counts.clone(), self.recorded());
+        Learnt { scales: self.scales.stored(), counts, recorded }
+    }
+
+    /// Takes what it had learnt and counted. Graphs are recorded anew, and count again.
+    pub(super) fn know(&mut self, learnt: Learnt) {
+        self.scales = Scales::restored(learnt.scales);
+        self.counts = learnt.counts;
+        self.structures.count_from(learnt.recorded);
+    }
+
+    /// The step in use.
+    pub(crate) fn step(&self) -> f64 {
+        self.scales.step(1)
+    }
+
+    /// Graphs recorded: structures met, and runs recorded for them.
+    pub(crate) fn recorded(&self) -> (u64, u64) {
+        self.structures.recorded()
+    }
+}
+
+impl ChainMove for Trajectory {
+    /// One transition of the continuous choices that a table gives weight; all of them, where there is none.
+    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+        let (own, Proposing { chain, task, machine, table, beta }) = (self, proposing);
+        let (visit, program) = (chain.visit, &*task.program);
+        let warming = chain.warming(visit);
+        chain.visit += 1;
+        chain.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
+        own.prepare(task)?;
+        let Some(model) = &own.model else { return Ok(()) };
+        if warming.is_none() {
+            own.scales.freeze();
+        }
+        // The structure, its graph, and the coordinates of the trace.
+        let (trace, tables) = (&chain.state.trace, &chain.tables);
+        let moves = |choice: usize| table.is_none_or(|t| tables[t].weight(choice) > 0);
+        let mut label = |number: usize, choice: &Continuous, place: usize| {
+            let site = chain.counts.number(trace.site_of(number));
+            let is_plain = matches!(choice.transform, Transform::Line | Transform::Vector);
+            let scale = if is_plain { chain.spreads[site] / choice.unit } else { 1.0 };
+            own.scales.label(site as u32, place as u32, scale)
+        };
+        own.structures.find(model, trace, program, beta, &moves, &mut label)?;
+        let Some(Moving { target, labels, numbers }) = own.structures.present() else { return Ok(()) };
+        if target.is_still() {
+            return Ok(());
+        }
+        chain.last = Decision { same: false, accepted: false, log_ratio: f64::NEG_INFINITY };
+        let mut last = chain.streams.moves(visit).at(2);
+        let mut phase = match target.start_phase(trace, program, numbers, beta, &mut last) {
+            Ok(phase) => phase,
+            Err(stop) => {
+                let fault = || reason(target.live(), &target.all(&[]));
+                own.counts.refused(stop, warming.is_some(), fault);
+                chain.count_many(chain.last);
+                return Ok(());
+            }
+        };
+        let (backward, _) = target.values(&phase.x, phase.log_density);
+
+        // From x to x'.
+        let (key, dim) = (chain.streams.moves(visit), phase.x.len());
+        let metric = own.scales.metric(labels);
+        if warming.is_some() && own.scales.wants_a_guess() {
+            let guess = first_guess(target, &metric, &phase, own.scales.step(dim), &mut key.at(1));
+            own.scales.guessed(guess, dim);
+        }
+        let step = own.scales.step(dim);
+        let transition = own.kernel.step(target, &metric, step, &mut phase, &mut key.at(0));
+        if let Some(share) = warming {
+            own.scales.learn(labels, &phase.gradient, transition.accept, share);
+        }
+        let faulty =
+            transition.divergence.as_ref().filter(|d| d.stop.is_some_and(|s| s.cause == Cause::NotFinite));
+        let faulty = faulty.map(|divergence| target.all(&divergence.end));
+        own.counts.count(&transition, warming.is_some(), || reason(target.live(), &faulty?));
+        chain.last.log_ratio = transition.accept.ln();
+        // The last point that was evaluated may be on another path than x'.
+        let there = if transition.moved { target.log_density(&phase.x).ok() } else { None };
+        let Some(log_density) = there else {
+            chain.count_many(chain.last);
+            return Ok(());
+        };
+
+        // The values there, as one block. The first choice carries the whole density of the proposal.
+        let (forward, values) = target.values(&phase.x, log_density);
+        let noting = chain.best.is_noting();
+        let (mut moved, mut changes) = (Vec::new(), Vec::with_capacity(values.len()));
+        for (place, value) in values {
+            let choice = numbers[place];
+            if noting {
+                moved.push((trace.address(program, choice), trace.choice(program, choice).0.clone()));
+            }
+            let (forward, backward) = if changes.is_empty() { (forward, backward) } else { (0.0, 0.0) };
+            changes.push(Changed { choice, proposed: Proposed { value, forward, backward } });
+        }
+        let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
+        let change =
+            match machine.change(&mut chain.state.trace, changes, chain.settings.strategy, &mut answers) {
+                Ok(change) => change,
+                Err(met) => chain.give_up(task, met)?,
+            };
+        let selection = |chain: &Chain<R>| {
+            let trace = &chain.state.trace;
+            // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
+            let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));
+            let is_other = trace.births(program).len() > 0 || !trace.deaths().is_empty() || anew;
+            if is_other { f64::NEG_INFINITY } else { 0.0 }
+        };
+        let mut rng = chain.streams.decisions(visit);
+        let decision = chain.decide(task, change, beta, &mut rng, selection, moved)?;
+        own.counts.moved += u64::from(decision.accepted);
+        own.counts.unwritten += u64::from(!decision.accepted);
+        chain.count_many(decision);
+        Ok(())
+    }
+}

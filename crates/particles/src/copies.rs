@@ -1,0 +1,181 @@
+//! The copies of a resampling. They are made when the particles run again, each by the thread that runs it.
+
+use niwaki_propose::particle::Particle;
+use niwaki_run::resampling::{further_copies, pair};
+use std::collections::VecDeque;
+
+/// At least this many copies of one parent are given to another thread in advance.
+const FEW: usize = 4;
+
+/// The copies that are not made yet.
+#[derive(Default)]
+pub(super) struct Copies {
+    /// How often each particle survives; empty where no copy waits to be made.
+    counts: Vec<usize>,
+    /// Parent and index of each copy, parents ascending.
+    moves: Vec<(usize, usize)>,
+    /// The thread that is to run each copy.
+    threads: Vec<usize>,
+    /// The lineage of the first copy; the others have the next ones, in the order of `moves`.
+    lineage: u64,
+}
+
+/// A particle and its index.
+pub(super) struct Indexed<'a> {
+    pub index: usize,
+    pub particle: &'a mut Particle,
+    /// For a particle that becomes a copy of the last particle before it that is no copy: its new lineage.
+    lineage: Option<u64>,
+}
+
+impl Copies {
+    /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts the
+    /// lineages so far.
+    pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
+        let moves = further_copies(counts);
+        let lineage = *lineages;
+        // Lineages are assigned in this order, whatever thread copies.
+        *lineages += moves.len() as u64;
+        for &(parent, to) in &moves {
+            ancestor[to] = ancestor[parent];
+        }
+        let threads = Vec::new();
+        if moves.is_empty() {
+            Copies::default()
+        } else {
+            Copies { counts: counts.to_vec(), moves, threads, lineage }
+        }
+    }
+
+    /// Decides which thread runs each copy: that of its parent, or another one where a large family would give this
+    /// thread too much work.
+    pub fn share_out(&mut self, particles: &mut [Particle], threads: usize) {
+        let home = |index: usize| particles[index].home % threads;
+        let mut load = vec![0; threads];
+        self.counts.iter().enumerate().for_each(|(index, count)| load[home(index)] += count);
+        let fair = particles.len().div_ceil(threads);
+        self.threads.clear();
+        for family in self.moves.chunk_by(|a, b| a.0 == b.0) {
+            let (own, mut kept) = (home(family[0].0), family.len());
+            let end = self.threads.len() + kept;
+            self.threads.resize(end, own);
+            while let Some(idle) = (0..threads).min_by_key(|thread| load[*thread]) {
+                let spare = fair.saturating_sub(load[idle]);
+                let given = load[own].saturating_sub(fair).min(spare).min(kept);
+                if given < FEW {
+                    break;
+                }
+                let last = end - (family.len() - kept);
+                self.threads[last - given..last].fill(idle);
+                (load[own], load[idle], kept) = (load[own] - given, load[idle] + given, kept - given);
+            }
+        }
+        self.give_near(particles);
+    }
+
+    /// Swaps the particles that copies will overwrite, so that each is overwritten by the thread that ran it: a thread
+    /// then frees memory that it allocated itself. These particles are not used any more.
+    fn give_near(&self, particles: &mut [Particle]) {
+        // Indices whose particle another thread should overwrite, by the thread that ran the particle.
+        let mut foreign: Vec<Vec<usize>> = Vec::new();
+        for (at, (&(_, place), &wanted)) in self.moves.iter().zip(&self.threads).enumerate() {
+            let home = particles[place].home;
+            if wanted == home {
+                continue;
+            }
+            if foreign.len() <= wanted.max(home) {
+                foreign.resize(wanted.max(home) + 1, Vec::new());
+            }
+            match foreign[wanted].pop() {
+                None => foreign[home].push(at),
+                Some(other) => {
+                    particles.swap(place, self.moves[other].1);
+                    if self.threads[other] != home {
+                        foreign[home].push(other);
+                    }
+                }
+            }
+        }
+    }
+
+    /// How often a particle is there once all copies are made.
+    pub fn count(&self, index: usize) -> usize {
+        self.counts.get(index).copied().unwrap_or(1)
+    }
+
+    /// Parent, index and lineage of each.
+    pub fn with_lineages(&self) -> impl Iterator<Item = (usize, usize, u64)> {
+        self.moves.iter().zip(self.lineage..).map(|(&(parent, to), lineage)| (parent, to, lineage))
+    }
+
+    /// Makes all of them.
+    pub fn make(&mut self, particles: &mut [Particle], seed: u64) {
+        for (parent, to, lineage) in self.with_lineages() {
+            let [parent, child] = pair(particles, parent, to);
+            child.copy_from(parent, lineage, seed);
+        }
+        self.clear();
+    }
+
+    /// The particles in batches of about `size`, for each of the `threads` those that it ran last and their copies, which
+    /// are to be made.
+    pub fn batches<'a>(
+        &mut self,
+        particles: &'a mut [Particle],
+        seed: u64,
+        size: usize,
+        threads: usize,
+    ) -> Vec<VecDeque<Vec<Indexed<'a>>>> {
+        let mut lists: Vec<VecDeque<Vec<Indexed<'a>>>> = (0..threads).map(|_| VecDeque::new()).collect();
+        let mut open: Vec<Vec<Indexed<'a>>> = (0..threads).map(|_| Vec::with_capacity(size)).collect();
+        let mut all: Vec<Option<&mut Particle>> = particles.iter_mut().map(Some).collect();
+        let mut moves = self.moves.iter().zip(&self.threads).zip(self.lineage..).peekable();
+        let mut next_batch = |open: &mut Vec<Indexed<'a>>, thread: usize| {
+            if open.len() >= size {
+                lists[thread].push_back(std::mem::replace(open, Vec::with_capacity(size)));
+            }
+            open.len()
+        };
+        for index in 0..all.len() {
+            if self.count(index) == 0 {
+                continue;
+            }
+            let Some(particle) = all[index].take() else { continue };
+            let mut thread = particle.home % threads;
+            let mut parent = next_batch(&mut open[thread], thread);
+            open[thread].push(Indexed { index, particle, lineage: None });
+            while let Some(((&(_, to), &own), lineage)) = moves.next_if(|(((from, _), _), _)| *from == index)
+            {
+                let Some(particle) = all[to].take() else { continue };
+                let mut waits = Some(lineage);
+                if own != thread || open[thread].len() >= size {
+                    // The rest of a large family is copied from its first copy.
+                    particle.copy_from(open[thread][parent].particle, lineage, seed);
+                    (thread, parent, waits) = (own, next_batch(&mut open[own], own), None);
+                }
+                open[thread].push(Indexed { index: to, particle, lineage: waits });
+            }
+        }
+        for (list, batch) in lists.iter_mut().zip(open) {
+            list.extend(Some(batch).filter(|batch| !batch.is_empty()));
+        }
+        lists
+    }
+
+    /// Forgets the copies after they were made.
+    pub fn clear(&mut self) {
+        *self = Copies::default();
+    }
+}
+
+/// Makes the copies of a batch.
+pub(super) fn copy(batch: &mut [Indexed<'_>], seed: u64) {
+    let mut parent = 0;
+    for at in 0..batch.len() {
+        let (before, rest) = batch.split_at_mut(at);
+        match rest[0].lineage.take() {
+            None => parent = at,
+            Some(lineage) => rest[0].particle.copy_from(before[parent].particle, lineage, seed),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! One population from its start to its end, and its result.
+
+use crate::population::Population;
+use crate::rejuvenation::MoveCounts;
+use crate::settings::{Anneal, Settings, Weights};
+use niwaki_propose::particle::Particle;
+use niwaki_run::losses::Losses;
+use niwaki_run::record::Record;
+use niwaki_run::run::Run;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::value::Value;
+
+/// A particle of the final set.
+pub struct Outcome {
+    /// Its choices and score.
+    pub record: Record,
+    /// What the program returned (`None` for one that was interrupted or is impossible).
+    pub value: Value,
+    /// Its log weight, nats; equal weights after a last resampling.
+    pub log_weight: f64,
+    /// Whether it has ended.
+    pub has_ended: bool,
+    /// Its lineage: equal for particles that are copies of each other since the last barrier at most once.
+    pub lineage: u64,
+}
+
+impl Outcome {
+    /// A copy.
+    pub(super) fn copy(&mut self) -> Outcome {
+        Outcome {
+            record: self.record.fork(),
+            value: self.value.clone(),
+            log_weight: self.log_weight,
+            has_ended: self.has_ended,
+            lineage: self.lineage,
+        }
+    }
+}
+
+impl From<Outcome> for Run {
+    fn from(outcome: Outcome) -> Run {
+        Run::of(outcome.record, outcome.value, outcome.log_weight, outcome.has_ended)
+    }
+}
+
+/// The result of SMC.
+pub struct Result {
+    /// The final set.
+    pub particles: Vec<Outcome>,
+    /// Estimate of the log of the final law's normalising constant, the scores raised to the declared power,
+    /// nats. `None` for absolute weights, which have none, and where the search was stopped.
+    pub log_normaliser: Option<f64>,
+    /// The same where it is the model's evidence: at power 1. Unbiased (as a number, not its log), unless the
+    /// powers were adapted, or particles moved after resamplings that the weights decided: then
+    /// consistent.
+    pub log_evidence: Option<f64>,
+    /// How many barriers there were; of several populations, most.
+    pub barriers: usize,
+    /// Particle-steps: how often a particle ran to a barrier.
+    pub steps: u64,
+    /// Barriers at which a population was resampled.
+    pub resampled: usize,
+    /// Ancestors at the first barrier that the final set descends from.
+    pub ancestors: usize,
+    /// Whether it was stopped before all particles had ended.
+    pub interrupted: bool,
+    /// Sizes of the populations, in order: with the seed, all that is needed to repeat it.
+    pub plan: Vec<usize>,
+    /// Populations in which every particle became impossible; their evidence is zero, and counts.
+    pub died: usize,
+    /// The power at each barrier where it is not constant; of several populations, those of the first that
+    /// lived.
+    pub powers: Vec<f64>,
+    /// Moves of rejuvenation.
+    pub moved: MoveCounts,
+    /// Particles that became impossible at barriers where others lived.
+    pub losses: Losses,
+}
+
+/// The progress of a run, for `watch`.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// Barriers so far.
+    pub barriers: usize,
+    /// Particles that have ended.
+    pub ended: usize,
+    /// Best log score among the particles that are possible.
+    pub best: f64,
+}
+
+/// Runs a population of particles. `watch` is called after each barrier; when it returns false, the run stops and
+/// returns the result so far.
+///
+/// # Errors
+/// Settings that make no sense, a fault of the program, or a population in which every particle is impossible.
+pub fn smc(
+    task: &Task,
+    settings: &Settings,
+    watch: &mut dyn FnMut(Progress) -> bool,
+) -> std::result::Result<Result, Failure> {
+    run(task, settings, false, watch)
+}
+
+/// The same; `serial` on one thread.
+pub(super) fn run(
+    task: &Task,
+    settings: &Settings,
+    serial: bool,
+    watch: &mut dyn FnMut(Progress) -> bool,
+) -> std::result::Result<Result, Failure> {
+    let mut population = Population::start(task, settings, serial)?;
+    let interrupted = !grow(&mut population, &mut |_, now| watch(now))?;
+    let chains = if interrupted { None } else { population.final_chains(watch)? };
+    let stopped = chains.as_ref().is_some_and(|(_, stopped)| *stopped);
+    if chains.is_none() {
+        population.rejuvenate(None)?;
+    }
+    let log_normaliser =
+        (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
+    Ok(Result {
+        log_normaliser,
+        log_evidence: log_normaliser.filter(|_| settings.power == 1.0),
+        barriers: population.barriers,
+        steps: population.steps,
+        resampled: population.resampled,
+        ancestors: population.ancestors(),
+        interrupted: interrupted || stopped,
+        plan: vec![settings.particles],
+        died: 0,
+        moved: population.moved,
+        losses: population.losses,
+        powers: match settings.anneal {
+            Anneal::Constant => Vec::new(),
+            Anneal::Schedule(_) | Anneal::Adaptive(_) => population.powers,
+        },
+        particles: match chains {
+            Some((states, _)) => states,
+            None => population.particles.into_iter().map(outcome).collect(),
+        },
+    })
+}
+
+/// Grows the particles of a population until all have ended, and weighs them. `watch` sees it at each barrier before it is
+/// resampled; when it returns false, the population is left as it is, and so is the return value.
+pub(super) fn grow(
+    population: &mut Population<'_>,
+    watch: &mut dyn FnMut(&mut Population<'_>, Progress) -> bool,
+) -> std::result::Result<bool, Failure> {
+    let mut whole = true;
+    loop {
+        let (running, had_ended) = population.count();
+        if running == 0 {
+            break;
+        }
+        population.advance(None)?;
+        let seen = population.weigh()?;
+        // Particles that ended now reached no barrier.
+        population.steps += (running + had_ended - seen.ended) as u64;
+        let now = Progress { barriers: population.barriers, ended: seen.ended, best: seen.best };
+        if !watch(population, now) {
+            whole = false;
+            break;
+        }
+        let resampled = population.is_low();
+        if resampled {
+            population.resample();
+        }
+        population.rejuvenate(Some(resampled))?;
+    }
+    population.finish();
+    Ok(whole)
+}
+
+pub(super) fn outcome(p: Particle) -> Outcome {
+    let has_ended = p.state.has_ended();
+    Outcome {
+        value: if has_ended { p.state.result() } else { Value::None },
+        log_weight: p.log_weight,
+        has_ended,
+        lineage: p.lineage,
+        record: p.record,
+    }
+}

@@ -1,0 +1,180 @@
+//! One particle, and how it runs to its next barrier: of a population, or of a part that is grown again.
+
+use crate::guide::bound::Glance;
+use niwaki_math::{Stream, StreamKey, Total};
+use niwaki_run::Failure;
+use niwaki_run::chooser::Chooser;
+use niwaki_run::forward::Forward;
+use niwaki_run::order::Past;
+use niwaki_run::record::Record;
+use niwaki_run::task::Task;
+use niwaki_vm::machine::state::{FutureId, State};
+use niwaki_vm::machine::{Machine, Stop};
+use niwaki_vm::value::Census;
+
+/// The visit of the particle's stream for order choices.
+const ORDER: u64 = 1;
+
+/// A particle.
+pub struct Particle {
+    /// Its activations.
+    pub state: State,
+    /// Its choices, scores and scene so far.
+    pub record: Record,
+    /// Number of its random stream; no other particle has or had it.
+    pub lineage: u64,
+    /// That stream's key, for the choices of the model.
+    pub stream: StreamKey,
+    /// How many order choices it has drawn.
+    pub picks: u64,
+    /// What the order policy has seen of its run.
+    pub past: Past,
+    /// Whether it had ended before the last barrier.
+    pub was_ended: bool,
+    /// The score that is already in its weight.
+    pub weighed: Total,
+    /// Log weight since the last resampling, with what that one left of the weight before.
+    pub log_weight: f64,
+    /// Log of prior over proposal of the choices since the last barrier: not yet in its weight.
+    pub pending: f64,
+    /// What its guide saw when it paused.
+    pub glance: Glance,
+    /// Log of its twist at this barrier, at power 1, nats ([`LookAhead`](crate::look_ahead::LookAhead)).
+    pub ahead: f64,
+    /// The log twist that is in its weight.
+    pub foreseen: f64,
+    /// The thread that ran it last.
+    pub home: usize,
+    /// Bytes of its activations when they were counted last.
+    pub bytes: isize,
+}
+
+impl Particle {
+    /// A particle that has not begun, of weight one: it has the score of its scene so far.
+    pub fn start(state: State, record: Record, lineage: u64, seed: u64) -> Particle {
+        Particle {
+            state,
+            weighed: record.score(),
+            record,
+            lineage,
+            stream: StreamKey::new(seed, lineage, 0),
+            picks: 0,
+            past: Past::default(),
+            was_ended: false,
+            log_weight: 0.0,
+            pending: 0.0,
+            glance: Glance::default(),
+            ahead: 0.0,
+            foreseen: 0.0,
+            home: 0,
+            bytes: 0,
+        }
+    }
+
+    /// Whether it still runs.
+    pub fn is_running(&self) -> bool {
+        !self.state.has_ended() && self.record.cause.is_none()
+    }
+
+    /// Runs to the next barrier, or to the end; a chooser gives the new choices, and the seed picks the futures. Returns
+    /// whether it paused.
+    pub fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        seed: u64,
+        mut chooser: impl Chooser,
+    ) -> Result<bool, Failure> {
+        self.was_ended = self.state.has_ended();
+        while self.is_running() {
+            self.past.look(machine.program(), &self.state);
+            let which = match self.state.runnable().len() {
+                0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
+                1 => 0,
+                _ => self.pick(seed),
+            };
+            if self.run(machine, task, which, &mut chooser)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Runs the future at this place among the runnable ones; a chooser gives the new choices. Returns whether it paused.
+    #[inline(always)]
+    pub fn run(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        which: usize,
+        chooser: impl Chooser,
+    ) -> Result<bool, Failure> {
+        let runnable = self.state.runnable();
+        let future = runnable.get(which).unwrap_or(FutureId::NONE);
+        if runnable.len() > 1 {
+            self.picks += 1;
+            self.record.log.push_order(self.state.path_of(future), which);
+        }
+        let (record, hosts) = (&mut self.record, &*task.hosts);
+        let mut answers =
+            Forward { record, chooser, log_ratio: self.pending, hosts, barriers: true, complete: false };
+        let stop = machine.resume(&mut self.state, future, &mut answers);
+        self.pending = answers.log_ratio;
+        self.past.ran(future, &self.state);
+        match stop {
+            Ok(stop) => Ok(stop == Stop::Paused),
+            Err(met) => self.record.forgive(task, met).map(|()| false),
+        }
+    }
+
+    /// Counts the values that it holds, and its choices.
+    pub fn count<'v>(&'v self, census: &mut Census<'v>) {
+        self.state.count(census);
+        self.record.log.count(census);
+    }
+
+    /// A draw among the runnable futures, by the order policy.
+    pub fn pick(&self, seed: u64) -> usize {
+        let u = Stream::new(seed, self.lineage, u128::from(self.picks + 1), ORDER).uniform();
+        self.past.pick(&self.state, u)
+    }
+
+    /// A copy for a trial. It has the same lineage, so it must not draw random numbers.
+    pub fn fork(&mut self) -> Particle {
+        Particle {
+            state: self.state.clone(),
+            record: self.record.fork(),
+            lineage: self.lineage,
+            stream: self.stream,
+            picks: self.picks,
+            past: self.past.clone(),
+            was_ended: self.was_ended,
+            weighed: self.weighed.clone(),
+            log_weight: self.log_weight,
+            pending: self.pending,
+            glance: self.glance.clone(),
+            ahead: self.ahead,
+            foreseen: self.foreseen,
+            home: self.home,
+            bytes: self.bytes,
+        }
+    }
+
+    /// Becomes a copy of `parent`, with a new random stream.
+    pub fn copy_from(&mut self, parent: &mut Particle, lineage: u64, seed: u64) {
+        self.state.clone_from(&parent.state);
+        self.record.become_copy(&mut parent.record);
+        self.lineage = lineage;
+        self.stream = StreamKey::new(seed, lineage, 0);
+        self.picks = parent.picks;
+        self.past.clone_from(&parent.past);
+        self.was_ended = parent.was_ended;
+        self.weighed.clone_from(&parent.weighed);
+        self.log_weight = parent.log_weight;
+        self.pending = parent.pending;
+        self.glance.become_copy(&parent.glance);
+        self.ahead = parent.ahead;
+        self.foreseen = parent.foreseen;
+        self.home = parent.home;
+    }
+}

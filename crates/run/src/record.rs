@@ -1,0 +1,200 @@
+//! The choices and scores of a run so far, the same for every algorithm.
+//!
+//! `log_prior` is the sum of the log densities of its choices, `log_score` that of factors, observations and
+//! sketches. The sums are exact, so their order does not matter.
+
+use crate::log::Log;
+use crate::{Failure, Task};
+use niwaki_geom::sketch::SketchSpec;
+use niwaki_geom::sketch::product::Sketches;
+use niwaki_geom::{Primitive, Shape};
+use niwaki_math::{Dist, Total, grid};
+use niwaki_vm::builtins::value_to_draw;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::stack::RunFault;
+use niwaki_vm::value::Value;
+use std::sync::Arc;
+
+/// The choices and scores of a run so far.
+#[derive(Default)]
+pub struct Record {
+    /// The choices.
+    pub log: Log,
+    /// Sum of the log densities of the choices, nats.
+    pub log_prior: Total,
+    /// Sum of factors and observations, nats.
+    pub log_factors: Total,
+    /// The sketches of the scene.
+    pub sketches: Sketches,
+    /// Sum of the sketches' log scores, nats.
+    pub log_sketches: Total,
+    /// How many primitives the scene has.
+    pub primitives: usize,
+    /// What made the run impossible.
+    pub cause: Option<String>,
+    /// The fault, where that makes the run invalid.
+    pub invalid: Option<Arc<RunFault>>,
+}
+
+impl Record {
+    /// The record of a run that has not begun: it has the score of the empty scene.
+    pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Self {
+        let sketches = Sketches::start(specs);
+        Record { log_sketches: sketches.total(), sketches, ..Record::default() }
+    }
+
+    /// A copy; both share what neither changes.
+    pub fn fork(&mut self) -> Record {
+        Record {
+            log: self.log.fork(),
+            log_prior: self.log_prior.clone(),
+            log_factors: self.log_factors.clone(),
+            sketches: self.sketches.fork(),
+            log_sketches: self.log_sketches.clone(),
+            primitives: self.primitives,
+            cause: self.cause.clone(),
+            invalid: self.invalid.clone(),
+        }
+    }
+
+    /// Becomes a copy of `other`; both share what neither changes.
+    pub fn become_copy(&mut self, other: &mut Record) {
+        self.log.become_copy(&mut other.log);
+        self.log_prior.clone_from(&other.log_prior);
+        self.log_factors.clone_from(&other.log_factors);
+        self.sketches.become_copy(&other.sketches);
+        self.log_sketches.clone_from(&other.log_sketches);
+        self.primitives = other.primitives;
+        self.cause.clone_from(&other.cause);
+        self.invalid.clone_from(&other.invalid);
+    }
+
+    /// Factors, observations and sketches: nats, minus infinity when impossible.
+    #[inline]
+    pub fn log_score(&self) -> f64 {
+        self.score().value()
+    }
+
+    /// The same, exactly.
+    #[inline]
+    pub fn score(&self) -> Total {
+        self.log_factors.plus(&self.log_sketches)
+    }
+
+    /// Adds a choice and its log density.
+    #[inline]
+    pub fn choose(&mut self, address: u128, value: &Value, log_density: f64) {
+        self.log_prior.add(grid(log_density));
+        self.log.push(address, value.clone());
+    }
+
+    /// Adds a factor. `name` gives its readable name; it is called only where the factor makes the run impossible.
+    #[inline]
+    pub fn factor(&mut self, log: f64, name: impl FnOnce() -> String) {
+        self.log_factors.add(log);
+        if log == f64::NEG_INFINITY {
+            self.cause.get_or_insert_with(name);
+        }
+    }
+
+    /// Handles a fault of the run. Where it makes the run invalid, the run is outside of the model's support: its score becomes
+    /// minus infinity, and it is counted.
+    ///
+    /// # Errors
+    /// Any other fault.
+    #[cold]
+    pub fn forgive(&mut self, task: &Task, met: Box<RunFault>) -> Result<(), Failure> {
+        let Some(place) = task.invalid.count(&met) else { return Err(met.into()) };
+        self.factor(f64::NEG_INFINITY, || place.to_string());
+        self.invalid = Some(Arc::new(*met));
+        Ok(())
+    }
+
+    /// Adds a primitive to the scene. Once the score is minus infinity, later sketches are not evaluated.
+    pub fn emit(&mut self, shapes: &[Shape]) {
+        self.primitives += 1;
+        if self.sketches.is_empty() {
+            return;
+        }
+        if let Some(name) = self.sketches.add(&Primitive::new(shapes)) {
+            self.cause.get_or_insert_with(|| name.to_string());
+        }
+        self.log_sketches = self.sketches.total();
+    }
+}
+
+/// Finds out whether all runs of a search were invalid. A fault in every run is a fault of the model, so the first one is
+/// reported.
+#[derive(Default)]
+pub struct AllInvalid {
+    first: Option<Arc<RunFault>>,
+    others: bool,
+}
+
+impl AllInvalid {
+    /// Notes a run and its fault, if it is invalid.
+    pub fn note(&mut self, invalid: Option<&Arc<RunFault>>) {
+        match invalid {
+            Some(met) => {
+                self.first.get_or_insert_with(|| met.clone());
+            }
+            None => self.others = true,
+        }
+    }
+
+    /// # Errors
+    /// There were runs, and all of them were invalid.
+    pub fn check(self) -> Result<(), Failure> {
+        match self.first {
+            Some(met) if !self.others => Err(Failure::Run(Box::new((*met).clone()))),
+            _ => Ok(()),
+        }
+    }
+
+    /// [`AllInvalid::check`] of runs by what made each invalid.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn check_all<'a>(invalid: impl Iterator<Item = Option<&'a Arc<RunFault>>>) -> Result<(), Failure> {
+        let mut all = AllInvalid::default();
+        invalid.for_each(|met| all.note(met));
+        all.check()
+    }
+}
+
+/// The log density of a value, nats.
+///
+/// # Errors
+/// A value that no distribution can draw.
+pub fn log_density(dist: &Dist, value: &Value) -> Result<f64, Fault> {
+    let draw = value_to_draw(value)
+        .ok_or_else(|| Fault::new("type-mismatch", format!("no distribution draws {}", value.described())))?;
+    Ok(dist.log_density(&draw))
+}
+
+/// The log score of sketches, nats.
+///
+/// # Errors
+/// One of them scores NaN.
+pub fn score_of(sketches: &Sketches) -> Result<Total, Fault> {
+    let total = sketches.total();
+    if total.value().is_nan() {
+        let guilty = sketches.iter().find(|sketch| sketch.log_score().is_nan());
+        let name = guilty.map_or("a sketch", |sketch| sketch.name());
+        return Err(Fault::new("non-finite-score", format!("the sketch `{name}` scores nan"))
+            .with_help("look for shapes whose measures are not numbers"));
+    }
+    Ok(total)
+}
+
+/// A factor, on the grid: it must be a number below plus infinity.
+///
+/// # Errors
+/// NaN or plus infinity.
+pub fn check_factor(log: f64) -> Result<f64, Fault> {
+    if log.is_nan() || log == f64::INFINITY {
+        return Err(Fault::new("non-finite-score", format!("a factor of {log} nats"))
+            .with_help("a log factor is a finite number, or minus infinity for what is impossible"));
+    }
+    Ok(grid(log))
+}

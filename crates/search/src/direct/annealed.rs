@@ -1,0 +1,231 @@
+//! Annealed importance sampling (Neal 2001, "Annealed importance sampling"): particles go from the prior to the posterior on a
+//! ladder of laws between them, moved by a chain at each.
+//!
+//! ```text
+//! f_k(x) = prior(x) exp(b_k s(x))           0 = b_0 < b_1 < ... < b_n = 1; s: the log score
+//! x_0 ~ prior,  x_k ~ T_k(. | x_(k-1))      T_k leaves f_k invariant
+//! log w = sum over k of (b_k - b_(k-1)) s(x_(k-1))
+//! ```
+//!
+//! The weight of rung `k` is taken at the state *before* the moves of this rung. Then the mean of `w` is unbiased for the
+//! evidence, and weighted particles follow the posterior, however few moves there are and however badly they mix: what a move
+//! misses, the weights count.
+//!
+//! Differs: a prior may have impossible runs, on which a chain cannot stand. `f_0` is the prior of the possible runs, drawn by
+//! trying again, and its constant is the probability that a run is possible. Of `N` tries that it took to find `n` runs,
+//! `(n - 1) / (N - 1)` is unbiased for it (Haldane 1945, inverse sampling) and independent of the runs themselves, so that the
+//! product with the mean of `w` stays unbiased. It needs two particles.
+//!
+//! No move depends on what a particle has met: kernels do not adapt, and scales of proposals come from forward runs of their
+//! own. Particles are independent, so they are the same on any number of threads.
+
+use niwaki_chain::Chain;
+use niwaki_chain::counts::Count;
+use niwaki_chain::kernel::Kernel;
+use niwaki_chain::plan::Plan;
+use niwaki_chain::state::State;
+use niwaki_chain::streams::Streams;
+use niwaki_particles::rejuvenation::spreads;
+use niwaki_run::run::Run;
+use niwaki_run::weights::{Normalised, log_step};
+use niwaki_run::{Failure, Task};
+use niwaki_vm::fault::Fault;
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Evenly spaced numbers to this power are the powers of a ladder (Friel & Pettitt 2008, section 3): the law changes fastest
+/// near the prior.
+const BEND: i32 = 4;
+
+/// The powers of the score: so many rungs, or a list of one's own.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Powers {
+    /// So many rungs.
+    Rungs(usize),
+    /// These.
+    Own(Vec<f64>),
+}
+
+impl Powers {
+    /// The powers after 0, in order, the last 1.
+    ///
+    /// # Errors
+    /// No rungs; powers that do not rise from above 0 to 1.
+    pub fn ladder(&self) -> Result<Vec<f64>, Fault> {
+        let powers = match self {
+            Powers::Rungs(n) => (1..=*n).map(|k| (k as f64 / *n as f64).powi(BEND)).collect(),
+            Powers::Own(powers) => powers.clone(),
+        };
+        let rises = powers.windows(2).all(|pair| pair[0] < pair[1]);
+        match (powers.first(), powers.last()) {
+            (Some(first), Some(last)) if rises && *first > 0.0 && *last == 1.0 => Ok(powers),
+            _ => Err(Fault::new("bad-setting", "`powers` do not rise from above 0 to 1")
+                .with_help("use a number of rungs, or a list such as [0.01, 0.1, 1]")),
+        }
+    }
+}
+
+/// The settings.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// How many particles, at least two.
+    pub particles: usize,
+    /// The powers after 0.
+    pub powers: Vec<f64>,
+    /// How particles are moved.
+    pub kernel: Kernel,
+    /// Proposals for each particle at each rung.
+    pub moves: u64,
+    /// Most forward runs for a first state of a particle.
+    pub tries: u64,
+    /// Decides every random number.
+    pub seed: u64,
+}
+
+impl Settings {
+    /// Refuses settings that make no sense.
+    fn check(&self) -> Result<(), Fault> {
+        if self.particles < 2 || self.moves == 0 {
+            let what = "fewer than two particles, or no moves";
+            return Err(Fault::new("bad-setting", what).with_help("use 100 particles and 10 moves"));
+        }
+        if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
+            return Err(Fault::new("bad-kernel", "an annealing kernel has powers of its own")
+                .with_help("move by the kernel inside `anneal`: the powers are those of the ladder"));
+        }
+        Ok(())
+    }
+}
+
+/// What annealed importance sampling gives.
+pub struct Annealed {
+    /// The particles that have come to the end, with their weights: their mean is the evidence.
+    pub runs: Vec<Run>,
+    /// Log of the evidence, nats; none where the search was stopped.
+    pub log_evidence: Option<f64>,
+    /// The effective sample size of the weights.
+    pub effective: f64,
+    /// The powers after 0.
+    pub powers: Vec<f64>,
+    /// Forward runs that the first states took.
+    pub tries: u64,
+    /// Proposals, and those that were kept.
+    pub moved: Count,
+    /// Whether it was stopped.
+    pub interrupted: bool,
+}
+
+/// One particle at the top of the ladder.
+struct Climbed {
+    run: Run,
+    tries: u64,
+    moved: Count,
+}
+
+/// Particles on their way from the prior to the posterior.
+///
+/// `watch` is called after each rung of each particle: with minus infinity, and when it has come to the end with its log
+/// score. When it returns false, the particles that are on their way are dropped.
+///
+/// # Errors
+/// Settings that make no sense, no possible first state, a fault of the program; stopped before any particle has ended.
+pub fn annealed(
+    task: &Task,
+    settings: &Settings,
+    watch: &(dyn Fn(f64) -> bool + Sync),
+) -> Result<Annealed, Failure> {
+    settings.check()?;
+    let climb = Climb {
+        task,
+        settings,
+        spreads: spreads(task, settings.seed)?,
+        stopped: AtomicBool::new(false),
+        watch,
+    };
+    let all: Vec<Option<Climbed>> = (0..settings.particles as u64)
+        .into_par_iter()
+        .map(|number| climb.particle(number))
+        .collect::<Result<_, Failure>>()?;
+    let interrupted = all.iter().any(Option::is_none);
+    let (mut runs, mut tries, mut moved) = (Vec::with_capacity(all.len()), 0, Count::default());
+    for one in all.into_iter().flatten() {
+        tries += one.tries;
+        moved += one.moved;
+        runs.push(one.run);
+    }
+    if runs.is_empty() {
+        return Err(Fault::new("out-of-time", "stopped before the first particle had come to the end").into());
+    }
+    let log_possible = log_possible(runs.len() as u64, tries);
+    runs.iter_mut().for_each(|run| run.log_weight += log_possible);
+    let mut weights = Normalised::default();
+    weights.read(runs.iter().map(|run| run.log_weight));
+    let log_evidence = (!interrupted).then_some(weights.log_mean);
+    let (effective, powers) = (weights.effective, settings.powers.clone());
+    Ok(Annealed { runs, log_evidence, effective, powers, tries, moved, interrupted })
+}
+
+/// Log of an unbiased estimate of the probability that a run is possible, of the tries that it took to find so many; of one
+/// that is alone the share, which is used where a search was stopped.
+fn log_possible(found: u64, tries: u64) -> f64 {
+    let less = u64::from(found > 1);
+    ((found - less) as f64 / (tries - less) as f64).ln()
+}
+
+/// What all particles share.
+struct Climb<'a> {
+    task: &'a Task,
+    settings: &'a Settings,
+    spreads: HashMap<u128, f64>,
+    stopped: AtomicBool,
+    watch: &'a (dyn Fn(f64) -> bool + Sync),
+}
+
+impl Climb<'_> {
+    /// One particle from a run of the prior to the end; none where the search was stopped before.
+    fn particle(&self, number: u64) -> Result<Option<Climbed>, Failure> {
+        if self.stopped.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let Climb { task, settings, .. } = self;
+        let own = niwaki_chain::Settings {
+            seed: settings.seed,
+            kernel: settings.kernel.clone(),
+            thin: 0,
+            tries: settings.tries,
+            ..niwaki_chain::Settings::default()
+        };
+        let plan = Plan::new(&own.kernel)?;
+        let (state, _, tries) = State::tried(task, Streams::new(own.seed, number), own.tries, None)?;
+        if number == 0 {
+            plan.check(&state, task)?;
+        }
+        let mut chain: Chain = Chain::at(task, &own, number, plan, state, &self.spreads)?;
+        let (mut power, mut log_weight) = (0.0, 0.0);
+        for &next in &settings.powers {
+            let score = chain.state.score();
+            log_weight += log_step(next, &score, power, &score);
+            chain.restrict(next, None);
+            if !chain.state.trace.is_empty() {
+                chain.advance(task, settings.moves, &mut |_, _| true)?;
+            }
+            power = next;
+            self.look(f64::NEG_INFINITY);
+            if self.stopped.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+        }
+        let run = Run { log_weight, ..chain.now(&task.program) };
+        self.look(run.log_score);
+        Ok(Some(Climbed { run, tries, moved: chain.counts.all() }))
+    }
+
+    fn look(&self, score: f64) {
+        if !(self.watch)(score) {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+    }
+}

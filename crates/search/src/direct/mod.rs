@@ -1,0 +1,10 @@
+//! Methods that are neither chains of kept runs nor populations.
+//!
+//! * [`annealed`]: annealed importance sampling, by chains at rising powers of the score;
+//! * [`explore`]: chains of a task that follow its slope, each from its own possible run;
+//! * [`normals`]: normals near a task's distribution.
+
+pub mod annealed;
+pub mod explore;
+pub mod normals;
+mod rows;

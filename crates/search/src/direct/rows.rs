@@ -1,0 +1,30 @@
+//! Draws as rows of numbers: those of the continuous choices of a recording, one after the other.
+
+use niwaki_grad::{Continuous, Recorded};
+use niwaki_run::replay::{Missing, Source, replay};
+use niwaki_run::{Failure, Task};
+use rayon::prelude::*;
+
+/// How many numbers the continuous choices of a draw have.
+pub(super) fn width(recorded: &Recorded) -> usize {
+    recorded.choices.iter().map(Continuous::width).sum()
+}
+
+/// Of each row, by running it: the log density of its choices without Jacobians, and its factors and observations, nats.
+///
+/// # Errors
+/// A fault of the program.
+pub(super) fn scores(
+    task: &Task,
+    recorded: &Recorded,
+    numbers: &[f64],
+    rows: usize,
+) -> Result<Vec<(f64, f64)>, Failure> {
+    let width = width(recorded);
+    let score = |row: usize| {
+        let values = recorded.values_of(&numbers[row * width..(row + 1) * width]);
+        let run = replay(task, Source::Addresses(values), Missing::Refuse)?.run;
+        Ok((run.log_prior, run.log_score))
+    };
+    (0..rows).into_par_iter().map(score).collect()
+}

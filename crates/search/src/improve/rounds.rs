@@ -1,0 +1,303 @@
+//! The rounds of a search: each goes on from the best run by one kind of step, and the kinds share them by what they gained.
+
+use super::{Improve, population_seed};
+use niwaki_chain::kernel::Kernel;
+use niwaki_chain::plan::Plan;
+use niwaki_chain::state::State;
+use niwaki_chain::stored::StoredState;
+use niwaki_chain::streams::Streams;
+use niwaki_chain::{Chain, Settings as ChainSettings};
+use niwaki_math::Stream;
+use niwaki_math::bits;
+use niwaki_particles::rejuvenation::spreads;
+use niwaki_particles::{Outcome, Result, Settings, smc};
+use niwaki_run::replay::by_address;
+use niwaki_run::run::Run;
+use niwaki_run::streams::Reserved;
+use niwaki_run::weights::index;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::fault::Fault;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::collections::HashMap;
+use std::time::Duration;
+
+/// Rounds that together cost as much as the first population.
+const PER_POPULATION: u64 = 5;
+/// How much of what a kind of step gained is forgotten with each of its rounds.
+const FORGOTTEN: f64 = 0.5;
+/// The share of the rounds that the kind gets which has worked least so far.
+const EVEN: f64 = 0.25;
+/// How often a discrete choice of a part is turned when it is grown again.
+const TURN: f64 = 0.7;
+/// How many times as many particles grow a part again in rounds of "regrow more".
+const MORE: usize = 5;
+
+/// A kind of step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Kind {
+    /// A population from the start.
+    Population,
+    /// Parts grown again by few particles.
+    Regrow,
+    /// Parts grown again by five times as many.
+    RegrowMore,
+    /// Single choices, and calls drawn anew.
+    Move,
+}
+
+impl Kind {
+    const ALL: [Kind; 4] = [Kind::Regrow, Kind::Move, Kind::RegrowMore, Kind::Population];
+
+    /// Its name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Population => "population",
+            Kind::Regrow => "regrow",
+            Kind::RegrowMore => "regrow more",
+            Kind::Move => "move",
+        }
+    }
+}
+
+/// What one round did.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Round {
+    /// Its kind of step.
+    pub kind: Kind,
+    /// Its work.
+    pub work: u64,
+    /// The parts that were grown again and kept.
+    pub parts: u64,
+    /// Best log score after it, nats.
+    #[serde(with = "bits")]
+    pub best: f64,
+    /// Since the search began, by the clock.
+    pub time: Duration,
+}
+
+/// A search as data; its small steps' spreads are found again.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Stored<R> {
+    best: R,
+    state: StoredState,
+    slice: u64,
+    populations: u64,
+    gains: [Option<u64>; Kind::ALL.len()],
+    spent: [u64; Kind::ALL.len()],
+}
+
+/// The search while it runs.
+pub(super) struct Search<'a> {
+    task: &'a Task,
+    own: &'a Improve,
+    seed: u64,
+    /// The work of a round.
+    slice: u64,
+    /// Of the choices, for small steps; empty before the first round of moves.
+    spreads: HashMap<u128, f64>,
+    pub best: Run,
+    /// Where chains go on; absent only while one runs, and after a search that was stopped at once.
+    state: Option<State>,
+    /// Populations so far.
+    populations: u64,
+    /// What the kinds gained lately, nats for the work of a round.
+    gains: [Option<f64>; Kind::ALL.len()],
+    /// What they worked so far.
+    spent: [u64; Kind::ALL.len()],
+}
+
+impl<'a> Search<'a> {
+    /// A search from the best of a first population, which was the `populations`-th, and cost `unit` for the declared size.
+    pub fn begin(
+        own: &'a Improve,
+        task: &'a Task,
+        seed: u64,
+        unit: u64,
+        populations: u64,
+        first: Result,
+    ) -> std::result::Result<Search<'a>, Failure> {
+        let (best, state) = if first.interrupted {
+            let best = most(first, |_| true).map(Run::from).ok_or_else(Failure::no_start)?;
+            (best, None)
+        } else {
+            let (best, state) = best_of(task, first)?;
+            (best, Some(state))
+        };
+        let slice = (unit / PER_POPULATION).max(1);
+        let spreads = HashMap::new();
+        let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
+        // The first population has shown what populations gain.
+        let population = Kind::ALL.len() - 1;
+        (gains[population], spent[population]) = (Some(0.0), unit);
+        Ok(Search { task, own, seed, slice, spreads, best, state, populations, gains, spent })
+    }
+
+    /// As data, between two rounds; `None` where the search was stopped before its first.
+    pub fn stored(&self) -> Option<Stored<&Run>> {
+        Some(Stored {
+            best: &self.best,
+            state: StoredState::of(self.state.as_ref()?, &self.task.program),
+            slice: self.slice,
+            populations: self.populations,
+            gains: self.gains.map(|gain| gain.map(f64::to_bits)),
+            spent: self.spent,
+        })
+    }
+
+    /// The search of its data.
+    ///
+    /// # Errors
+    /// As for [`StoredState::state`].
+    pub fn restored(
+        own: &'a Improve,
+        task: &'a Task,
+        seed: u64,
+        stored: Stored<Run>,
+    ) -> std::result::Result<Search<'a>, Failure> {
+        let Stored { best, state, slice, populations, gains, spent } = stored;
+        let state = Some(state.state(task)?);
+        let best = with_value(task, best)?;
+        let gains = gains.map(|gain| gain.map(f64::from_bits));
+        Ok(Search { task, own, seed, slice, spreads: HashMap::new(), best, state, populations, gains, spent })
+    }
+
+    /// One round of about the same work as any; returns its kind, what it cost, and how many parts were grown again and kept. `go_on`
+    /// is called with the best log score, and ends the round where it returns false.
+    pub fn round(
+        &mut self,
+        number: u64,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> std::result::Result<(Kind, u64, u64), Failure> {
+        let which = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
+        let (kind, before) = (Kind::ALL[which], self.best.log_score);
+        let (work, parts) = match kind {
+            Kind::Population => (self.population(go_on)?, 0),
+            _ => self.go_on(kind, number, go_on)?,
+        };
+        let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
+        let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
+        self.gains[which] = Some(self.gains[which].map_or(rate, mixed));
+        self.spent[which] += work;
+        Ok((kind, work, parts))
+    }
+
+    /// Which kind of step is next: each once, and then by what they gained lately.
+    fn pick(&self, rng: &mut Stream) -> usize {
+        if let Some(new) = self.gains.iter().position(Option::is_none) {
+            return new;
+        }
+        let gains: Vec<f64> = self.gains.iter().copied().flatten().collect();
+        let u = rng.uniform();
+        if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
+            let least = (0..gains.len()).min_by_key(|which| self.spent[*which]);
+            return least.unwrap_or(0);
+        }
+        index(&gains, (u - EVEN) / (1.0 - EVEN))
+    }
+
+    /// Another population. Returns its work.
+    fn population(&mut self, go_on: &mut dyn FnMut(f64) -> bool) -> std::result::Result<u64, Failure> {
+        let (so_far, number) = (self.best.log_score, self.populations);
+        self.populations += 1;
+        let seed = population_seed(self.seed, number);
+        let (particles, power) = (self.own.particles, self.own.power);
+        let proposal = self.own.drawn_by.clone();
+        let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
+        match smc(self.task, &settings, &mut |_| go_on(so_far)) {
+            Ok(result) => {
+                let work = result.steps;
+                if !result.interrupted {
+                    let (best, state) = best_of(self.task, result)?;
+                    if best.log_score > so_far {
+                        (self.best, self.state) = (best, Some(state));
+                    }
+                }
+                Ok(work)
+            }
+            Err(failure) if failure.is_impossible() => Ok(self.slice),
+            Err(failure) => Err(failure),
+        }
+    }
+
+    /// Steps of a chain from the present run. Returns their work and how many parts were grown again and kept.
+    fn go_on(
+        &mut self,
+        kind: Kind,
+        number: u64,
+        go_on: &mut dyn FnMut(f64) -> bool,
+    ) -> std::result::Result<(u64, u64), Failure> {
+        let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
+        let plan = Plan::new(&self.kernel(kind)?)?;
+        if kind == Kind::Move && self.spreads.is_empty() {
+            self.spreads = spreads(self.task, self.seed)?;
+        }
+        let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
+        let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
+        chain.restrict(self.own.power, None);
+        let (so_far, before) = (self.best.log_score, chain.work());
+        if !chain.state.trace.is_empty() {
+            let steps = if kind == Kind::Move { 32 } else { 1 };
+            while chain.work() < before + self.slice && go_on(so_far.max(chain.best.score())) {
+                chain.advance(self.task, steps, &mut |_, _| true)?;
+            }
+        }
+        if chain.best.score() > so_far {
+            self.best = chain.best.get(&chain.state, self.task)?;
+        }
+        let (work, parts) = (chain.work() - before, chain.counts.many.accepted);
+        self.state = Some(chain.state);
+        Ok((work, parts))
+    }
+
+    /// The kernel of a kind of step.
+    fn kernel(&self, kind: Kind) -> std::result::Result<Kernel, Fault> {
+        let leaf = |name, settings| {
+            Kernel::leaf(name, settings).map_err(|error| Fault::new("bad-kernel", error.to_string()))
+        };
+        let regrow = |particles| {
+            let settings = json!({"particles": particles, "turn": TURN, "pick": "size", "best": true});
+            let plain = leaf("regrow", settings)?;
+            Ok(match &self.own.drawn_by {
+                None => plain,
+                Some(proposal) => plain.drawn_by(proposal.clone()),
+            })
+        };
+        let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
+        // Calls of memoised functions are shared by the parts of a run, so no part can be grown again.
+        let shared = self.task.program.memoises();
+        match kind {
+            Kind::Regrow if !shared => regrow(self.own.regrow),
+            Kind::RegrowMore if !shared => regrow(MORE * self.own.regrow),
+            _ => Ok(Kernel::Mixture(vec![
+                (4.0, Kernel::PRIOR),
+                (4.0, drift(0.3)?),
+                (2.0, drift(0.05)?),
+                (1.0, leaf("regenerate", json!({"levels": 0}))?),
+            ])),
+        }
+    }
+}
+
+/// A run that was read, with the value that the program returns.
+fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
+    let known = by_address(&run.log.entries());
+    let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
+    Ok(Run { value: state.trace.result(), is_bare: false, ..run })
+}
+
+/// The best run of a population, and a chain's state there.
+fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
+    let mut best = most(result, |one| one.has_ended).ok_or_else(Failure::no_start)?;
+    let sketches = std::mem::take(&mut best.record.sketches);
+    let state =
+        State::of_run(task, &by_address(&best.record.log.entries()), sketches, best.record.primitives)?;
+    let run = state.run(&task.program, 0);
+    Ok((run, state))
+}
+
+/// The particle with the best score among those that are possible and pass.
+fn most(result: Result, passes: impl Fn(&Outcome) -> bool) -> Option<Outcome> {
+    let possible = result.particles.into_iter().filter(|one| one.record.cause.is_none() && passes(one));
+    possible.max_by(|a, b| a.record.log_score().total_cmp(&b.record.log_score()))
+}

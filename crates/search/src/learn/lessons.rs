@@ -1,0 +1,388 @@
+//! Traces as rows for a network, and training.
+//!
+//! A trace is followed again, in its own order, with its scene. At each choice the code that would draw it looks; what it
+//! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
+
+use super::credit::Objective;
+use super::drawings;
+use super::survey::Survey;
+use niwaki_geom::WindowForm;
+use niwaki_guide::{Net, NetForm, Progress, Rows, Stored, Training, Unfit, Way, train_along};
+use niwaki_math::Dist;
+use niwaki_propose::guide::bound::{BoundGuide, Sight};
+use niwaki_propose::guide::form::GuideForm;
+use niwaki_propose::guide::{Guide, Network};
+use niwaki_propose::particle::Particle;
+use niwaki_run::checkpoint::{Checkpoint, unfit};
+use niwaki_run::chooser::{Chooser, Chosen, Context, Refuse};
+use niwaki_run::log::Entry;
+use niwaki_run::record::Record;
+use niwaki_run::replay::by_address;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::builtins::value_to_draw;
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::answers::At;
+use niwaki_vm::value::Value;
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A trace: a task and the choices of a run of it.
+pub struct Example {
+    /// The task, its program compiled to keep all variables.
+    pub task: Task,
+    /// The choices.
+    pub entries: Vec<Entry>,
+    /// Whether it judges, instead of being learned from.
+    pub held_out: bool,
+}
+
+/// What happens at a choice of a trace.
+type Each<'a> = dyn FnMut(&At<'_, f64>, &Dist, Context<'_>, &Value) -> Result<(), Fault> + 'a;
+
+/// Gives choices the values of a trace, and shows them.
+struct Shown<'a, 'e> {
+    values: &'a HashMap<u128, Value>,
+    each: &'a mut Each<'e>,
+}
+
+impl Chooser for Shown<'_, '_> {
+    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
+        let Some(value) = self.values.get(&seen.address) else {
+            return Refuse("give traces of the model that is trained").choose(at, dist, seen);
+        };
+        (self.each)(at, dist, seen, value)?;
+        Chosen::given(value.clone(), dist).map(Some)
+    }
+}
+
+/// Follows a trace in its order, with its scene; `each` gets its choices.
+pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failure> {
+    let Example { task, entries, .. } = example;
+    let values = by_address(entries);
+    let mut order = entries.iter().filter(|entry| entry.is_order()).map(Entry::address).peekable();
+    let depth_first = order.peek().is_none();
+    let mut machine = task.machine();
+    let mut start = task.start(&machine, depth_first)?;
+    start.note_parts();
+    let mut record = Record::start(&task.sketches);
+    record.sketches.expect_windows();
+    let mut one = Particle::start(start, record, 0, 0);
+    while one.is_running() {
+        let which = match one.state.runnable().len() {
+            0 => return Err(Box::new(machine.waiting_cycle(&one.state)).into()),
+            1 => 0,
+            _ => {
+                let path = order.next();
+                let known = one.state.runnable().iter().position(|own| Some(one.state.path_of(own)) == path);
+                known.unwrap_or(0)
+            }
+        };
+        one.run(&mut machine, task, which, Shown { values: &values, each })?;
+    }
+    Ok(())
+}
+
+/// How a guide is made.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Making {
+    /// The model's name.
+    pub model: String,
+    /// Which network.
+    #[serde(default)]
+    pub architecture: Architecture,
+    /// What training raises.
+    #[serde(default)]
+    pub objective: Objective,
+    /// Runs of a target in a step, where that is a bound.
+    #[serde(default = "usual_runs")]
+    pub runs: usize,
+    /// Units of the hidden layers.
+    pub hidden: [usize; 2],
+    /// Gaussians of each mixture.
+    pub components: usize,
+    /// The share of the prior.
+    pub share: f64,
+    /// What it looks at.
+    pub looks: Looks,
+    /// What it reads of what is in scope.
+    pub reads: Reads,
+    /// Steps; `None` for `passes`.
+    pub steps: Option<u64>,
+    /// So many passes over the choices, but at least 1,500 steps and at most 12,000.
+    pub passes: f64,
+    /// Adam's rate.
+    pub rate: f64,
+    /// Adam's decays of mean and square.
+    #[serde(default = "usual_decays")]
+    pub decays: [f64; 2],
+    /// Choices of a step; of the dissertation's architecture, traces; of a bound, targets.
+    pub batch: usize,
+    /// How much of the averaged weights is kept in a step.
+    pub averaging: f64,
+    /// Decides every random number.
+    pub seed: u64,
+}
+
+/// Adam's usual decays.
+fn usual_decays() -> [f64; 2] {
+    [0.9, 0.999]
+}
+
+/// The usual runs of a target in a step.
+fn usual_runs() -> usize {
+    16
+}
+
+/// A kind of network.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Architecture {
+    /// One net for all choices, which sees windows.
+    #[default]
+    Shared,
+    /// The dissertation's.
+    Dissertation,
+}
+
+/// What a guide looks at.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Looks {
+    /// Target and scene, or neither.
+    Both(bool),
+    /// One of them.
+    One(Image),
+}
+
+/// A part of what a page shows.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Image {
+    /// What is wanted.
+    Target,
+    /// What is there.
+    Scene,
+}
+
+impl Looks {
+    /// Whether at the target.
+    pub fn target(self) -> bool {
+        matches!(self, Looks::Both(true) | Looks::One(Image::Target))
+    }
+
+    /// Whether at the scene.
+    pub fn scene(self) -> bool {
+        matches!(self, Looks::Both(true) | Looks::One(Image::Scene))
+    }
+}
+
+/// What a guide reads of what is in scope.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Reads {
+    /// Everything, with the parameters of priors, or nothing.
+    All(bool),
+    /// The variables of these names.
+    Names(Vec<String>),
+}
+
+impl Reads {
+    /// Whether anything.
+    pub fn any(&self) -> bool {
+        !matches!(self, Reads::All(false))
+    }
+}
+
+/// Fewest and most steps of a training that is given in passes.
+const LEAST: u64 = 1_500;
+const MOST: u64 = 12_000;
+/// Looks at what is held out.
+const LOOKS: u64 = 20;
+
+impl Making {
+    /// The training for so many choices.
+    pub(super) fn training(&self, rows: usize) -> Training {
+        let steps = (self.passes * rows as f64 / self.batch as f64) as u64;
+        let steps = self.steps.unwrap_or(steps.clamp(LEAST, MOST));
+        Training {
+            rate: self.rate,
+            batch: self.batch,
+            averaging: self.averaging,
+            steps,
+            every: steps.div_ceil(LOOKS).max(1),
+            share: self.share,
+            seed: self.seed,
+        }
+    }
+}
+
+/// Windows of the sketches of a task that show one.
+fn windows(task: &Task) -> Vec<(String, WindowForm)> {
+    let own = task.sketches.iter();
+    own.filter_map(|sketch| sketch.window().map(|form| (sketch.name().to_string(), form))).collect()
+}
+
+/// The form of a guide for these traces.
+///
+/// # Errors
+/// No traces; a trace that cannot be followed; no choice that a guide can draw.
+pub fn survey(examples: &[Example], making: &Making) -> Result<GuideForm, Failure> {
+    let Some(first) = examples.first() else {
+        return Err(Fault::new("guide-traces", "there are no traces to learn from")
+            .with_help("give targets that the model can reach")
+            .into());
+    };
+    let mut survey = Survey::default();
+    for example in examples {
+        survey.add(example, making.components)?;
+    }
+    let windowed =
+        making.architecture == Architecture::Shared && making.looks.target() && making.looks.scene();
+    let windows = if windowed { windows(&first.task) } else { vec![] };
+    let mut form = survey.form(&first.task.program, &making.model, making.share, windows)?;
+    match &making.reads {
+        Reads::All(true) => {}
+        Reads::All(false) => form.keep_only(&[]),
+        Reads::Names(names) => form.keep_only(names),
+    }
+    Ok(form)
+}
+
+/// The rows of traces; in the order of the traces, on all threads.
+pub(super) fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) -> Result<Rows, Failure> {
+    let one = |example: &&Example| -> Result<Rows, Failure> {
+        let bound = BoundGuide::new(guide.clone(), &example.task)?;
+        let (mut rows, mut sight) = (Rows::new(form), Sight::default());
+        rows.trace();
+        follow(example, &mut |at, dist, seen, value| {
+            let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
+            let lesson =
+                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
+            if let Some(lesson) = lesson {
+                let (window, features) = sight.inputs();
+                rows.push(site, window, features, &lesson);
+            }
+            Ok(())
+        })?;
+        Ok(rows)
+    };
+    let parts = examples.par_iter().map(one).collect::<Result<Vec<_>, Failure>>()?;
+    let mut all = Rows::new(form);
+    parts.iter().for_each(|part| all.append(part));
+    Ok(all)
+}
+
+/// Of each trace the choices that a guide draws, and the sum of `ln(p / q)` there, nats: how much less likely the guide finds
+/// them than the prior does.
+///
+/// # Errors
+/// A trace that cannot be followed; a guide that does not fit its task.
+pub fn losses(examples: &[Example], guide: &Arc<Guide>) -> Result<Vec<(usize, f64)>, Failure> {
+    let one = |example: &Example| -> Result<(usize, f64), Failure> {
+        let bound = BoundGuide::new(guide.clone(), &example.task)?;
+        let (mut sight, mut sum) = (Sight::default(), (0, 0.0));
+        follow(example, &mut |at, dist, seen, value| {
+            if let (Some(site), Some(draw)) =
+                (bound.look(at, dist, seen, &mut sight, 0), value_to_draw(value))
+            {
+                sum.0 += 1;
+                sum.1 += dist.log_density(&draw) - bound.log_of(site, dist, &draw, &mut sight);
+            }
+            Ok(())
+        })?;
+        Ok(sum)
+    };
+    examples.par_iter().map(one).collect()
+}
+
+/// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
+/// The training is part 0 of the `checkpoint`, stored between two steps; its rows are made again.
+///
+/// # Errors
+/// No traces; a trace that cannot be followed.
+pub fn train(
+    examples: &[Example],
+    making: &Making,
+    start: Option<&Guide>,
+    watch: &mut dyn FnMut(Progress) -> bool,
+    checkpoint: Option<&Checkpoint>,
+) -> Result<Taught, Failure> {
+    let mut border = |content: &dyn Fn() -> Stored| {
+        checkpoint.inspect(|own| own.at_border(0, content));
+    };
+    let way = Way { left: checkpoint.map_or(Ok(None), |own| own.left(0))?, border: &mut border };
+    let mut form = match start {
+        Some(start) => start.form.to_train(),
+        None => survey(examples, making)?,
+    };
+    let net = match (start.map(|start| &start.net), examples) {
+        (Some(Network::Filtered(net)), _) => {
+            return drawings::train(examples, making, form, net.clone(), watch, way);
+        }
+        (None, [first, ..]) if making.architecture == Architecture::Dissertation => {
+            let net = drawings::network(&mut form, making, &first.task)?;
+            return drawings::train(examples, making, form, net, watch, way);
+        }
+        (Some(Network::Shared(net)), _) => net.clone(),
+        (None, _) => {
+            let heads = form.sites.iter().map(|site| site.head).collect();
+            let own = NetForm {
+                hidden: making.hidden,
+                ..NetForm::new(form.window_values(), form.features(), heads)
+            };
+            Net::start(own, making.seed)
+        }
+    };
+    let blank = Arc::new(Guide { form, net: Network::Shared(net.clone()) });
+    let (judging, learning): (Vec<&Example>, Vec<&Example>) = examples.iter().partition(|one| one.held_out);
+    let learned = rows(&learning, &blank, net.form())?;
+    let held_out = rows(&judging, &blank, net.form())?;
+    let mut form = blank.form.clone();
+    let rows = learned.len();
+    // What was seen before the data was stored is told, too.
+    let mut history = way.left.as_ref().map_or_else(Vec::new, |left| left.history().to_vec());
+    let mut seen = |now: Progress| {
+        history.push(now);
+        watch(now)
+    };
+    let trained = train_along(net, &learned, &held_out, &making.training(rows), &mut seen, way);
+    let (net, diverged) = match trained.map_err(of_another)? {
+        Ok(trained) => (trained.net, None),
+        // What was learned before is kept, and told.
+        Err(diverged) => {
+            let site = diverged.site.map(|site| form.sites[site].label.clone());
+            (*diverged.net, Some((diverged.step, site)))
+        }
+    };
+    form.share = making.share;
+    Ok(Taught {
+        guide: Guide { form, net: Network::Shared(net) },
+        rows,
+        bytes: learned.bytes() + held_out.bytes(),
+        history,
+        diverged,
+    })
+}
+
+/// The failure of a training that cannot go on.
+pub(super) fn of_another(_: Unfit) -> Failure {
+    unfit("it is of a network of another size")
+}
+
+/// What training gave.
+pub struct Taught {
+    /// The guide.
+    pub guide: Guide,
+    /// Choices that were learned from.
+    pub rows: usize,
+    /// Bytes of all rows.
+    pub bytes: usize,
+    /// What every look at the choices that are held out saw.
+    pub history: Vec<Progress>,
+    /// Where it ended early, because of a loss or a slope that is not a finite number: the step, and the choice's label
+    /// where it was a single one.
+    pub diverged: Option<(u64, Option<String>)>,
+}

@@ -1,0 +1,24 @@
+//! Training of guides.
+//!
+//! * [`survey`]: what the traces of a model show, from which the form of its guide follows;
+//! * [`lessons`]: traces as rows, by the code that draws; training; `drawings`: the same for the dissertation's architecture;
+//! * [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: how much each run counts;
+//! * [`rehearse`]: how a guide learns what a paused run will still gain; `ridge`: its line.
+
+pub mod climb;
+#[cfg(test)]
+mod climbing;
+pub mod credit;
+mod drawings;
+#[cfg(test)]
+#[allow(dead_code, reason = "some judges are for populations alone")]
+#[path = "../../../particles/src/tests/judges.rs"]
+mod judges;
+pub mod lessons;
+pub mod rehearse;
+mod ridge;
+pub mod survey;
+#[cfg(test)]
+mod taught;
+#[cfg(test)]
+mod tests;

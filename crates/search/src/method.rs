@@ -1,0 +1,647 @@
+//! Methods as data. The binding and `infer` inside a model both read them.
+//!
+//! The fields are those of Python's classes of the same names, which describe them.
+
+use crate::direct::annealed;
+use crate::direct::annealed::{Annealed, Powers, annealed};
+use crate::direct::normals;
+use crate::improve::{Improve, Improved, Seen};
+use niwaki_chain::form::{Attached, Form};
+use niwaki_chain::kernel::Kernel;
+use niwaki_continuous::hamiltonian;
+use niwaki_continuous::hamiltonian::chains::Length;
+use niwaki_continuous::hamiltonian::{Metric, Shape};
+use niwaki_continuous::variational::family::Family;
+use niwaki_particles::{
+    Ancestors, FinalChains, Moment, Progress, Rejuvenation, Settings, particle_gibbs, pimh, populations,
+    within,
+};
+use niwaki_propose::importance::importance;
+use niwaki_propose::look_ahead::LookAhead;
+use niwaki_propose::proposal::Proposal;
+use niwaki_run::blame::explained;
+use niwaki_run::enumeration::{Visit, visit};
+use niwaki_run::forward::forward;
+use niwaki_run::log::Entry;
+use niwaki_run::losses::Lost;
+use niwaki_run::record::AllInvalid;
+use niwaki_run::rejection::rejection;
+use niwaki_run::resampling::Resampling;
+use niwaki_run::run::Run;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::fault::Fault;
+use niwaki_vm::machine::kept::Strategy;
+use niwaki_vm::value::Value;
+use serde::Deserialize;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// About how many samples of a chain are kept by default.
+const KEPT: u64 = 1000;
+
+/// How a task is searched.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "method", rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the settings are described where people read them: in Python's classes")]
+pub enum Method {
+    Forward { n: u64 },
+    EnumerateAll { max_runs: usize, likely: bool, rest: f64 },
+    Rejection { n: usize, bound: f64, max_tries: u64 },
+    Importance { n: usize, proposal: Option<Form> },
+    Ais(Ais),
+    Smc(Smc),
+    ParticleGibbs(ParticleGibbs),
+    Pimh(Pimh),
+    Improve(Improve),
+    Mh(Mh),
+    Hmc(Hmc),
+    Nuts(Nuts),
+    Vi(Vi),
+}
+
+/// Settings that a method does not have.
+type Rest = BTreeMap<String, serde_json::Value>;
+
+/// Annealed importance sampling.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ais {
+    particles: usize,
+    powers: Powers,
+    kernel: Option<Form>,
+    moves: u64,
+    tries: u64,
+}
+
+/// Sequential Monte Carlo.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Smc {
+    particles: Sizes,
+    populations: Option<usize>,
+    diverse: Option<usize>,
+    seconds: Option<f64>,
+    proposal: Option<Form>,
+    rejuvenate: Option<Form>,
+    moves: u64,
+    at: Moment,
+    draws: Option<usize>,
+    chains: usize,
+    #[serde(default)]
+    look_ahead: Option<f64>,
+    #[serde(flatten)]
+    settings: Settings,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// Sizes of populations.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum Sizes {
+    Each(usize),
+    Own(Vec<usize>),
+}
+
+/// Particle Gibbs.
+#[derive(Clone, Debug, Deserialize)]
+pub struct ParticleGibbs {
+    particles: usize,
+    sweeps: usize,
+    ancestors: bool,
+    proposal: Option<Form>,
+    #[serde(default)]
+    look_ahead: Option<f64>,
+    #[serde(flatten)]
+    settings: Settings,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// Particle independent Metropolis-Hastings.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Pimh {
+    particles: usize,
+    sweeps: usize,
+    proposal: Option<Form>,
+    #[serde(default)]
+    look_ahead: Option<f64>,
+    #[serde(flatten)]
+    settings: Settings,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// Metropolis-Hastings.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mh {
+    /// Proposals of each chain.
+    pub steps: u64,
+    #[serde(deserialize_with = "strategy")]
+    strategy: Strategy,
+    kernel: Option<Form>,
+    /// How many chains.
+    pub chains: usize,
+    thin: Option<u64>,
+    keep: Option<u64>,
+    warmup: u64,
+    tries: u64,
+}
+
+/// Hamiltonian Monte Carlo.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Hmc {
+    steps: u32,
+    jitter: f64,
+    /// Read by Python for its warnings; not used here.
+    #[serde(rename = "designs")]
+    _designs: bool,
+    #[serde(flatten)]
+    common: Trajectories,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// The no-U-turn sampler.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Nuts {
+    max_depth: u32,
+    #[serde(flatten)]
+    common: Trajectories,
+    #[serde(flatten)]
+    rest: Rest,
+}
+
+/// The settings that HMC and NUTS share.
+#[derive(Clone, Debug, Deserialize)]
+struct Trajectories {
+    draws: u32,
+    chains: usize,
+    warmup: u32,
+    thin: u32,
+    target_accept: f64,
+    metric: MetricForm,
+    step_size: Option<f64>,
+    climb: u32,
+    tries: u64,
+}
+
+/// The metric of chains.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum MetricForm {
+    /// What the warm-up fits.
+    Fitted(Shape),
+    /// Variances of the coordinates, kept throughout.
+    Variances(Vec<f64>),
+    /// A covariance by rows, kept throughout.
+    Covariance(Vec<Vec<f64>>),
+}
+
+impl MetricForm {
+    /// What is fitted, and what is given.
+    fn read(&self) -> Result<(Shape, Option<Metric>), Fault> {
+        let given = match self {
+            MetricForm::Fitted(shape) => return Ok((*shape, None)),
+            MetricForm::Variances(variances) => {
+                let is_sound = variances.iter().all(|v| v.is_finite() && *v > 0.0);
+                is_sound.then(|| Metric::diagonal(variances.clone()))
+            }
+            MetricForm::Covariance(rows) if rows.iter().all(|row| row.len() == rows.len()) => {
+                Metric::dense(rows.concat())
+            }
+            MetricForm::Covariance(_) => None,
+        };
+        let metric = given.ok_or_else(|| {
+            bad("`metric` has numbers that are neither variances above 0 nor a covariance".into())
+        })?;
+        Ok((Shape::Unit, Some(metric)))
+    }
+}
+
+/// Variational inference.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vi {
+    family: Normals,
+    start: normals::Start,
+    draws: usize,
+    steps: u32,
+    samples: usize,
+    tolerance: f64,
+    paths: usize,
+    tries: u64,
+}
+
+/// The normals of variational inference.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Normals {
+    MeanField,
+    FullRank,
+    Pathfinder,
+}
+
+/// Reads the name of a strategy.
+fn strategy<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Strategy, D::Error> {
+    let name = String::deserialize(from)?;
+    Strategy::from_name(&name).ok_or_else(|| serde::de::Error::custom(format!("no strategy `{name}`")))
+}
+
+/// The inputs of a search beside its method.
+#[derive(Clone, Copy, Default)]
+pub struct Given<'a> {
+    /// Decides every random number.
+    pub seed: u64,
+    /// The users' proposals and the guides that the method's kernels name by number.
+    pub attached: &'a [Attached],
+    /// The run that a chain of whole runs starts from.
+    pub start: Option<&'a [Entry]>,
+    /// Where a search for the best shows what it has.
+    pub seen: Seen<'a>,
+}
+
+/// The result of a search.
+pub struct Results {
+    /// Finished runs.
+    pub runs: Vec<Run>,
+    /// Whether the search was stopped before its end.
+    pub interrupted: bool,
+    /// Further results, by the kind of method.
+    pub info: Info,
+}
+
+/// Further results of a search, by the kind of method.
+pub enum Info {
+    /// Of forward runs.
+    Forward,
+    /// Of likelihood weighting.
+    Importance {
+        /// Log of the mean weight, nats; `None` where the runs were stopped.
+        log_evidence: Option<f64>,
+    },
+    /// Of rejection sampling.
+    Rejection {
+        /// Runs that it took.
+        tries: u64,
+    },
+    /// Of annealed importance sampling; its particles are the runs.
+    Annealed(Annealed),
+    /// Of enumeration, whose runs are not kept.
+    Enumeration(niwaki_run::enumeration::Enumerated),
+    /// Of populations, and of what became impossible in them; their particles are the runs.
+    Populations(niwaki_particles::Result, Lost),
+    /// Of a chain of whole runs; its states are the runs.
+    Chain(niwaki_particles::Chain),
+    /// Of a search for the best.
+    Improved(Improved),
+}
+
+/// A callback that gets the progress of a search (done, ended, best log score) and returns whether to go on.
+pub type Watch<'a> = dyn FnMut(u64, usize, f64) -> bool + Send + 'a;
+
+impl Method {
+    /// Reads a method from its text.
+    ///
+    /// # Errors
+    /// A text that is no method, or a setting that the method does not have.
+    pub fn read(text: &str) -> Result<Method, Fault> {
+        let method: Method =
+            serde_json::from_str(text).map_err(|error| bad(format!("the method {text}: {error}")))?;
+        let rest = match &method {
+            Method::Smc(own) => own.rest.keys().next(),
+            Method::ParticleGibbs(own) => own.rest.keys().next(),
+            Method::Pimh(own) => own.rest.keys().next(),
+            Method::Hmc(own) => own.rest.keys().next(),
+            Method::Nuts(own) => own.rest.keys().next(),
+            _ => None,
+        };
+        match rest {
+            Some(name) => Err(bad(format!("the method {text} has no setting `{name}`"))),
+            None => Ok(method),
+        }
+    }
+
+    /// Searches a task, by any method except those whose chains can go on afterwards: see
+    /// [`Mh::settings`] and [`Method::trajectories`].
+    ///
+    /// # Errors
+    /// The failure of the method.
+    pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
+        self.results(task, given, watch).map_err(|failure| explained(failure, task))
+    }
+
+    fn results(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
+        let seed = given.seed;
+        let bare = |runs, interrupted, info| Results { runs, interrupted, info };
+        let none = f64::NEG_INFINITY;
+        let mut progress = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
+        match self {
+            Method::Forward { n } => {
+                let (mut runs, mut tried, mut all) = (Vec::new(), 0, AllInvalid::default());
+                while tried < *n && watch(tried, 0, none) {
+                    match forward(task, seed, tried, true) {
+                        Err(Failure::Run(met)) if task.invalid.count(&met).is_some() => {
+                            all.note(Some(&Arc::new(*met)));
+                        }
+                        run => {
+                            runs.push(run?);
+                            all.note(None);
+                        }
+                    }
+                    tried += 1;
+                }
+                all.check()?;
+                let interrupted = tried < *n;
+                Ok(bare(runs, interrupted, Info::Forward))
+            }
+            Method::Importance { n, proposal } => {
+                let proposal = proposed(proposal.as_ref(), given)?;
+                let result =
+                    importance(task, proposal.as_deref(), *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
+                let interrupted = result.runs.len() < *n;
+                let log_evidence = (!interrupted).then_some(result.log_evidence);
+                Ok(bare(result.runs, interrupted, Info::Importance { log_evidence }))
+            }
+            Method::Rejection { n, bound, max_tries } => {
+                let result =
+                    rejection(task, *n, *bound, *max_tries, seed, &mut |tries| watch(tries, 0, none))?;
+                Ok(bare(result.runs, result.interrupted, Info::Rejection { tries: result.tries }))
+            }
+            Method::EnumerateAll { max_runs, likely, rest } => {
+                let what = if *likely {
+                    Visit::Likely { runs: *max_runs, rest: *rest }
+                } else {
+                    Visit::All(*max_runs)
+                };
+                let result = visit(task, what, &mut |runs| watch(runs as u64, 0, none))?;
+                Ok(bare(vec![], false, Info::Enumeration(result)))
+            }
+            Method::Ais(own) => {
+                let ended = Mutex::new((0, none, watch));
+                let watch = |best: f64| {
+                    let mut ended = ended.lock().unwrap_or_else(PoisonError::into_inner);
+                    let (n, highest, watch) = &mut *ended;
+                    *n += usize::from(best > none);
+                    *highest = highest.max(best);
+                    watch(*n as u64, *n, *highest)
+                };
+                let mut result = annealed(task, &own.settings(given)?, &watch)?;
+                let runs = std::mem::take(&mut result.runs);
+                Ok(bare(runs, result.interrupted, Info::Annealed(result)))
+            }
+            Method::Smc(own) => {
+                let settings = own.settings(given)?;
+                let mut result = match own.seconds {
+                    Some(time) => {
+                        let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::ZERO);
+                        within(task, &settings, time, &mut progress)?
+                    }
+                    None => populations(task, &settings, &own.plan(), &mut progress)?,
+                };
+                let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
+                let (runs, lost) = (runs.collect(), std::mem::take(&mut result.losses).explained(task));
+                Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
+            }
+            Method::ParticleGibbs(own) => {
+                let settings = own.settings(given)?;
+                let ancestors = if own.ancestors { Ancestors::Sampled } else { Ancestors::Kept };
+                let result =
+                    particle_gibbs(task, &settings, ancestors, own.sweeps, given.start, &mut progress)?;
+                Ok(of_chain(result))
+            }
+            Method::Pimh(own) => {
+                let settings = own.settings(given)?;
+                Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
+            }
+            Method::Improve(own) => {
+                let proposal = proposed(own.proposal.as_ref(), given)?;
+                let (runs, result) = own.search(task, seed, proposal, given.seen, &mut progress)?;
+                Ok(bare(runs, result.interrupted, Info::Improved(result)))
+            }
+            Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) | Method::Vi(_) => {
+                Err(bad("a method of chains or normals is started, not searched".into()).into())
+            }
+        }
+    }
+
+    /// Of a method that follows the gradient: how its chains move, how many they are, and the most forward runs for
+    /// the start of each. `None` for any other method.
+    ///
+    /// # Errors
+    /// Numbers that are no metric.
+    pub fn trajectories(&self) -> Result<Option<(hamiltonian::Settings, usize, u64)>, Fault> {
+        let (length, own) = match self {
+            Method::Hmc(own) => (Length::Fixed { steps: own.steps, jitter: own.jitter }, &own.common),
+            Method::Nuts(own) => (Length::NoUTurn { max_depth: own.max_depth }, &own.common),
+            _ => return Ok(None),
+        };
+        let (shape, metric) = own.metric.read()?;
+        let settings = hamiltonian::Settings {
+            length,
+            climb: own.climb,
+            warmup: own.warmup,
+            draws: own.draws,
+            thin: own.thin,
+            target_accept: own.target_accept,
+            shape,
+            metric,
+            step_size: own.step_size,
+            ..hamiltonian::Settings::nuts()
+        };
+        Ok(Some((settings, own.chains, own.tries)))
+    }
+
+    /// Of variational inference: the plan of a search. `None` for any other method.
+    pub fn normals<'a>(
+        &self,
+        seed: u64,
+        known: Option<&'a HashMap<u128, Value>>,
+    ) -> Option<normals::Plan<'a>> {
+        let Method::Vi(own) = self else { return None };
+        let family = match own.family {
+            Normals::MeanField => Some(Family::MeanField),
+            Normals::FullRank => Some(Family::FullRank),
+            Normals::Pathfinder => None,
+        };
+        let Vi { start, draws, steps, samples, tolerance, paths, tries, .. } = *own;
+        Some(normals::Plan { family, start, draws, steps, samples, tolerance, paths, seed, tries, known })
+    }
+
+    /// Refuses settings that make no sense for an inference inside a model, which gives one value for each seed.
+    ///
+    /// # Errors
+    /// Such a setting, by name, or a method whose result is not a sample.
+    pub fn check_inside(&self) -> Result<(), Fault> {
+        let refused = |name: &str, why: &str| {
+            Err(Fault::new("infer-method", format!("inside a model {why}, so `{name}` has no meaning there")))
+        };
+        match self {
+            Method::Smc(own) if own.seconds.is_some() => refused("seconds", "a clock may not decide a value"),
+            Method::Smc(own) if own.diverse.is_some() => refused("diverse", "`infer` gives one value"),
+            Method::Mh(own) if own.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
+            Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
+            Method::EnumerateAll { likely: true, .. } => {
+                refused("likely", "a part of the runs is no distribution")
+            }
+            Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
+            Method::Improve(_) => refused("improve", "a search for the best is no sample"),
+            Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
+            Method::Vi(_) => refused("vi", "no gradient is followed"),
+            Method::Importance { proposal, .. } => proposed(proposal.as_ref(), &Given::default()).map(|_| ()),
+            Method::Ais(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::ParticleGibbs(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Pimh(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Mh(own) => own.settings(&Given::default()).map(|_| ()),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Ais {
+    fn settings(&self, given: &Given<'_>) -> Result<annealed::Settings, Fault> {
+        let kernel = self.kernel.as_ref().map(|form| form.kernel(given.attached)).transpose()?;
+        Ok(annealed::Settings {
+            particles: self.particles,
+            powers: self.powers.ladder()?,
+            kernel: kernel.unwrap_or(Kernel::PRIOR),
+            moves: self.moves,
+            tries: self.tries,
+            seed: given.seed,
+        })
+    }
+}
+
+impl Smc {
+    /// The settings of its populations.
+    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        let rejuvenate = match &self.rejuvenate {
+            None => None,
+            Some(form) => Some(Rejuvenation {
+                kernel: form.kernel(given.attached)?,
+                moves: self.moves,
+                at: self.at,
+                final_chains: self.draws.map(|draws| FinalChains { chains: self.chains, draws }),
+            }),
+        };
+        let particles = self.plan().first().copied().unwrap_or(0);
+        let proposal = proposed(self.proposal.as_ref(), given)?;
+        let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
+        Ok(Settings {
+            particles,
+            seed: given.seed,
+            rejuvenate,
+            proposal,
+            look_ahead,
+            ..self.settings.clone()
+        })
+    }
+
+    /// Sizes of its populations without a time limit. Different results need one population each, unless chains give them.
+    fn plan(&self) -> Vec<usize> {
+        match &self.particles {
+            Sizes::Own(sizes) => sizes.clone(),
+            Sizes::Each(size) => {
+                let different = self.diverse.filter(|_| self.draws.is_none());
+                vec![*size; self.populations.or(different).unwrap_or(1)]
+            }
+        }
+    }
+}
+
+impl ParticleGibbs {
+    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        let proposal = proposed(self.proposal.as_ref(), given)?;
+        Ok(Settings {
+            particles: self.particles,
+            seed: given.seed,
+            // What has a conditional form: see `particle_gibbs`.
+            resampling: match self.settings.resampling {
+                Resampling::Tempered => Resampling::Tempered,
+                _ => Resampling::Multinomial,
+            },
+            look_ahead: ahead(self.look_ahead, proposal.as_deref())?,
+            proposal,
+            ..self.settings.clone()
+        })
+    }
+}
+
+impl Pimh {
+    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+        let proposal = proposed(self.proposal.as_ref(), given)?;
+        let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
+        Ok(Settings {
+            particles: self.particles,
+            seed: given.seed,
+            proposal,
+            look_ahead,
+            ..self.settings.clone()
+        })
+    }
+}
+
+impl Mh {
+    /// The settings of its chains.
+    ///
+    /// # Errors
+    /// An unknown kernel.
+    pub fn settings(&self, given: &Given<'_>) -> Result<niwaki_chain::Settings, Fault> {
+        let plain = niwaki_chain::Settings::default();
+        let own = self.kernel.as_ref().map(|form| form.tempered(given.attached)).transpose()?;
+        let settings = niwaki_chain::Settings {
+            seed: given.seed,
+            strategy: self.strategy,
+            warmup: self.warmup,
+            thin: self.spacing(),
+            tries: self.tries,
+            ..plain
+        };
+        Ok(match own {
+            None => settings,
+            Some(own) => niwaki_chain::Settings {
+                kernel: own.kernel,
+                powers: own.powers,
+                every: own.every,
+                ..settings
+            },
+        })
+    }
+
+    /// Proposals between two samples; 0 for none.
+    fn spacing(&self) -> u64 {
+        match (self.keep.unwrap_or(KEPT), self.thin) {
+            (0, _) => 0,
+            (_, Some(thin)) => thin,
+            (keep, None) => self.steps.saturating_sub(self.warmup).div_ceil(keep).max(1),
+        }
+    }
+}
+
+/// The proposal for the choices of new runs.
+fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
+    let Some(form) = form else { return Ok(None) };
+    Ok(Some(Arc::new(form.kernel(given.attached)?.proposal()?)))
+}
+
+/// What weights count of the rest of a run: so much of what a guide of the proposal says.
+fn ahead(strength: Option<f64>, proposal: Option<&Proposal>) -> Result<Option<LookAhead>, Fault> {
+    let Some(strength) = strength else { return Ok(None) };
+    match proposal.and_then(Proposal::forecast) {
+        Some(forecast) => Ok(Some(LookAhead { strength, forecast })),
+        None => Err(Fault::new("guide-ahead", "no guide of this search has learned to look ahead")
+            .with_help("teach its guide by `niwaki.guides.train_look_ahead`, or give no `look_ahead`")),
+    }
+}
+
+fn of_chain(mut chain: niwaki_particles::Chain) -> Results {
+    let runs = std::mem::take(&mut chain.states).into_iter().map(Run::from).collect();
+    Results { runs, interrupted: chain.interrupted, info: Info::Chain(chain) }
+}
+
+fn bad(message: String) -> Fault {
+    Fault::new("bad-setting", message)
+        .with_help("use the functions of `niwaki.methods`, which check the settings")
+}
