@@ -1,4 +1,4 @@
-"""Short hashes of all that a person gets from a search: values to the bit, and files without times, paths and versions."""
+"""Short hashes of all that a person gets from a search: values to the bit, files without times, paths and versions."""
 
 from __future__ import annotations
 
@@ -25,8 +25,9 @@ from PIL import Image, ImageSequence
 #: Characters of a hash: two of a hundred thousand tables have the same for different results.
 LENGTH = 16
 
-#: Fields that are no result: what was asked for, how long it took, and where a source file is.
-LEFT_OUT = {"cpu_seconds", "file", "line", "method", "search", "seconds"}
+#: Fields that are no result: what was asked for, how long it took, where a source file is, and the work of a process, of
+#: which a search that is gone on with has several.
+LEFT_OUT = {"cpu_seconds", "file", "line", "method", "path", "recordings", "search", "seconds", "span"}
 
 #: What a sample is, beside its choices.
 OF_SAMPLE = (
@@ -41,17 +42,23 @@ OF_SAMPLE = (
     "value",
     "choices",
 )
-#: Statistics that are computed when they are read, so that they are no fields.
+#: Statistics that are computed when they are read, so that they are no fields; without counters of work.
 READ_LATE = {
-    MhInfo: ("bests", "last", "acceptance", "trajectories", "counters"),
+    MhInfo: ("bests", "last", "acceptance", "trajectories"),
     DrawnInfo: ("values", "positions", "log_prior", "log_score"),
 }
 
-#: Keys of a JSON file that say when, where and by which version it was written, or where the model stands in its source.
-OF_A_PLACE = {"core", "cpu_seconds", "file", "file_hash", "hash", "host_files", "niwaki", "path", "seconds"}
+#: Keys of a JSON file that say when, where and by which version it was written, where the model stands in its source,
+#: or what the bytes of the files beside it are, which have digests of their own.
+OF_A_PLACE = {"core", "cpu_seconds", "file", "file_hash", "files", "hash", "niwaki", "path", "seconds"}
 
 #: Numbers of a text that are times or depend on them.
-TIMES = re.compile(r"\d[\d.,]* ?(?:m?s\b|seconds\b|a second\b)|\b(start|compile|target|search|runs|pictures?|files) \d\.\d+")
+TIMES = re.compile(
+    r"\d[\d.,]* ?(?:m?s\b|seconds\b|a second\b)|\b(start|compile|target|search|runs|pictures?|files) \d\.\d+"
+)
+
+#: The hash of what was searched, which has the place of the model's source in it.
+HASH = re.compile(r"\bhash [0-9a-f]+\b")
 
 
 def digest(found: Any) -> str:
@@ -125,7 +132,8 @@ def _scene(found: Result) -> Iterable[bytes]:
 
 def digest_of_files(folder: Path, names: Iterable[str], told: str) -> str:
     """The hash of what a command printed, and of the files that it wrote."""
-    found = [("stdout", _plain(told, folder))]
+    said = _without(json.loads(told)) if told.startswith("{") else _plain(told, folder)
+    found = [("stdout", said)]
     found += [(name, _content(folder / name, folder)) for name in sorted(names)]
     return digest(found)
 
@@ -136,10 +144,15 @@ def _content(place: Path, folder: Path) -> Any:
         with Image.open(place) as picture:
             return [np.asarray(frame.convert("RGBA")) for frame in ImageSequence.Iterator(picture)]
     if place.suffix == ".json":
-        return _without(json.loads(place.read_text(encoding="utf-8")))
+        return of_json(place)
     if place.suffix in (".csv", ".svg", ".txt"):
         return _plain(place.read_text(encoding="utf-8"), folder)
     return place.read_bytes()
+
+
+def of_json(place: Path) -> Any:
+    """What a JSON file holds, without what is of this run alone."""
+    return _without(json.loads(place.read_text(encoding="utf-8")))
 
 
 def _without(data: Any) -> Any:
@@ -152,4 +165,4 @@ def _without(data: Any) -> Any:
 def _plain(text: str, folder: Path) -> str:
     """A text without times, the folder and the version."""
     text = text.replace(str(folder), "").replace(nw.__version__, "")
-    return TIMES.sub("", text)
+    return HASH.sub("", TIMES.sub("", text))

@@ -1,10 +1,11 @@
 """Searches that are recorded: every method and kernel, plain, with a choice locked, guided and resumed; the gallery.
 
-A name is that of the method, of its setting, and then of the variant: `smc tempered, locked`. All are limited by counts.
+A name is that of the method, of its setting, and then of the variant: `smc tempered, locked`. Counts limit them all.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, partial
@@ -20,7 +21,7 @@ import resumed
 import searches
 from niwaki import kernels
 from niwaki.gallery import Entry, coin, entries, gnarly_tree, simple_ship
-from niwaki.guides import shipped, train_look_ahead, train_order
+from niwaki.guides import Training, shipped, train_look_ahead, train_order
 from niwaki.methods import FutureOrder, Method
 from niwaki.targets import drawings
 from niwaki.targets.examples import bent_tube
@@ -104,7 +105,11 @@ class Ended(Exception):
 
 
 def gone_on(search: Callable[..., Any]) -> Any:
-    """The result of a search that is ended as soon as its checkpoint is there, three times, and gone on with."""
+    """The result of a search that is ended three times, gone on with, and read again when it is done.
+
+    It is ended when its checkpoint has changed. One of a few hundredths of a second is done before that, and is only
+    read again.
+    """
     with TemporaryDirectory() as folder:
         place = Path(folder) / "checkpoint"
         for _ in range(3):
@@ -115,9 +120,12 @@ def gone_on(search: Callable[..., Any]) -> Any:
                     raise Ended
 
             try:
-                return search(checkpoint=nw.Checkpoint(place, every=0.0), progress=watch)
+                search(checkpoint=nw.Checkpoint(place, every=0.0), progress=watch)
+                break
             except Ended:
                 continue
+        else:
+            search(checkpoint=place)
         return search(checkpoint=place)
 
 
@@ -209,11 +217,16 @@ def of_methods() -> Iterator[tuple[str, Search]]:
         for method in (nw.particle_gibbs, nw.pimh):
             title = f"{method.NAME} {name}"
             yield from guided(title, TREE, partial(method, 10, 4, **more))
-    yield from variants("particle_gibbs without ancestors", MIXTURE, nw.particle_gibbs(10, 10, ancestors=False))
+    yield from variants(
+        "particle_gibbs without ancestors", MIXTURE, nw.particle_gibbs(10, 10, ancestors=False)
+    )
     yield from variants("pimh residual", MIXTURE, nw.pimh(10, 10, resampling="residual"))
     yield from guided("particle_gibbs path", PATH, partial(nw.particle_gibbs, 10, 6))
     yield from guided("pimh path", PATH, partial(nw.pimh, 10, 6))
-    yield "particle_gibbs look_ahead", lambda: PATH.run(nw.particle_gibbs(10, 6, guide=taught(), look_ahead=0.2))
+    yield (
+        "particle_gibbs look_ahead",
+        lambda: PATH.run(nw.particle_gibbs(10, 6, guide=taught(), look_ahead=0.2)),
+    )
     yield "pimh look_ahead", lambda: PATH.run(nw.pimh(10, 6, guide=taught(), look_ahead=0.2))
     for name, kernel in KERNELS.items():
         chains = nw.mh(600, kernel=kernel, chains=2, warmup=200, keep=20)
@@ -221,7 +234,9 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     for strategy in nw.methods.STRATEGIES:
         yield from variants(f"mh by {strategy}", MIXTURE, nw.mh(600, strategy, KERNELS["mixture"], keep=20))
     yield from variants("mh invalid", INVALID, nw.mh(3000, chains=2, keep=20))
-    yield from variants("mh tree", TREE, nw.mh(200, kernel=kernels.mixture(kernels.prior(), kernels.regrow(4)), keep=20))
+    yield from variants(
+        "mh tree", TREE, nw.mh(200, kernel=kernels.mixture(kernels.prior(), kernels.regrow(4)), keep=20)
+    )
     yield "mh guided", lambda: PATH.run(nw.mh(200, kernel=kernels.guided(taught()), keep=20))
     yield "mh guided, locked", lambda: PATH.run(nw.mh(200, kernel=kernels.guided(taught())), lock=PATH.lock())
     yield "mh regrow, guided", lambda: PATH.run(nw.mh(60, kernel=kernels.regrow(5, guide=taught()), keep=20))
@@ -232,19 +247,17 @@ def of_methods() -> Iterator[tuple[str, Search]]:
         yield from variants(f"nuts {metric}", LINE, nw.nuts(20, 5, **chain))
     yield from variants("hmc mixture", MIXTURE, nw.hmc(10, 6, 0.5, 2, 40, climb=20, thin=2))
     yield from variants("nuts mixture", MIXTURE, nw.nuts(10, 4, 2, 40, climb=20))
-    yield from variants("hmc of numbers", LINE, nw.hmc(20, 8, warmup=20, metric=(1.0, 2.0), step_size=0.2))
+    numbers = nw.hmc(20, 8, warmup=20, metric=(1.0, 2.0), step_size=0.2)
+    yield "hmc of numbers", lambda: LINE.run(numbers)
     yield from variants("hmc explore", MIXTURE, nw.methods.explore(2, 6, 4, 6, 50))
     for family in nw.methods.FAMILIES:
         for start in nw.methods.STARTS if family != "pathfinder" else ("pathfinder",):
-            yield from variants(f"vi {family} from {start}", LINE, nw.vi(family, 40, 300, 8, start=start, paths=2))
+            yield from variants(
+                f"vi {family} from {start}", LINE, nw.vi(family, 40, 300, 8, start=start, paths=2)
+            )
     yield from guided("improve", TREE, partial(nw.methods.improve, 30, 6, rounds=6))
     yield from guided("improve diverse", TREE, partial(nw.methods.improve, 30, 6, rounds=2, diverse=2))
     yield from guided("improve path", PATH, partial(nw.methods.improve, 30, 6, rounds=6))
-
-
-@nw.model
-def around(method):  # type: ignore[no-untyped-def]
-    """Replaced by one model for each method: a method is no argument of a model."""
 
 
 def inside(method: Method) -> Any:
@@ -263,7 +276,10 @@ def of_the_rest() -> Iterator[tuple[str, Search]]:
         yield f"infer {name}", lambda method=method: nw.run(inside(method), nw.forward(10), seed=SEED)
     yield "infer in a chain", lambda: nw.run(inside(nw.enumerate_all()), nw.mh(100), seed=SEED)
     yield "run of given choices", lambda: MIXTURE.run(nw.forward(), choices=MIXTURE.lock())
-    yield "chain from given choices", lambda: MIXTURE.run(nw.mh(200), choices=MIXTURE.run(nw.forward()).best.choices)
+    yield (
+        "chain from given choices",
+        lambda: MIXTURE.run(nw.mh(200), choices=MIXTURE.run(nw.forward()).best.choices),
+    )
     yield "more", lambda: MIXTURE.run(nw.mh(300, kernel=resumed.ALL, keep=20)).more(200)
     yield "polish", lambda: TREE.run(nw.smc(20)).polish(nw.mh(100, keep=10))
     yield "regrow of a part", lambda: simple_ship_grown().regrow("body", 20)
@@ -272,16 +288,29 @@ def of_the_rest() -> Iterator[tuple[str, Search]]:
     yield "drag out of reach", lambda: dragged(post, "top", (0.0, 0.5, 3.0))
     yield "log_density", lambda: gradient(LINE)
     yield "train_guide", resumed.training
+    yield "train_guide by the bound", bound
     yield "train_look_ahead", taught
-    yield "train_order", lambda: learned_order()
-    for case in ("improve", "several", "chain", "ladder", "outside"):
-        yield f"grow and run {case}", resumed.CASES[case]
+    yield "train_order", learned_order
+    for case in ("improve", "several", "runs", "chain", "ladder", "outside"):
+        yield f"long {case}", resumed.CASES[case]
+        yield f"long {case}{RESUMED}", partial(gone_on, resumed.CASES[case])
     for seed in range(20):
         for kind in ("populations", "chains"):
-            yield f"random program {seed} {kind}", partial(searches.said, seed, kind)
+            yield f"random program {seed} {kind}", partial(said, seed, kind)
     for seed in range(10):
         program = partial(finite_programs.text, seed, memo=seed % 2 == 1)
         yield f"finite program {seed}", lambda program=program: nw.run(load(program()), nw.smc(20), seed=SEED)
+
+
+def said(seed: int, kind: str) -> str:
+    """What a search of a random program gives, or says; the name of its file is another one in each process."""
+    return re.sub(r"random--?\d+", "random", searches.said(seed, kind))
+
+
+def bound() -> nw.Guide:
+    """A guide by the evidence bound."""
+    few = Training.bound(steps=60, hidden=(8, 8))
+    return nw.train_guide(resumed.path, SIDES, side_score, training=few, seed=4)
 
 
 def simple_ship_grown() -> nw.Result:
@@ -297,7 +326,7 @@ def dragged(model: Any, part: str, to: tuple[float, ...]) -> Any:
 def gradient(subject: Subject) -> list[Any]:
     """The log density around a run, and its gradient."""
     density = subject.run(nw.forward()).best.log_density()
-    return [density(density.start), density.gradient(density.start)]
+    return list(density.value_and_gradient(density.start))
 
 
 def learned_order() -> Any:
@@ -316,7 +345,9 @@ def of_gallery(one: Entry) -> nw.Result:
     """A short search of a model, by the usual search or by its own."""
     few: dict[str, Any] = {"seed": SEED}
     if one.target_name is not None:
-        return nw.grow(one.model, one.target(), method=nw.methods.improve(20, 6, rounds=3), voxel=one.voxel, **few)
+        return nw.grow(
+            one.model, one.target(), method=nw.methods.improve(20, 6, rounds=3), voxel=one.voxel, **few
+        )
     if one.draws is not None and one.window is not None:
         score, start = one.score() if one.score is not None else None, ()
         if one.drawing_name is not None:
@@ -329,7 +360,8 @@ def of_gallery(one: Entry) -> nw.Result:
     if isinstance(method, nw.methods.Mh):
         method = replace(method, steps=1000, warmup=200, thin=50)
     if isinstance(method, nw.methods.Smc):
-        method = replace(method, particles=30)
+        # A run of the coffee shop takes a second.
+        method = replace(method, particles=3)
     return nw.run(one.model, method=method, **few)
 
 
