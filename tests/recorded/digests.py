@@ -25,9 +25,20 @@ from PIL import Image, ImageSequence
 #: Characters of a hash: two of a hundred thousand tables have the same for different results.
 LENGTH = 16
 
-#: Fields that are no result: what was asked for, how long it took, where a source file is, and the work of a process, of
-#: which a search that is gone on with has several.
-LEFT_OUT = {"cpu_seconds", "file", "line", "method", "path", "recordings", "search", "seconds", "span"}
+#: Fields that are no result: what was asked for, how long it took, where a source file is, and the work of a process,
+#: of which a search that is gone on with has several.
+LEFT_OUT = {
+    "cpu_seconds",
+    "file",
+    "line",
+    "method",
+    "path",
+    "recordings",
+    "search",
+    "seconds",
+    "span",
+    "structures",
+}
 
 #: What a sample is, beside its choices.
 OF_SAMPLE = (
