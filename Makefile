@@ -6,6 +6,8 @@
 #   make lint     formatting, clippy, ruff, the order of imports, mypy and the stub of the engine, warnings as errors
 #   make counts   instructions of a unit of work on eighteen paths, beside the committed table (needs valgrind; WRITE=1:
 #                 write the table again)
+#   make recorded  hashes of what every method, kernel, gallery model and command gives, beside the committed table: before
+#                 and after a change that must not change bits (half a minute; WRITE=1: write the table again)
 #   make bench    speed compared with WebPPL and a hand-written limit, on one thread (needs node and npm)
 #   make figures-sosmc  the figures and the table of chapter 5, into out/figures-sosmc (QUICK=1: a smoke run)
 #   make guides   train the guides that come with the package again, into python/niwaki/guides/shipped (two minutes)
@@ -70,7 +72,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -165,6 +167,9 @@ lint-python: $(STAMPS)/engine $(STAMPS)/lint
 
 counts: $(STAMPS)/engine
 	$(PY) benches/counts.py $(if $(WRITE),--write)
+
+recorded: $(STAMPS)/engine $(STAMPS)/test
+	$(PY) tests/recorded/recorded.py $(if $(WRITE),--write)
 
 bench: $(STAMPS)/engine $(STAMPS)/bench
 	$(PY) benches/startup.py

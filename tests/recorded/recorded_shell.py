@@ -1,0 +1,153 @@
+"""Commands of the shell that are recorded: what each prints, and the files that it writes.
+
+A command is called in a folder of its own, after the commands that it goes on from.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from digests import digest, digest_of_files, of_json
+from niwaki.shell.main import app
+from PIL import Image
+from studio_process import PILE, serving
+from typer.testing import CliRunner
+
+TREE = ["grow", "gnarly-tree", "--seed", "1", "--quick"]
+DRAWN = ["grow", "vines", "--match-image", "scribbles/008", "--seed", "1", "--no-picture"]
+CHAINS = ["gmm", "points=10", "--steps", "600", "--chains", "2", "--seed", "1", "--quick"]
+TRAINED = ["guide", "train", "lightning", "--targets", "pages", "--rounds", "4,2", "--seed", "1"]
+
+SPEC = """
+model = "simple-ship"
+seeds = 2
+
+[grow]
+voxel = 0.5
+
+[vary.grow]
+particles = [5, 10]
+"""
+
+#: What is called, by name; a name begins with that of its command. The last call is the one that is meant.
+CALLS: dict[str, Sequence[Sequence[str]]] = {
+    "models": [["models"]],
+    "show": [["show", "spaceship", "-n", "2", "--seed", "1", "--quick"]],
+    "grow improve": [[*TREE, "--rounds", "3"]],
+    "grow smc": [[*TREE, "-n", "30", "--runs", "2", "--resampling", "tempered", "--format", "glb,obj,ply"]],
+    "grow ais": [
+        [*TREE, "--method", "ais", "-n", "5", "--powers", "0.1,1", "--moves", "2", "--kernel", "drift(0.2)"]
+    ],
+    "grow particle-gibbs": [[*TREE, "--method", "particle-gibbs", "-n", "10", "--sweeps", "3"]],
+    "grow pimh": [[*TREE, "--method", "pimh", "-n", "10", "--sweeps", "3"]],
+    "grow polish": [[*TREE, "-n", "20", "--polish", "50", "--polish-kernel", "mixture(prior(), drift(0.1))"]],
+    "grow diverse": [[*TREE, "--diverse", "2", "--rounds", "1", "--export", "all"]],
+    "grow guide": [[*TREE, "--guide", "shipped", "-n", "20"]],
+    "grow drawing": [[*DRAWN, "-n", "20", "--format", "svg,gif", "--size", "60x60", "--frames", "3"]],
+    "grow circuit": [["grow", "circuit", "-n", "10", "--seed", "1", "--quick"]],
+    "grow from": [
+        [*TREE, "-n", "20", "-o", "first"],
+        [*TREE, "--from", "first/run.json", "--reroll", "branch/branch", "--rounds", "2"],
+    ],
+    "grow json": [[*TREE, "-n", "10", "--json"]],
+    "batch": [
+        ["batch", "run", "ships.toml", "--processes", "1"],
+        "batch export ships --csv --sheet --glb --best 3 --choices".split(),
+    ],
+    "replay": [
+        [*TREE, "-n", "10", "--no-picture", "-o", "first"],
+        [
+            "replay",
+            "first/run.json",
+            "-o",
+            "again",
+            "--quick",
+            "--format",
+            "glb,stl,3mf,apng",
+            "--frames",
+            "2",
+        ],
+    ],
+    "check": [["check", "hmm", "steps=5", "--bytecode"]],
+    "sample": [["sample", *CHAINS, "--kernel", "mixture(prior(), drift())"]],
+    "sample target": [
+        ["sample", "spaceship", "--target", "gallery:ship", "--steps", "300", "--seed", "1", "--quick"]
+    ],
+    "color": [["color", "robot", "-n", "2", "--size", "64", "--measure", "128", "--seed", "1"]],
+    "letters": [["letters", "Hi", "--seed", "1", "-n", "10", "--tries", "2", "--width", "160"]],
+    "guide train": [[*TRAINED, "--out", "lines.guide"]],
+    "guide show": [[*TRAINED, "--out", "lines.guide"], ["guide", "show", "lines.guide"]],
+    "explain": [["explain", "hmm", "--choice", "n[21]/state"]],
+    "doctor": [["doctor"]],
+}
+
+
+def of_commands() -> Iterator[tuple[str, Callable[[], str]]]:
+    """Every command of the shell: functions that give the digest itself."""
+    for name, calls in CALLS.items():
+        yield f"shell {name}", partial(called, calls)
+    yield "shell studio", served
+
+
+@contextmanager
+def place() -> Iterator[Path]:
+    """A folder with what the commands read, where they are called."""
+    before = Path.cwd()
+    with TemporaryDirectory() as name:
+        folder = Path(name).resolve()
+        (folder / "ships.toml").write_text(SPEC)
+        (folder / "pages").mkdir()
+        for number in range(4):
+            page = np.full((100, 100), 255, dtype=np.uint8)
+            page[10:90, 30 + 4 * number : 45 + 4 * number] = 0
+            Image.fromarray(page).save(folder / "pages" / f"{number}.png")
+        os.chdir(folder)
+        try:
+            yield folder
+        finally:
+            os.chdir(before)
+
+
+def called(calls: Sequence[Sequence[str]]) -> str:
+    """The digest of what the last call prints, and of all files that are there then."""
+    with place() as folder:
+        before = written(folder)
+        for words in calls:
+            done = CliRunner().invoke(app, list(words))
+            if done.exit_code != 0:
+                raise RuntimeError(f"{' '.join(words)}: {done.output}") from done.exception
+        told = "\n".join(said(done.stdout)) if words[0] == "doctor" else done.stdout
+        return digest_of_files(folder, written(folder) - before, told)
+
+
+def written(folder: Path) -> set[str]:
+    """The files of a folder; of a batch those that it exports, because its segments hold times."""
+    names = {one.relative_to(folder).as_posix() for one in folder.rglob("*") if one.is_file()}
+    return {name for name in names if not re.match(r"ships/(?!results\.csv|sheet\.png|meshes/)", name)}
+
+
+def said(report: str) -> Iterator[str]:
+    """What a report about an installation says of Niwaki, and not of the machine."""
+    _, _, core = report.partition("\nCore: ")
+    yield from core.partition("\n\n")[0].splitlines()
+
+
+def served() -> str:
+    """The digest of a model's results in the studio."""
+    from niwaki import studio  # needs an extra
+
+    with TemporaryDirectory() as name:
+        model, folder = Path(name) / "pile.py", Path(name) / "session"
+        model.write_text(PILE)
+        with serving(folder, model) as served, studio.connect(served.url, served.key) as connected:
+            connected.ask("model", reference="spaceship")
+            connected.ask("set", settings={"count": 2, "seed": 1, "effort": 0.25})
+            connected.ask("run")
+            return digest([connected.view["results"], of_json(folder / "runs" / "0.json")])
