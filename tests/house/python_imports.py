@@ -33,6 +33,8 @@ class Package:
         self.stubs = {
             self._module(folder, path): self._read(folder, path) for path in folder.rglob("__init__.pyi")
         }
+        #: Modules that are not written in Python: only their stub is.
+        self.compiled = {self._module(folder, path) for path in folder.rglob("*.pyi")} - self.files.keys()
 
     def graph(self) -> Graph:
         """Files and the files that they import, named from the root of the repository."""
@@ -67,12 +69,11 @@ class Package:
     def _imports(self, file: File) -> set[str]:
         found = set()
         for module, name, known_as in file.imports:
-            for target in self._targets(module, name):
-                if target in self.stubs or self._is_package(target):
-                    through = [*self._through(file, known_as, target)]
-                    found |= {self._name(self.files[each]) for each in through or [target]}
-                else:
-                    found.add(self._name(self.files[target]))
+            for target, is_item in self._targets(module, name):
+                used = [target]
+                if not is_item and self._is_package(target):
+                    used = [*self._through(file, known_as, target)] or used
+                found |= {self._name(self.files[each]) for each in used}
         return found
 
     def _is_package(self, module: str) -> bool:
@@ -82,24 +83,24 @@ class Package:
         """The files that are meant by `package.name` where a package itself is imported."""
         for node in ast.walk(file.tree):
             if isinstance(node, ast.Attribute) and ast.unparse(node.value) == known_as:
-                yield from self._targets(package, node.attr)
+                yield from (target for target, _ in self._targets(package, node.attr))
 
-    def _targets(self, module: str, name: str | None) -> list[str]:
-        """The modules of the package that a name of a module leads to; none if it is from elsewhere."""
-        if module not in self.files:
+    def _targets(self, module: str, name: str | None) -> list[tuple[str, bool]]:
+        """The modules of the package that a name leads to, and whether it is something in them; none from elsewhere."""
+        if module not in self.files or f"{module}.{name}" in self.compiled:
             return []
-        if name is None or not self._is_package(module):
-            return [module]
-        if name == "*":
-            return [module]
+        if name is None:
+            return [(module, False)]
+        if name == "*" or not self._is_package(module):
+            return [(module, True)]
         passed_on = [*self.files[module].imports]
         if module in self.stubs:
             passed_on += self.stubs[module].imports
         for source, original, known_as in passed_on:
             if known_as == name and (source, original) != (module, name):
-                return self._targets(source, original) or [module]
+                return self._targets(source, original) or [(module, True)]
             if original == "*" and source in self.files and name in self.files[source].defined:
-                return [source]
+                return [(source, True)]
         if f"{module}.{name}" in self.files:
-            return [f"{module}.{name}"]
-        return [module]
+            return [(f"{module}.{name}", False)]
+        return [(module, True)]

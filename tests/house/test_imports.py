@@ -130,11 +130,14 @@ def test_an_import_of_rust_leads_to_the_file_that_defines_it(tmp_path: Path, tex
         ("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .plain import x", {"plain.py"}),
         ("def f():\n    from niwaki.plain import x", {"plain.py"}),
         ("import json\nfrom numpy import array", set()),
+        ("from niwaki import _engine\nx = _engine.part", set()),
+        ("from niwaki.part import of_the_part\nx = of_the_part.Item", {"part/__init__.py"}),
     ],
 )
 def test_an_import_of_python_leads_to_the_file_that_defines_it(tmp_path: Path, text: str, imported: set[str]):
     files = {
         "niwaki/__init__.py": "",
+        "niwaki/_engine.pyi": "",
         "niwaki/plain.py": "x = 1",
         "niwaki/reader.py": text,
         "niwaki/part/__init__.py": "from niwaki.part.item import Item\ndef of_the_part(): ...",
