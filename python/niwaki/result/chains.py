@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
@@ -18,9 +18,21 @@ from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, withou
 from niwaki.result.info import Info
 from niwaki.result.progress import EngineWatch
 from niwaki.result.sample import Sample
+from niwaki.result.search_like import SearchLike
 
-if TYPE_CHECKING:
-    from niwaki.search import Search, Stage
+
+class Stage(Protocol):
+    """What keeps the checkpoint of chains (`niwaki.search.keeping`)."""
+
+    @property
+    def engine(self) -> _engine.Checkpoint:
+        """What the engine stores into."""
+
+    def collect(self) -> float:
+        """Take what the engine has stored."""
+
+    def finish(self, interrupted: bool) -> None:
+        """Write or remove the file of chains that have ended."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +133,7 @@ class MhInfo(Info):
         Of each chain, the numbers of proposals before its samples.
     """
 
-    search: Search
+    search: SearchLike
     method: Mh
     seed: int
     _running: Running | None

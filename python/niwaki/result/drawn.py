@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,7 @@ from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
 from niwaki.result.info import Info
 from niwaki.result.sample import Sample
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 
 Reals = NDArray[np.float64]
 
@@ -94,7 +92,7 @@ class DrawnInfo(Info):
         Logs of the weights of all draws; None where they weigh the same.
     """
 
-    search: Search
+    search: SearchLike
     seed: int
     sizes: tuple[int, ...]
     fixed: list[dict[str, Any]]

@@ -6,7 +6,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,7 @@ from niwaki.lang.compiled import as_fault
 from niwaki.methods import Hmc, Nuts
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.drawn import DrawnInfo
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 
 Reals = NDArray[np.float64]
 
@@ -121,7 +119,7 @@ class HmcInfo(DrawnInfo):
     fault: ModelFault | None
 
     @classmethod
-    def of(cls, search: Search, seed: int, found: _engine.Trajectories) -> HmcInfo:
+    def of(cls, search: SearchLike, seed: int, found: _engine.Trajectories) -> HmcInfo:
         """The results of chains on the engine."""
         chains = range(found.chains)
         draws = [found.draws(chain) for chain in chains]

@@ -11,7 +11,7 @@ from dataclasses import replace
 from itertools import accumulate, pairwise
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,10 +33,8 @@ from niwaki.result.invalid import Invalid
 from niwaki.result.normals import ViInfo
 from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
+from niwaki.result.search_like import SearchLike
 from niwaki.targets.sketches import Score, View
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
 
 
 class Result(Sequence[Sample]):
@@ -69,7 +67,7 @@ class Result(Sequence[Sample]):
 
     def __init__(
         self,
-        search: Search,
+        search: SearchLike,
         samples: Sequence[Sample],
         seed: int,
         *,
@@ -230,7 +228,7 @@ class Result(Sequence[Sample]):
         self._more(steps)
         stage = self.info.running.stage if isinstance(self.info, MhInfo) else None
         if stage is not None:
-            stage.keeper.finish(self.interrupted)
+            stage.finish(self.interrupted)
         return self
 
     def _more(self, steps: int | None) -> Result:
