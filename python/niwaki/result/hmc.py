@@ -15,6 +15,7 @@ from niwaki import _engine
 from niwaki.errors import ModelFault
 from niwaki.lang.compiled import as_fault
 from niwaki.methods import Hmc, Nuts
+from niwaki.result import diagnostics
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.drawn import DrawnInfo
 from niwaki.result.search_like import SearchLike
@@ -111,6 +112,8 @@ class HmcInfo(DrawnInfo):
         The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     """
 
+    _HAS_CHAINS = True
+
     log_density: Reals
     stats: dict[str, NDArray[Any]]
     step_size: Reals
@@ -141,6 +144,12 @@ class HmcInfo(DrawnInfo):
             fault=as_fault(first, search.model.name, f"seed={seed}"),
             _engine=found,
         )
+
+    def _summary(self) -> diagnostics.Summaries:
+        return diagnostics.summarise({**self.draws, "log density": self.log_density}, self.divergences)
+
+    def _says(self, samples: str) -> list[str]:
+        return [samples, f"{self.gradients} gradients", *self.divergences.named]
 
     def statistics(self) -> dict[str, NDArray[Any]]:
         """Numbers of each draw by the names that ArviZ knows, (chains, draws)."""

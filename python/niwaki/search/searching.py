@@ -370,7 +370,9 @@ def chains_of(
     info = MhInfo(search=search, method=method, seed=seed, _running=running)
     if stage is not None:
         spent = spent[0] + stage.before[0], spent[1] + stage.before[1]
-    return Result(search, [], seed, method=method, info=info, seconds=spent)._more(None)
+    result = Result(search, [], seed, method=method, info=info, seconds=spent)
+    info._go_on(result, None)
+    return result
 
 
 def trajectories(
