@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine, draw
-from niwaki.draw.scene import Part, Scene
+from niwaki.draw.assembly import Part
+from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
