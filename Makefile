@@ -39,6 +39,7 @@
 #   make package  both, and their tests: empty environments without a toolchain, one for each Python of the machine
 #                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (15 minutes)
 #   make licences write THIRD-PARTY again, after a change of Cargo.lock; `make lint` compares it
+#   make imports  circles of imports, and the map docs/ideas/imports.md again; a test compares it
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc; runs every snippet of the
 #                 manual first (ONLY="files chains": those pages; minutes)
 #   make format   format the sources
@@ -72,7 +73,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -256,6 +257,9 @@ package: $(STAMPS)/engine $(STAMPS)/test wheel sdist
 
 licences: $(STAMPS)/venv
 	$(PY) tests/house/licences.py --write
+
+imports: $(STAMPS)/venv
+	$(PY) tests/house/imports.py --write
 
 # The test extra has the libraries that pages about printing, colours and structures need.
 docs: $(STAMPS)/engine $(STAMPS)/docs $(STAMPS)/test

@@ -19,7 +19,7 @@ import niwaki as nw
 import numpy as np
 from niwaki.gallery import entry as find
 from niwaki.search.drag import Drag, Dragging
-from niwaki.search.source import NEAR
+from niwaki.search.drag.source import NEAR
 
 #: The models, and how a run of each is searched for.
 MODELS = ("simple-ship", "spaceship", "building", "gnarly-tree", "niwaki-tree")

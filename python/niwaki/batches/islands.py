@@ -24,6 +24,7 @@ from niwaki.methods import Smc
 from niwaki.result import Result, Sample
 from niwaki.result.info import Count, Losses, PopulationInfo
 from niwaki.result.invalid import merged
+from niwaki.result.search_like import SearchLike
 from niwaki.search import Search
 from niwaki.search.searching import Clock, carried_out, different
 
@@ -67,7 +68,7 @@ def spread(
         raise bad("method", method, "`smc` with a number of particles", "smc(particles=1000, populations=16)")
     workers = {"processes": processes, "executor": executor, "chunk": chunk, "progress": progress}
 
-    def one(search: Search, seed: int, *_: Any) -> Result:
+    def one(_: SearchLike, seed: int, *rest: Any) -> Result:
         return _populations(search, method, seed, folder, workers)
 
     return carried_out(search, None, None, once=one)

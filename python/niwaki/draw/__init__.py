@@ -1,6 +1,7 @@
 """A scene as pictures and files.
 
-scene.py    the parts that a model emitted
+scene.py    the parts that a model emitted, with pictures and files
+assembly.py the parts alone
 picture.py  a scene, and its target as a ghost, as one picture
 sheet.py    several pictures on one page, with captions
 plan.py     a scene from above, as SVG or pixels

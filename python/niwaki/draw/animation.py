@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from niwaki.draw.assembly import Assembly, Part, Volume
 from niwaki.draw.limits import LARGEST, check_size
 from niwaki.draw.picture import picture
-from niwaki.draw.scene import Part, Scene, Volume
 from niwaki.errors import FileError
 from niwaki.errors.files import write_whole
 from niwaki.errors.settings import count
@@ -34,7 +34,7 @@ DOTS = 10.0
 
 
 def growth(
-    scene: Scene,
+    scene: Assembly,
     path: str | PathLike[str],
     target: Volume | None = None,
     *,
@@ -64,19 +64,19 @@ def growth(
         raise FileError("scene-empty", path, verb="animate")
     order = scene.parts if parts is None else tuple(parts)
     shown = min(frames, len(order))
-    states = [Scene(order[: -(-len(order) * (k + 1) // shown)]) for k in range(shown)]
+    states = [Assembly(order[: -(-len(order) * (k + 1) // shown)]) for k in range(shown)]
     return animate(states, path, target, like=scene, **settings)
 
 
 def animate(
-    states: Sequence[Scene],
+    states: Sequence[Assembly],
     path: str | PathLike[str],
     target: Volume | None = None,
     *,
     seconds: float = 4.0,
     size: tuple[int, int] = (480, 360),
     samples: int = 4,
-    like: Scene | None = None,
+    like: Assembly | None = None,
     **settings: Any,
 ) -> Path:
     """Write a sequence of scenes as one moving picture, such as the states of a chain.
@@ -168,13 +168,13 @@ def _dotted(image: Image.Image) -> Image.Image:
     return Image.fromarray(np.clip(np.rint(pixels + dots), 0, 255).astype(np.uint8), "RGB")
 
 
-def _together(states: Sequence[Scene]) -> Scene:
+def _together(states: Sequence[Assembly]) -> Assembly:
     """One scene with the parts of all states, to frame by; a part that stays the same is taken once."""
     found: dict[tuple[str, int], Part] = {}
     for state in states:
         for part in state:
             found.setdefault((part.address, _shapes(part)), part)
-    return Scene(found.values())
+    return Assembly(found.values())
 
 
 def _shapes(part: Part) -> int:

@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike
 
-from niwaki.draw.scene import Scene
+from niwaki.draw.assembly import Assembly
 
 #: The distance from the origin at which a scene is far, in longest sides of it: 32 bits keep 170,000 steps of it there.
 FAR = 100.0
@@ -33,7 +33,7 @@ def is_far(bounds: ArrayLike) -> bool:
     return distance(bounds) > FAR
 
 
-def warn_of(scene: Scene) -> None:
+def warn_of(scene: Assembly) -> None:
     """Warn that a file of plain coordinates has more digits than some programs read."""
     if is_far(scene.bounds):
         warnings.warn(

@@ -17,12 +17,12 @@ from typing import Any
 
 from niwaki.draw import far
 from niwaki.draw.animation import growth
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.flat.svg import svg
 from niwaki.draw.glb import About, glb
 from niwaki.draw.mesh_files import obj, ply
 from niwaki.draw.print_files import stl, threemf
-from niwaki.draw.scene import Scene
 from niwaki.draw.solid import METRE, union
 from niwaki.errors import FileError
 from niwaki.errors.files import write_whole
@@ -35,7 +35,7 @@ FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS, *DRAWINGS)
 
 
 def export(
-    scene: Scene,
+    scene: Assembly,
     path: str | PathLike[str],
     *,
     scale: float | None = None,

@@ -22,13 +22,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.far import is_far
 from niwaki.draw.finite import plain
 from niwaki.draw.hierarchy import hierarchy
 from niwaki.draw.instances import Geometry, Instance, instances, quaternion
 from niwaki.draw.palette import Paint
 from niwaki.draw.parts import part_meshes
-from niwaki.draw.scene import Scene
 
 # glTF's names for numbers.
 FLOAT, UNSIGNED_INT, ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, TRIANGLES = 5126, 5125, 34962, 34963, 4
@@ -76,7 +76,7 @@ class About:
     choices: Mapping[str, Any]
 
 
-def glb(scene: Scene, about: About | None = None) -> bytes:
+def glb(scene: Assembly, about: About | None = None) -> bytes:
     """Return the scene as the bytes of a GLB file; equal scenes with equal choices give equal bytes."""
     parts = part_meshes(scene)
     geometries, placed = instances(parts)
@@ -146,7 +146,7 @@ def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
     return node
 
 
-def _below_origin(nodes: list[dict[str, Any]], roots: list[int], scene: Scene) -> int:
+def _below_origin(nodes: list[dict[str, Any]], roots: list[int], scene: Assembly) -> int:
     """Move the topmost nodes below one that has the offset of the scene; its number."""
     # A number of 32 bits, so that programs which keep no more of it lose nothing.
     offset = scene.bounds.mean(axis=0).astype(np.float32).astype(np.float64)

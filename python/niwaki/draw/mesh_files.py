@@ -11,12 +11,12 @@ import io
 
 import numpy as np
 
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.far import is_far
 from niwaki.draw.parts import part_meshes
-from niwaki.draw.scene import Scene
 
 
-def obj(scene: Scene) -> bytes:
+def obj(scene: Assembly) -> bytes:
     """The bytes of an OBJ file; equal scenes give equal bytes."""
     out = io.StringIO()
     out.write("# niwaki: scene units, y up\n")
@@ -39,7 +39,7 @@ def obj(scene: Scene) -> bytes:
     return out.getvalue().encode()
 
 
-def ply(scene: Scene) -> bytes:
+def ply(scene: Assembly) -> bytes:
     """The bytes of a binary PLY file; equal scenes give equal bytes."""
     pieces = [piece for part in part_meshes(scene) for piece in part.pieces]
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])

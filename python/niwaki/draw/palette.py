@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from niwaki._engine import Shape
-from niwaki.draw.scene import Part, Scene
+from niwaki.draw.assembly import Assembly, Part
 
 Color = tuple[float, float, float]
 
@@ -74,7 +74,7 @@ class Paint:
         return self if metalness is None else replace(self, metalness=metalness)
 
 
-def paints(scene: Scene, like: Scene | None = None) -> list[list[Paint]]:
+def paints(scene: Assembly, like: Assembly | None = None) -> list[list[Paint]]:
     """Choose the paint of each shape of each part, in order; by the kinds and the size of `like` where it is given."""
     whole = scene if like is None else like
     garden = any(

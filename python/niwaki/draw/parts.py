@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki._engine import Shape
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.finite import floats
 from niwaki.draw.palette import Paint, paints
-from niwaki.draw.scene import Scene
 
 #: Steps of a tone of the palette, sRGB in [0, 1].
 TONE_STEP = 1 / 32
@@ -51,7 +51,7 @@ class PartMesh:
     first: Shape
 
 
-def part_meshes(scene: Scene) -> list[PartMesh]:
+def part_meshes(scene: Assembly) -> list[PartMesh]:
     """The fine meshes of every part that has a shape, in the order of the addresses."""
     out = []
     for part, part_paints in zip(scene.parts, paints(scene), strict=True):

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from niwaki import _engine
+from niwaki.draw.assembly import Assembly, Volume
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.marks import is_flat
 from niwaki.draw.limits import LARGEST, check_rays, check_size
 from niwaki.draw.palette import paints
-from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
 from niwaki.errors.files import check_place, write_whole
 from niwaki.errors.settings import count, is_number
@@ -42,7 +42,7 @@ IMAGE_FORMATS = (".png", ".jpg", ".jpeg", ".webp")
 
 
 def picture(
-    scene: Scene,
+    scene: Assembly,
     target: Volume | None = None,
     *,
     size: tuple[int, int] = (960, 720),
@@ -54,8 +54,8 @@ def picture(
     camera: Camera | None = None,
     backdrop: Backdrop = "studio",
     lift: float = 0.0,
-    frame: Scene | None = None,
-    like: Scene | None = None,
+    frame: Assembly | None = None,
+    like: Assembly | None = None,
     style: str = "ink",
     window: Window | None = None,
     under: NDArray[np.bool_] | None = None,
@@ -155,7 +155,7 @@ def picture(
     return Image.fromarray(pixels, "RGBA")
 
 
-def surfaces(scene: Scene, like: Scene | None = None) -> list[tuple[Any, ...]]:
+def surfaces(scene: Assembly, like: Assembly | None = None) -> list[tuple[Any, ...]]:
     """Make the fine meshes of all shapes with their paint, as the engine's `render` takes them."""
     meshes = []
     for part, part_paints in zip(scene.parts, paints(scene, like), strict=True):
@@ -173,7 +173,7 @@ def png(image: Image.Image) -> bytes:
     return out.getvalue()
 
 
-def save(scene: Scene, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
+def save(scene: Assembly, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
     """Draws a scene into a file; `settings` are those of `picture`."""
     return save_image(lambda: picture(scene, target, **settings), path)
 
@@ -208,7 +208,7 @@ def check_image(path: str | PathLike[str]) -> Path:
     return check_place(place)
 
 
-def preview(scene: Scene) -> bytes:
+def preview(scene: Assembly) -> bytes:
     """Return a small picture of a scene as the bytes of a PNG file, for notebooks; one clear pixel of an empty one."""
     return png(picture(scene, size=(800, 600)) if len(scene) else Image.new("RGBA", (1, 1)))
 

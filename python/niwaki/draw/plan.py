@@ -13,11 +13,11 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.finite import finite
 from niwaki.draw.page import Page
 from niwaki.draw.palette import paints
 from niwaki.draw.picture import png
-from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 from niwaki.errors.files import write_whole
 from niwaki.words.vectors import VecLike, _vec
@@ -49,7 +49,7 @@ class Patch:
     height: float
 
 
-def patches(scene: Scene, outline: Sequence[VecLike] = ()) -> list[Patch]:
+def patches(scene: Assembly, outline: Sequence[VecLike] = ()) -> list[Patch]:
     """What a plan shows, from the floor upwards.
 
     Parameters
@@ -77,7 +77,7 @@ def patches(scene: Scene, outline: Sequence[VecLike] = ()) -> list[Patch]:
 
 
 def plan(
-    scene: Scene,
+    scene: Assembly,
     outline: Sequence[VecLike] = (),
     *,
     width: int = 960,
@@ -125,7 +125,7 @@ def plan(
     return page.resize((size[0] // 4, size[1] // 4), Image.Resampling.LANCZOS)
 
 
-def plan_svg(scene: Scene, outline: Sequence[VecLike] = (), *, margin: float = 0.04) -> str:
+def plan_svg(scene: Assembly, outline: Sequence[VecLike] = (), *, margin: float = 0.04) -> str:
     """Write a scene from above as SVG; one unit of the page is one of the scene (see `niwaki.draw.page`).
 
     Parameters
@@ -147,7 +147,7 @@ def plan_svg(scene: Scene, outline: Sequence[VecLike] = (), *, margin: float = 0
     return "\n".join([*lines, "</svg>", ""])
 
 
-def save(path: str | PathLike[str], scene: Scene, outline: Sequence[VecLike] = ()) -> Path:
+def save(path: str | PathLike[str], scene: Assembly, outline: Sequence[VecLike] = ()) -> Path:
     """Write a plan into a file, SVG or PNG by the end of its name.
 
     Parameters

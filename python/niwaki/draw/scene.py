@@ -1,57 +1,19 @@
-"""A scene: the parts that a model emitted, each named by the address of its `emit`.
-
-A scene is a multiset; its parts are kept in the order of their addresses, so that two runs which emitted the same
-parts in different order give the same files.
-"""
+"""A scene: the parts that a model emitted, with pictures and files of them."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from niwaki import _engine, draw
-from niwaki._engine import Shape
+from niwaki import draw
+from niwaki.draw.assembly import Assembly, Volume
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-class Volume(Protocol):
-    """What a scene should fill, as a picture needs it: a mesh that is drawn as a ghost."""
-
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int64]
-
-    @property
-    def bounds(self) -> NDArray[np.float64]:
-        """Low and high corner, (2, 3)."""
-        ...
-
-
-@dataclass(frozen=True)
-class Part:
-    """The shapes of one `emit`.
-
-    Attributes
-    ----------
-    address : str
-        Where the model emitted them, readable.
-    shapes : tuple of Shape
-        In the order of the call.
-    """
-
-    address: str
-    shapes: tuple[Shape, ...]
-
-
-class Scene:
+class Scene(Assembly):
     """Parts in the order of their addresses.
 
     Parameters
@@ -63,59 +25,6 @@ class Scene:
     ----------
     parts : tuple of Part
     """
-
-    def __init__(self, parts: Iterable[Part | tuple[str, Iterable[Shape]]]) -> None:
-        listed = [part if isinstance(part, Part) else Part(part[0], tuple(part[1])) for part in parts]
-        self.parts: tuple[Part, ...] = tuple(sorted(listed, key=lambda part: _natural(part.address)))
-
-    def __len__(self) -> int:
-        """Count the parts."""
-        return len(self.parts)
-
-    def __iter__(self) -> Iterator[Part]:
-        """Go through the parts in the order of their addresses."""
-        return iter(self.parts)
-
-    def __repr__(self) -> str:
-        """Count parts and shapes."""
-        count = sum(len(part.shapes) for part in self.parts)
-        return f"<Scene: {len(self)} parts, {count} shapes>"
-
-    @property
-    def bounds(self) -> NDArray[np.float64]:
-        """Low and high corner of the smallest box around all shapes, (2, 3); zeros for an empty scene."""
-        boxes = np.array([shape.aabb() for part in self.parts for shape in part.shapes], dtype=np.float64)
-        if len(boxes) == 0:
-            return np.zeros((2, 3))
-        return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
-
-    @property
-    def size(self) -> NDArray[np.float64]:
-        """Extent along x, y and z, (3,)."""
-        low, high = self.bounds
-        return np.asarray(high - low)
-
-    def merged(self, fine: bool = True) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """All shapes as one mesh, without joining them.
-
-        Parameters
-        ----------
-        fine
-            The mesh of pictures; otherwise the light one that scores see.
-
-        Returns
-        -------
-        vertices : (n, 3) float64
-        faces : (m, 3) int64
-        """
-        vertices, faces, count = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)], 0
-        for part in self.parts:
-            for shape in part.shapes:
-                v, f = _engine.fine_mesh(shape)[:2] if fine else (shape.vertices(), shape.faces())
-                vertices.append(v)
-                faces.append(f + count)
-                count += len(v)
-        return np.concatenate(vertices), np.concatenate(faces)
 
     def picture(self, target: Volume | None = None, **settings: Any) -> Image:
         """Draw the scene; see `niwaki.draw.picture.picture`."""
@@ -142,8 +51,3 @@ class Scene:
 
     def _repr_png_(self) -> bytes:
         return draw.picture.preview(self)
-
-
-def _natural(address: str) -> tuple[tuple[str, int], ...]:
-    """Make a key that sorts `wing[10]` after `wing[9]`."""
-    return tuple((text, int(digits or -1)) for text, digits in re.findall(r"([^0-9]*)([0-9]*)", address))

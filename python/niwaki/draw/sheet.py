@@ -13,15 +13,15 @@ from typing import Any
 from PIL import Image, ImageDraw, ImageFont
 
 from niwaki._engine import Shape
+from niwaki.draw.assembly import Assembly, Volume
 from niwaki.draw.limits import check_size
 from niwaki.draw.picture import BACKDROPS, picture, save_image
-from niwaki.draw.scene import Scene, Volume
 from niwaki.errors import FileError
 from niwaki.errors.settings import count
 
 
 def sheet(
-    scenes: Sequence[Scene],
+    scenes: Sequence[Assembly],
     captions: Sequence[str] | None = None,
     target: Volume | None = None,
     *,
@@ -87,7 +87,7 @@ def sheet(
     return page
 
 
-def save(path: str | PathLike[str], scenes: Sequence[Scene], *arguments: Any, **settings: Any) -> Path:
+def save(path: str | PathLike[str], scenes: Sequence[Assembly], *arguments: Any, **settings: Any) -> Path:
     """Draws a sheet into an image file; arguments and settings as for `sheet`."""
     return save_image(lambda: sheet(scenes, *arguments, **settings), path)
 
@@ -100,12 +100,12 @@ def _columns(count: int) -> int:
     return across
 
 
-def _together(scenes: Sequence[Scene], target: Volume | None) -> Scene:
+def _together(scenes: Sequence[Assembly], target: Volume | None) -> Assembly:
     """One scene with all parts, to frame by."""
     parts = [(f"{k}", [shape for part in scene for shape in part.shapes]) for k, scene in enumerate(scenes)]
     if target is not None:
         parts.append(("target", [Shape.mesh(target.vertices, target.faces)]))
-    return Scene(parts)
+    return Assembly(parts)
 
 
 def _fit(text: str, font: Any, width: float) -> str:

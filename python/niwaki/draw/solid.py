@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.far import is_far
 from niwaki.draw.finite import finite, floats
-from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
 
@@ -58,7 +58,7 @@ class Solid:
     pieces: int
 
 
-def union(scene: Scene, scale: float = METRE, fuse: float | None = None) -> Solid:
+def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> Solid:
     """Join all shapes of a scene to one solid.
 
     Parameters
@@ -126,7 +126,7 @@ def kernel() -> Any:
     return optional("manifold3d", "joining parts to a solid", "print")
 
 
-def _solids(scene: Scene, tools: Any, swell: float) -> list[Any]:
+def _solids(scene: Assembly, tools: Any, swell: float) -> list[Any]:
     """Each shape as a solid of manifold3d; those that are not closed are reported together."""
     found, bad = [], []
     # The solid is moved anyway, and the library's tolerance grows with the distance from the origin.

@@ -15,10 +15,11 @@ from PIL.Image import Image
 import niwaki as nw
 from niwaki import draw, gallery, guides
 from niwaki._engine import Shape
+from niwaki.draw.assembly import Part
 from niwaki.draw.flat.drawing import Window, drawing
 from niwaki.draw.flat.svg import svg
 from niwaki.draw.limits import LARGEST
-from niwaki.draw.scene import Part, Scene
+from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.files import write_whole
 from niwaki.errors.memory import check_room

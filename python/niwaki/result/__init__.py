@@ -8,6 +8,8 @@ chains       statistics of Markov chains, and how chains continue
 drawn        draws that are kept as numbers
 hmc          statistics of chains that follow a gradient
 normals      normals of variational inference
+dragged      what a drag of a part gives
+search_like  what a result knows of its search
 progress     how far a search is
 diagnostics  whether draws of chains can be trusted; draws for ArviZ
 gradient     the log density of a run, with its gradient

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple, Protocol
 
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
@@ -15,12 +16,26 @@ from niwaki.methods.kernels import Kernel
 from niwaki.once import cached_property
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.hmc import SOME, diverged, kept, listed, refused, say, without_slope
-from niwaki.result.info import Info
+from niwaki.result.info import Info, S
+from niwaki.result.invalid import Invalid
 from niwaki.result.progress import EngineWatch
+from niwaki.result.result import Result
 from niwaki.result.sample import Sample
+from niwaki.result.search_like import SearchLike
 
-if TYPE_CHECKING:
-    from niwaki.search import Search, Stage
+
+class Stage(Protocol):
+    """What keeps the checkpoint of chains (`niwaki.search.keeping`)."""
+
+    @property
+    def engine(self) -> _engine.Checkpoint:
+        """What the engine stores into."""
+
+    def collect(self) -> float:
+        """Take what the engine has stored."""
+
+    def finish(self, interrupted: bool) -> None:
+        """Write or remove the file of chains that have ended."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +136,9 @@ class MhInfo(Info):
         Of each chain, the numbers of proposals before its samples.
     """
 
-    search: Search
+    _HAS_CHAINS = True
+
+    search: SearchLike
     method: Mh
     seed: int
     _running: Running | None
@@ -153,6 +170,32 @@ class MhInfo(Info):
     def samples_of(self, runs: Iterable[_engine.Run]) -> list[Sample]:
         """Runs as samples of this search."""
         return [Sample(run, self.search, self.seed, *self.seconds) for run in runs]
+
+    def _pool(self, samples: Sequence[S]) -> list[Sample]:
+        return self.bests
+
+    def _go_on(self, result: Result, steps: int | None) -> None:
+        """Go on; without a number of proposals, with those that the method names or an earlier process left."""
+        chains, counted, watch, threads, stage = self.running
+        kept = None if stage is None else stage.engine
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            with translated(self.search.model.name, f"seed={result.seed}"):
+                result.interrupted = chains.advance(steps, threads, watch, kept)
+        finally:
+            result.seconds += time.perf_counter() - wall
+            result.cpu_seconds += time.process_time() - cpu
+            if stage is not None:
+                stage.collect()
+            by_chain = chains.samples()
+            visits = [[run.visit for run in runs] for runs in by_chain]
+            now = replace(self, visits=visits, seconds=(result.seconds, result.cpu_seconds))
+            result.info, result.samples = now, now.samples_of(run for runs in by_chain for run in runs)
+            result.sizes = [len(runs) for runs in by_chain]
+            result.invalid = tuple(Invalid(*one) for one in counted.invalid())
+        now.warn()
+        if steps is not None and stage is not None:
+            stage.finish(result.interrupted)
 
     @cached_property
     def bests(self) -> list[Sample]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from operator import add
 from statistics import NormalDist
@@ -478,3 +478,12 @@ def _time(rho: Reals) -> float:
     kept = np.minimum.accumulate(sums[:last]) if last else np.zeros(0)
     # The first lag of the pair that ends the sum still counts, once, where it is positive.
     return float(-1.0 + 2.0 * kept.sum() + max(float(rho[2 * last]), 0.0))
+
+
+def together(chains: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """The values of several chains, (chains, draws, ...), of the choices that all of them have."""
+    return {
+        path: np.array([chain[path] for chain in chains])
+        for path, values in (chains[0].items() if chains else ())
+        if all(path in chain and chain[path].shape == values.shape for chain in chains)
+    }

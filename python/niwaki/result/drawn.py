@@ -5,9 +5,9 @@ A draw becomes a `Sample`, with scene and choices, when it is read.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from niwaki import _engine
 from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
-from niwaki.result.info import Info
+from niwaki.result.diagnostics import together
+from niwaki.result.info import Info, S
 from niwaki.result.sample import Sample
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 
 Reals = NDArray[np.float64]
 
@@ -38,15 +37,6 @@ class Engine(Protocol):
 
     def scores(self, chain: int) -> tuple[Reals, Reals]:
         """Log prior and log score of each draw, nats."""
-
-
-def together(chains: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
-    """The values of several chains, (chains, draws, ...), of the choices that all of them have."""
-    return {
-        path: np.array([chain[path] for chain in chains])
-        for path, values in (chains[0].items() if chains else ())
-        if all(path in chain and chain[path].shape == values.shape for chain in chains)
-    }
 
 
 class Drawn(Sequence[Sample]):
@@ -94,12 +84,28 @@ class DrawnInfo(Info):
         Logs of the weights of all draws; None where they weigh the same.
     """
 
-    search: Search
+    search: SearchLike
     seed: int
     sizes: tuple[int, ...]
     fixed: list[dict[str, Any]]
     log_weights: Reals | None = None
     _engine: Engine | None = None
+
+    def statistics(self) -> dict[str, NDArray[Any]]:
+        """Numbers of each draw by the names that ArviZ knows, (chains, draws)."""
+        raise NotImplementedError
+
+    def _draws(self) -> dict[str, Reals]:
+        return self.draws
+
+    def _statistics(self) -> dict[str, NDArray[Any]]:
+        return self.statistics()
+
+    def _log_weights(self) -> Reals:
+        return np.zeros(sum(self.sizes)) if self.log_weights is None else self.log_weights
+
+    def _pool(self, samples: Sequence[S]) -> Sequence[S]:
+        return [samples[self.best_draw]] if len(samples) else samples
 
     def __getstate__(self) -> dict[str, Any]:
         """All numbers of the draws, without the engine."""

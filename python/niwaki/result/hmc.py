@@ -6,7 +6,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,10 @@ from niwaki import _engine
 from niwaki.errors import ModelFault
 from niwaki.lang.compiled import as_fault
 from niwaki.methods import Hmc, Nuts
+from niwaki.result import diagnostics
 from niwaki.result.diagnostics import Divergences
 from niwaki.result.drawn import DrawnInfo
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 
 Reals = NDArray[np.float64]
 
@@ -113,6 +112,8 @@ class HmcInfo(DrawnInfo):
         The fault, with its line, of the first trajectory that reached a point without a finite gradient.
     """
 
+    _HAS_CHAINS = True
+
     log_density: Reals
     stats: dict[str, NDArray[Any]]
     step_size: Reals
@@ -121,7 +122,7 @@ class HmcInfo(DrawnInfo):
     fault: ModelFault | None
 
     @classmethod
-    def of(cls, search: Search, seed: int, found: _engine.Trajectories) -> HmcInfo:
+    def of(cls, search: SearchLike, seed: int, found: _engine.Trajectories) -> HmcInfo:
         """The results of chains on the engine."""
         chains = range(found.chains)
         draws = [found.draws(chain) for chain in chains]
@@ -143,6 +144,12 @@ class HmcInfo(DrawnInfo):
             fault=as_fault(first, search.model.name, f"seed={seed}"),
             _engine=found,
         )
+
+    def _summary(self) -> diagnostics.Summaries:
+        return diagnostics.summarise({**self.draws, "log density": self.log_density}, self.divergences)
+
+    def _says(self, samples: str) -> list[str]:
+        return [samples, f"{self.gradients} gradients", *self.divergences.named]
 
     def statistics(self) -> dict[str, NDArray[Any]]:
         """Numbers of each draw by the names that ArviZ knows, (chains, draws)."""

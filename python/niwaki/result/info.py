@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from math import exp, inf
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
+from niwaki.errors.settings import bad
 from niwaki.lang.blame import Blame
+from niwaki.result.diagnostics import Summaries
+
+S = TypeVar("S")
 
 
 class Count(NamedTuple):
@@ -85,6 +92,40 @@ class Info:
 
     log_evidence: float | None = None
 
+    #: Whether the samples are those of chains.
+    _HAS_CHAINS: ClassVar[bool] = False
+
+    # What a result asks of its statistics: what only some methods have is None for the others.
+
+    def _draws(self) -> dict[str, NDArray[Any]] | None:
+        """Draws that are kept as numbers, by address."""
+        return None
+
+    def _statistics(self) -> dict[str, NDArray[Any]] | None:
+        """Numbers of each draw by the names that ArviZ knows."""
+        return None
+
+    def _summary(self) -> Summaries | None:
+        """Whether the draws can be trusted, where the statistics say more than the draws."""
+        return None
+
+    def _log_weights(self) -> NDArray[np.float64] | None:
+        """Logs of the weights of draws that are kept as numbers."""
+        return None
+
+    def _pool(self, samples: Sequence[S]) -> Sequence[Any]:
+        """The samples of which the best is taken."""
+        return samples
+
+    def _says(self, samples: str) -> list[str] | None:
+        """How a result is described in one line, given how many samples it has; None: by the best of them."""
+        return None
+
+    def _go_on(self, result: Any, steps: int | None) -> None:
+        """Go on with the chains of a result, which is changed."""
+        suggestion = "`mh(...)`, or call `polish` first"
+        raise bad("method", result.method, "a result of `mh`, whose chains can go on", suggestion)
+
 
 @dataclass(frozen=True)
 class EnumerationInfo(Info):
@@ -107,6 +148,9 @@ class EnumerationInfo(Info):
     runs: int = 0
     unseen: float = 0.0
     log_unseen: float | None = None
+
+    def _says(self, samples: str) -> list[str]:
+        return [f"{len(self.table)} values, {self.runs} runs"]
 
     def bounds(self, value: Any) -> tuple[float, float]:
         """The probability of a value lies between these; both are the same where all runs were visited.

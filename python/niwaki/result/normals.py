@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,9 +14,7 @@ from niwaki.methods import Vi
 from niwaki.result.diagnostics import psis
 from niwaki.result.drawn import DrawnInfo, Reals
 from niwaki.result.hmc import say
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 
 #: Above this k, the weights are too uneven for estimates (Vehtari, Simpson, Gelman, Yao & Gabry 2024, section 3.2.4).
 UNEVEN = 0.7
@@ -103,7 +100,7 @@ class ViInfo(DrawnInfo):
     fault: ModelFault | None
 
     @classmethod
-    def of(cls, search: Search, seed: int, found: _engine.Normals) -> ViInfo:
+    def of(cls, search: SearchLike, seed: int, found: _engine.Normals) -> ViInfo:
         """The results of the engine."""
         normals = range(found.chains)
         counts = [found.counters(one) for one in normals]
@@ -162,6 +159,10 @@ class ViInfo(DrawnInfo):
             return 0.0
         shares = np.exp(logs - logs.max())
         return float(shares.sum() ** 2 / np.square(shares).sum())
+
+    def _says(self, samples: str) -> list[str]:
+        bound = f"evidence bound {self.log_evidence_bound:.4g} ({self.bound_error:.1g})"
+        return [samples, f"{self.gradients} gradients", bound, f"k-hat {self.k_hat:.2f}"]
 
     def statistics(self) -> dict[str, Reals]:
         """Numbers of each draw, (normals, draws)."""

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from niwaki import _engine
 from niwaki.result.sample import Sample
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 
 
 @dataclass(frozen=True)
@@ -44,7 +41,7 @@ Watch = Callable[[Progress], None]
 EngineWatch = Callable[[int, int, float, _engine.Run | None], None]
 
 
-def watcher(progress: Watch | None, search: Search, number: int = 0, runs: int = 1) -> EngineWatch:
+def watcher(progress: Watch | None, search: SearchLike, number: int = 0, runs: int = 1) -> EngineWatch:
     """The function that the engine calls, around the user's `progress`."""
 
     def watch(done: int, ended: int, best: float, run: _engine.Run | None) -> None:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from itertools import accumulate, pairwise
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,23 +18,17 @@ from niwaki import _engine, draw, targets
 from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.errors.settings import bad
-from niwaki.lang.compiled import LOOSEN, translated
+from niwaki.lang.compiled import LOOSEN
 from niwaki.lang.models import Model
 from niwaki.methods import Method, Mh, at_least_one
 from niwaki.once import cached_property
 from niwaki.result import diagnostics
-from niwaki.result.chains import MhInfo
-from niwaki.result.drawn import DrawnInfo, together
-from niwaki.result.hmc import HmcInfo
 from niwaki.result.info import EnumerationInfo, Info
 from niwaki.result.invalid import Invalid
-from niwaki.result.normals import ViInfo
 from niwaki.result.progress import Watch
 from niwaki.result.sample import Sample
+from niwaki.result.search_like import SearchLike
 from niwaki.targets.sketches import Score, View
-
-if TYPE_CHECKING:
-    from niwaki.search import Search
 
 
 class Result(Sequence[Sample]):
@@ -69,7 +61,7 @@ class Result(Sequence[Sample]):
 
     def __init__(
         self,
-        search: Search,
+        search: SearchLike,
         samples: Sequence[Sample],
         seed: int,
         *,
@@ -148,10 +140,11 @@ class Result(Sequence[Sample]):
         continuous choices); of as many samples as the shortest chain has. Where samples have weights, they are not
         among these: see `weights`.
         """
-        if isinstance(self.info, DrawnInfo):
-            return self.info.draws
+        kept = self.info._draws()
+        if kept is not None:
+            return kept
         least = min(self.sizes, default=0)
-        return together([_columns(chain[:least]) for chain in self.by_chain])
+        return diagnostics.together([_columns(chain[:least]) for chain in self.by_chain])
 
     def to_arviz(self) -> Any:
         """The draws for ArviZ, with the samples' statistics: a `DataTree` with 1.x, an `InferenceData` before.
@@ -161,8 +154,9 @@ class Result(Sequence[Sample]):
         FileError
             ArviZ is not installed.
         """
-        if isinstance(self.info, HmcInfo | ViInfo):
-            return diagnostics.to_arviz(self.draws, self.info.statistics())
+        statistics = self.info._statistics()
+        if statistics is not None:
+            return diagnostics.to_arviz(self.draws, statistics)
         numbers = {"lp": self._numbers("log_joint"), "log_weight": self._numbers("log_weight")}
         return diagnostics.to_arviz(self.draws, numbers)
 
@@ -176,10 +170,9 @@ class Result(Sequence[Sample]):
         InputError
             The samples do not weigh the same.
         """
-        if isinstance(self.info, HmcInfo):
-            return diagnostics.summarise(
-                {**self.draws, "log density": self.info.log_density}, self.info.divergences
-            )
+        found = self.info._summary()
+        if found is not None:
+            return found
         if len(set(self._log_weights())) > 1:
             raise bad(
                 "method",
@@ -206,11 +199,7 @@ class Result(Sequence[Sample]):
     @property
     def best(self) -> Sample:
         """The sample of the best log score; runs that ended come first. Of `mh`, any state that a chain reached."""
-        pool: Sequence[Sample] = self.samples
-        if isinstance(self.info, MhInfo):
-            pool = self.info.bests
-        elif isinstance(self.info, DrawnInfo) and len(pool):
-            pool = [self.samples[self.info.best_draw]]
+        pool: Sequence[Sample] = self.info._pool(self.samples)
         if not len(pool):
             raise InputError("no-runs", detail=repr(self))
         possible = [s for s in pool if s.has_ended and s.log_score > -math.inf]
@@ -227,39 +216,7 @@ class Result(Sequence[Sample]):
             Proposals in each chain.
         """
         at_least_one("steps", steps)
-        self._more(steps)
-        stage = self.info.running.stage if isinstance(self.info, MhInfo) else None
-        if stage is not None:
-            stage.keeper.finish(self.interrupted)
-        return self
-
-    def _more(self, steps: int | None) -> Result:
-        """The same; without a number, the proposals that the method names or that an earlier process left."""
-        if not isinstance(self.info, MhInfo):
-            raise bad(
-                "method",
-                self.method,
-                "a result of `mh`, whose chains can go on",
-                "`mh(...)`, or call `polish` first",
-            )
-        chains, counted, watch, threads, stage = self.info.running
-        kept = None if stage is None else stage.engine
-        wall, cpu = time.perf_counter(), time.process_time()
-        try:
-            with translated(self.model.name, f"seed={self.seed}"):
-                self.interrupted = chains.advance(steps, threads, watch, kept)
-        finally:
-            self.seconds += time.perf_counter() - wall
-            self.cpu_seconds += time.process_time() - cpu
-            if stage is not None:
-                stage.collect()
-            by_chain = chains.samples()
-            visits = [[run.visit for run in runs] for runs in by_chain]
-            self.info = replace(self.info, visits=visits, seconds=(self.seconds, self.cpu_seconds))
-            self.samples = self.info.samples_of(run for runs in by_chain for run in runs)
-            self.sizes = [len(runs) for runs in by_chain]
-            self.invalid = tuple(Invalid(*one) for one in counted.invalid())
-        self.info.warn()
+        self.info._go_on(self, steps)
         return self
 
     def polish(
@@ -339,8 +296,9 @@ class Result(Sequence[Sample]):
 
     def _log_weights(self) -> NDArray[np.float64]:
         """Logs of the weights, (n,)."""
-        if isinstance(self.info, DrawnInfo):
-            return np.zeros(len(self)) if self.info.log_weights is None else self.info.log_weights
+        kept = self.info._log_weights()
+        if kept is not None:
+            return kept
         return np.array([sample.log_weight for sample in self.samples], dtype=np.float64)
 
     def resampled(self, n: int, seed: int | None = None) -> list[Sample]:
@@ -416,7 +374,7 @@ class Result(Sequence[Sample]):
         """The best sample and the numbers of the search; a small sheet where each sample is a run of its own."""
         rows: dict[str, Any] = {"method": self.method.NAME, "samples": len(self)}
         png = None
-        if self.samples or isinstance(self.info, MhInfo):
+        if self.samples or self.info._pool(self.samples):
             rows |= {f"best {name}": value for name, value in self.best.numbers.items() if name != "seed"}
             png = self.best._repr_png_()
         if (
@@ -437,16 +395,10 @@ class Result(Sequence[Sample]):
         return [f"{sum(one.runs for one in self.invalid)} invalid"] if self.invalid else []
 
     def __repr__(self) -> str:
-        parts = [f"{len(self)} sample{'' if len(self) == 1 else 's'}"]
-        if isinstance(self.info, EnumerationInfo):
-            parts = [f"{len(self.info.table)} values, {self.info.runs} runs"]
-        elif isinstance(self.info, HmcInfo):
-            parts = [*parts, f"{self.info.gradients} gradients", *self.info.divergences.named]
-        elif isinstance(self.info, ViInfo):
-            own = self.info
-            bound = f"evidence bound {own.log_evidence_bound:.4g} ({own.bound_error:.1g})"
-            parts = [*parts, f"{own.gradients} gradients", bound, f"k-hat {own.k_hat:.2f}"]
-        elif self.samples or isinstance(self.info, MhInfo):
+        samples = f"{len(self)} sample{'' if len(self) == 1 else 's'}"
+        said = self.info._says(samples)
+        parts = [samples] if said is None else said
+        if said is None and (self.samples or self.info._pool(self.samples)):
             parts.append(f"best log score {self.best.log_score:.2f}")
             if self.best.fit is not None:
                 parts.append(str(self.best.fit))
@@ -455,7 +407,7 @@ class Result(Sequence[Sample]):
                 f"log evidence {self.log_evidence:.4g}"
                 + (" with invalid runs as zero" if self.invalid else "")
             )
-        if isinstance(self.info, MhInfo | HmcInfo):
+        if self.info._HAS_CHAINS:
             count = len(self.sizes)
             parts.insert(0, f"{count} chain{'' if count == 1 else 's'}")
         parts.append(f"seed {self.seed}")

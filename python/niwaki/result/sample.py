@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from niwaki import _engine, draw
-from niwaki.draw.scene import Part, Scene
+from niwaki.draw.assembly import Part
+from niwaki.draw.scene import Scene
 from niwaki.errors import InputError
 from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
@@ -18,8 +19,9 @@ from niwaki.targets.fit import Fit, fit
 from niwaki.targets.target import Target
 
 if TYPE_CHECKING:
-    from niwaki import Result
-    from niwaki.search import Drag, Search
+    from niwaki.result.dragged import Drag
+    from niwaki.result.result import Result
+    from niwaki.result.search_like import SearchLike
 
 
 class Sample:
@@ -54,7 +56,7 @@ class Sample:
     def __init__(
         self,
         run: _engine.Run,
-        search: Search,
+        search: SearchLike,
         seed: int | None = None,
         seconds: float = 0.0,
         cpu_seconds: float = 0.0,
@@ -71,7 +73,7 @@ class Sample:
         self.seed, self.seconds, self.cpu_seconds = seed, seconds, cpu_seconds
 
     @classmethod
-    def of_trace(cls, trace: _engine.Trace, search: Search, *rest: Any) -> Sample:
+    def of_trace(cls, trace: _engine.Trace, search: SearchLike, *rest: Any) -> Sample:
         """A run whose choices were given."""
         sample = cls(trace.run, search, *rest)
         sample.__dict__["_trace"] = trace
@@ -330,7 +332,7 @@ class Sample:
         return f"<Sample: {', '.join(parts)}>"
 
 
-def _restored(search: Search, data: str, *rest: Any) -> Sample:
+def _restored(search: SearchLike, data: str, *rest: Any) -> Sample:
     """The sample of its pickled data; the returned value comes from another run, when it is read."""
     return Sample(search.task.run_of_data(data), search, *rest)
 

@@ -8,8 +8,7 @@ checkpoint  the file from which a search goes on after it was killed
 keeping     when it is written, and what is in it
 searching   running a search: run by run, each by its method
 collisions  which parts of a scene break its constraints
-drag        a part dragged to a point, by the derivatives of its place
-source      a drag that a number of the source explains, as a change of the file
+drag        a part dragged to a point, by the derivatives of its place, or by a number of the source
 worth       what is said of a result that is worth less than its search promised
 """
 

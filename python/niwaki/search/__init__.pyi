@@ -3,6 +3,7 @@ from .checks import fresh as fresh
 from .drag import Drag as Drag
 from .drag import Dragged as Dragged
 from .drag import Dragging as Dragging
+from .drag.source import SourceChange as SourceChange
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
 from .entry import POWER as POWER
@@ -13,5 +14,4 @@ from .entry import run as run
 from .entry import usual as usual
 from .keeping import Stage as Stage
 from .request import Search as Search
-from .source import SourceChange as SourceChange
 from .worth import SearchWarning as SearchWarning

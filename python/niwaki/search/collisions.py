@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from niwaki import _engine
-from niwaki.draw.scene import Part, Scene
+from niwaki.draw.assembly import Part
+from niwaki.draw.scene import Scene
 from niwaki.methods import Forward
 from niwaki.search.request import Search
 from niwaki.targets.sketches import Score

@@ -143,6 +143,10 @@ class Stage:
 
         return watching
 
+    def finish(self, interrupted: bool) -> None:
+        """Write or remove the file of a search that has ended with this stage."""
+        self.keeper.finish(interrupted)
+
     def _tick(self) -> None:
         now = time.monotonic()
         if self._asked is None:

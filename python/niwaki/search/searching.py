@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import astuple, replace
 from math import exp
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from msgspec import Struct
 
@@ -36,14 +36,11 @@ from niwaki.result.info import (
 from niwaki.result.invalid import Invalid, merged
 from niwaki.result.normals import ViInfo
 from niwaki.result.progress import EngineWatch, Watch, watcher
+from niwaki.result.search_like import SearchLike
 from niwaki.search.checkpoint import Checkpoint, understood
 from niwaki.search.checks import check_polish, check_seed, check_threads
 from niwaki.search.keeping import Keeper, Stage
 from niwaki.search.worth import SearchWarning, check_kinds, check_reach, check_worth
-
-if TYPE_CHECKING:
-    from niwaki.search.request import Search
-
 
 #: So many of the things that a guide has lost are named.
 SHOWN = 6
@@ -61,17 +58,17 @@ class Left(Struct):
     seconds: tuple[float, float]
 
 
-def keeper(search: Search, checkpoint: Checkpoint) -> Keeper:
+def keeper(search: SearchLike, checkpoint: Checkpoint) -> Keeper:
     """What keeps the checkpoint of a search; an error where the file is of another one."""
     return Keeper(checkpoint, "search", search.about, search.data())
 
 
 def carried_out(
-    search: Search,
+    search: SearchLike,
     threads: int | None,
     progress: Watch | None,
     keeper: Keeper | None = None,
-    once: Callable[[Search, int, int | None, EngineWatch, Stage | None], Result] | None = None,
+    once: Callable[[SearchLike, int, int | None, EngineWatch, Stage | None], Result] | None = None,
 ) -> Result:
     """Run a search, run by run, each by `once`: on the engine here, when it is left out.
 
@@ -188,7 +185,7 @@ def _leave(
     keeper.write_if_due()
 
 
-def _left(keeper: Keeper | None, name: str, search: Search, seed: int) -> Result | None:
+def _left(keeper: Keeper | None, name: str, search: SearchLike, seed: int) -> Result | None:
     """What a run gave, in the checkpoint; None where it is not there."""
     data = None if keeper is None else keeper.get(name)
     if keeper is None or data is None:
@@ -214,7 +211,7 @@ def _lost(error: InputError | ModelFault) -> str:
     return f": {said}; {error.values.get('cure', '')}"
 
 
-def _check_guide(search: Search, guide: Guide) -> None:
+def _check_guide(search: SearchLike, guide: Guide) -> None:
     """Warn where a guide is of another version of the model."""
     with translated(search.model.name):
         lost = guide._engine.lost(search.task)
@@ -253,14 +250,14 @@ def starts(method: Method) -> bool:
     return isinstance(method, Mh | Hmc | Nuts | Vi | ParticleGibbs)
 
 
-def given(search: Search, seed: int | None = None) -> Result:
+def given(search: SearchLike, seed: int | None = None) -> Result:
     """The one run whose choices are given; missing ones are drawn if there is a seed."""
     with translated(search.model.name, choices=search.choices):
         trace = search.task.replay(dict(search.choices or {}), seed)
     return Result(search, [Sample.of_trace(trace, search)], search.seed)
 
 
-def _start(search: Search, seed: int) -> _engine.Run | None:
+def _start(search: SearchLike, seed: int) -> _engine.Run | None:
     """The run that chains start from."""
     if search.choices is None:
         return None
@@ -269,7 +266,7 @@ def _start(search: Search, seed: int) -> _engine.Run | None:
 
 
 def searched(
-    search: Search, seed: int, threads: int | None, watch: EngineWatch, stage: Stage | None = None
+    search: SearchLike, seed: int, threads: int | None, watch: EngineWatch, stage: Stage | None = None
 ) -> Result:
     """One run of a search, with one seed."""
     check_method(search.method)
@@ -348,7 +345,7 @@ def different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine.
 
 
 def chains_of(
-    search: Search,
+    search: SearchLike,
     method: Mh,
     seed: int,
     threads: int | None,
@@ -373,11 +370,13 @@ def chains_of(
     info = MhInfo(search=search, method=method, seed=seed, _running=running)
     if stage is not None:
         spent = spent[0] + stage.before[0], spent[1] + stage.before[1]
-    return Result(search, [], seed, method=method, info=info, seconds=spent)._more(None)
+    result = Result(search, [], seed, method=method, info=info, seconds=spent)
+    info._go_on(result, None)
+    return result
 
 
 def trajectories(
-    search: Search,
+    search: SearchLike,
     method: Hmc | Nuts,
     seed: int,
     threads: int | None,
@@ -397,7 +396,7 @@ def trajectories(
 
 
 def normals(
-    search: Search,
+    search: SearchLike,
     method: Vi,
     seed: int,
     threads: int | None,
@@ -430,7 +429,7 @@ def _drawn(counted: _engine.Task, info: DrawnInfo, interrupted: bool, clock: Clo
 
 
 def regrown(
-    search: Search,
+    search: SearchLike,
     sample: Sample,
     part: str,
     particles: int,

@@ -13,7 +13,7 @@ import pytest
 from niwaki import box, cylinder, emit, flip, gaussian, limb, poisson, rotation, uniform
 from niwaki.errors import InputError
 from niwaki.gallery import entries
-from niwaki.search.source import NEAR
+from niwaki.search.drag.source import NEAR
 
 SPACE = [one.name for one in entries() if one.target_name is not None or one.draws is not None]
 

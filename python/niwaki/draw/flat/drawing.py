@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageChops, ImageDraw, ImageFilter
 
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.flat.marks import Mark, Rgb, marks, style_of
 from niwaki.draw.flat.strokes import Point
 from niwaki.draw.limits import check_size
-from niwaki.draw.scene import Scene
 
 #: The factor by which a drawing is larger before its edges are made smooth.
 FINE = 3
@@ -22,7 +22,7 @@ Window = tuple[Point, Point]
 
 
 def drawing(
-    scene: Scene,
+    scene: Assembly,
     *,
     size: tuple[int, int] = (600, 600),
     style: str = "ink",
@@ -30,7 +30,7 @@ def drawing(
     margin: float = 0.04,
     under: NDArray[np.bool_] | None = None,
     clear: bool = False,
-    like: Scene | None = None,
+    like: Assembly | None = None,
 ) -> Image.Image:
     """Draws a scene of flat shapes, seen from +z.
 
@@ -83,7 +83,7 @@ def drawing(
 
 
 def framing(
-    scene: Scene, window: Window | None, size: tuple[int, int], margin: float
+    scene: Assembly, window: Window | None, size: tuple[int, int], margin: float
 ) -> tuple[float, float, float]:
     """The left and the upper border, scene units, and pixels for each unit; what is shown is in the middle."""
     if window is None:

@@ -13,9 +13,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.flat.strokes import Curve, Point, Stroke, curves, ring, sides_of
 from niwaki.draw.palette import paints
-from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 
 Rgb = tuple[float, float, float]
@@ -91,12 +91,12 @@ class Style:
     oval: Callable[[Oval, Rgb], list[tuple[float, Mark]]]
 
 
-def is_flat(scene: Scene) -> bool:
+def is_flat(scene: Assembly) -> bool:
     """Whether there are shapes, and all are flat."""
     return len(scene) > 0 and all(shape.flat() is not None for part in scene for shape in part.shapes)
 
 
-def marks(scene: Scene, style: Style, like: Scene | None = None) -> list[Mark]:
+def marks(scene: Assembly, style: Style, like: Assembly | None = None) -> list[Mark]:
     """The marks of a scene in the order in which they are painted.
 
     Parameters
@@ -124,7 +124,7 @@ def marks(scene: Scene, style: Style, like: Scene | None = None) -> list[Mark]:
     return [mark for _, _, mark in sorted(made, key=lambda one: one[:2])]
 
 
-def _taken(scene: Scene, size: float) -> tuple[list[Stroke], list[Oval], list[Rgb]]:
+def _taken(scene: Assembly, size: float) -> tuple[list[Stroke], list[Oval], list[Rgb]]:
     """Strokes, ellipses, and the colours of the ones and then of the others; the whole drawing has that size."""
     strokes: list[Stroke] = []
     ovals: list[Oval] = []

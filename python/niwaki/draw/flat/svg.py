@@ -9,15 +9,15 @@ import re
 from itertools import groupby
 from xml.sax.saxutils import escape, quoteattr
 
+from niwaki.draw.assembly import Assembly
 from niwaki.draw.finite import finite
 from niwaki.draw.flat.drawing import Window
 from niwaki.draw.flat.marks import Mark, Rgb, marks, style_of
 from niwaki.draw.page import Page
-from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 
 
-def svg(scene: Scene, *, style: str = "ink", window: Window | None = None, margin: float = 0.04) -> str:
+def svg(scene: Assembly, *, style: str = "ink", window: Window | None = None, margin: float = 0.04) -> str:
     """Write a scene of flat shapes as SVG.
 
     A part is a group, and its edge, its light and its glow, which lie on layers of their own, are further ones.

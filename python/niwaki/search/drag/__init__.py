@@ -10,15 +10,17 @@ with x within the supports of the choices and `spread` the deviation of each pri
 is taken that changes the choices least. Where the edit has several answers, these differ in the choices that may
 change. Where no real choice takes the part there, discrete choices that decide its structure are tried, too.
 
-- `answers`    what a drag gives
 - `held`       a part that is held by a point of it, and where the point is
 - `descent`    real choices moved until the point is there
 - `structure`  discrete choices that decide the part
 - `reasons`    why a part is not there
+- `source`     a drag that a number of the source explains, as a change of the file
 - `dragging`   the answers for a point, the least change first
+
+What a drag gives is in `niwaki.result.dragged`.
 """
 
-from niwaki.search.drag.answers import Drag, Dragged, Moved
+from niwaki.result.dragged import Drag, Dragged, Moved
 from niwaki.search.drag.dragging import Dragging, dragged
 
 __all__ = ["Drag", "Dragged", "Dragging", "Moved", "dragged"]

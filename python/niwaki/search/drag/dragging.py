@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,15 +12,13 @@ from niwaki import _engine
 from niwaki.draw.scene import Scene
 from niwaki.lang.compiled import translated
 from niwaki.result import Sample, parts
-from niwaki.search.drag.answers import Drag, Dragged, Moved
+from niwaki.result.dragged import Drag, Dragged, Moved
+from niwaki.result.search_like import SearchLike
 from niwaki.search.drag.descent import bounds, descend
 from niwaki.search.drag.held import Held, Place, Point, State, Vector, point_of, triple
 from niwaki.search.drag.reasons import nothing_moves, too_far
+from niwaki.search.drag.source import NEAR, SourceChange, explained
 from niwaki.search.drag.structure import structures
-from niwaki.search.source import NEAR, SourceChange, explained
-
-if TYPE_CHECKING:
-    from niwaki.search.request import Search
 
 #: Answers are the same if their choices differ by less than this, in deviations of the priors.
 SAME = 0.05
@@ -194,7 +192,7 @@ class Dragging(Held):
 
 
 def dragged(
-    search: Search,
+    search: SearchLike,
     sample: Sample,
     part: str,
     to: Point,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +16,8 @@ from niwaki.errors.settings import bad
 from niwaki.lang.compiled import translated
 from niwaki.once import cached_property
 from niwaki.result import Sample, parts
+from niwaki.result.search_like import SearchLike
 from niwaki.targets.sketches import Score
-
-if TYPE_CHECKING:
-    from niwaki.search.request import Search
 
 Vector = NDArray[np.float64]
 Point = Sequence[float]
@@ -81,7 +79,7 @@ class Held:
 
     def __init__(
         self,
-        search: Search,
+        search: SearchLike,
         sample: Sample,
         part: str,
         *,

@@ -12,7 +12,7 @@ import niwaki as nw
 from niwaki.lang.compiled import translated
 from niwaki.result import Progress, Result, Sample
 from niwaki.result.progress import Watch
-from niwaki.search import Search
+from niwaki.result.search_like import SearchLike
 from niwaki.shell.references import ModelReference
 from niwaki.studio.messages import Answer, Change, Ghost, Grow, Key, Progressed, Question, Regrow, TargetAsk
 from niwaki.studio.refused import Refused
@@ -125,7 +125,9 @@ def ended(result: Result) -> list[Sample]:
     return [one for one in result.samples if one.has_ended] or list(result.samples)
 
 
-def searched(question: Question, one: Sample, lock: dict[str, Any] | None) -> tuple[Search, dict[str, Any]]:
+def searched(
+    question: Question, one: Sample, lock: dict[str, Any] | None
+) -> tuple[SearchLike, dict[str, Any]]:
     """The search of a result with the present model and arguments, and the result's choices."""
     model, args = models.reference(question.model).model, asks.arguments(question)
     search = replace(one.search, model=model, args=args, choices=None, lock=lock or None, polish=None)

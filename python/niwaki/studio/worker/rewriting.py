@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.search.source import SourceChange, as_defaults
+from niwaki.search.drag.source import SourceChange, as_defaults
 from niwaki.studio.messages import Answer, Offer, Offered, ProposeDefaults, RewriteFile
 from niwaki.studio.worker import models
 

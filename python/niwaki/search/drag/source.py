@@ -24,11 +24,11 @@ from niwaki.errors.files import write_whole
 from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.lang.compiled import compile_core, translated
 from niwaki.lang.lower import lower
+from niwaki.result.search_like import SearchLike
 
 if TYPE_CHECKING:
     from niwaki.lang.models import Model
     from niwaki.search.drag.held import Held, Vector
-    from niwaki.search.request import Search
 
 #: Steps of a descent, and numbers that are tried: those that move the point most.
 STEPS, TRIED = 12, 24
@@ -286,7 +286,7 @@ class _Descent:
         )
 
 
-def _arguments(search: Search) -> list[Any]:
+def _arguments(search: SearchLike) -> list[Any]:
     """All arguments of a search by position, defaults included."""
     bound = inspect.signature(search.model.function).bind(*search.args)
     bound.apply_defaults()

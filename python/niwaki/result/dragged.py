@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from niwaki.draw.scene import Scene
-from niwaki.result import Result, Sample, Watch
+from niwaki.result.progress import Watch
+from niwaki.result.result import Result
+from niwaki.result.sample import Sample
 
 
 @dataclass(frozen=True)
