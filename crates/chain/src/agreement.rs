@@ -2,7 +2,7 @@
 //! rollbacks leave nothing behind, and sums equal those of a run from the start. With several powers, on each rung.
 
 use crate::ladder::Ladder;
-use crate::state::State;
+use crate::walk::state::State;
 use crate::{Chain, Settings};
 use niwaki_run::replay::{Missing, Source, replay};
 use niwaki_run::{Failure, Task};
@@ -137,7 +137,7 @@ fn look_closer(
     }
     // From the start: once keeping the calls, once dropping them.
     let known: HashMap<_, _> = chains[0].state.choices(program).collect();
-    match State::start(task, crate::streams::Streams::new(0, 0), 1, Some(&known)) {
+    match State::start(task, crate::walk::streams::Streams::new(0, 0), 1, Some(&known)) {
         Ok((fresh, _)) => {
             let (fresh, kept) = ((fresh.trace.totals(), fresh.score()), &chains[3].state);
             if fresh != (kept.trace.totals(), kept.score()) {

@@ -8,11 +8,11 @@
 //! A discrete choice that takes part moves to a neighbour or stays, each with probability 1/2. If all of them always moved, what
 //! two of them have in common could never change: two truth values that are equal would stay equal.
 
-use crate::Chain;
-use crate::accept::Rules;
 use crate::drift::{Step, normal};
-use crate::metropolis::Decision;
 use crate::neighbour::near;
+use crate::walk::Walk;
+use crate::walk::accept::Decision;
+use crate::walk::accept::Rules;
 use niwaki_math::{Family, Space, Stream};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::{Failure, Task};
@@ -70,7 +70,7 @@ pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<
     Some(Proposed { value: draw_to_value(new), forward, backward })
 }
 
-impl<R: Rules> Chain<R> {
+impl<R: Rules> Walk<R> {
     /// One proposal for a whole block.
     pub(super) fn block(
         &mut self,
@@ -104,11 +104,10 @@ impl<R: Rules> Chain<R> {
             }
         }
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
-        let change =
-            match machine.change(&mut self.state.trace, changes, self.settings.strategy, &mut answers) {
-                Ok(change) => change,
-                Err(met) => self.give_up(task, met)?,
-            };
+        let change = match machine.change(&mut self.state.trace, changes, self.strategy, &mut answers) {
+            Ok(change) => change,
+            Err(met) => self.give_up(task, met)?,
+        };
         let decision = self.decide(task, change, beta, &mut rng, |_| 0.0, moved)?;
         self.count_many(decision);
         if self.warming(visit).is_some() && !decision.same {

@@ -3,7 +3,7 @@
 //! deviation, anything else is drawn from its distribution. Flips and drifts are symmetric.
 
 use crate::drift::normal;
-use crate::proposal::{FromPrior, Move};
+use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;

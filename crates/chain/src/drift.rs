@@ -3,8 +3,8 @@
 //! The step in the coordinate z is Gaussian ([`Dist::moved`]), so the density of a move from x to x' is symmetric except
 //! for a Jacobian: log q(x' | x) = log dz/dx at x' + a symmetric term. Leaving it out draws from the wrong distribution.
 
-use crate::metropolis::Decision;
-use crate::proposal::{FromPrior, Move};
+use crate::walk::accept::Decision;
+use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_run::fresh::spread;
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};

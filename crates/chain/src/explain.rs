@@ -1,8 +1,8 @@
 //! What each strategy does for one proposal: which activations it creates, invokes, unwinds into, skips and removes
 //! (dissertation figure 3.1, for any program).
 
-use crate::state::State;
-use crate::streams::Streams;
+use crate::walk::state::State;
+use crate::walk::streams::Streams;
 use niwaki_math::{Dist, StreamKey, grid};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::glob::matches;

@@ -20,11 +20,10 @@
 //!
 //! A scene that a sketch forbids shows nothing: which sketches have seen all of it depends on how it came about.
 
-use crate::Proposing;
-use crate::accept::Rules;
-use crate::leaf::ChainMove;
-use crate::proposal::Move;
-use crate::state::State;
+use crate::walk::accept::Rules;
+use crate::walk::proposal::Move;
+use crate::walk::state::State;
+use crate::walk::{ChainMove, Proposing};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Primitive};
 use niwaki_math::{Dist, Draw, Stream, grid};

@@ -4,8 +4,8 @@
 //! min(1, exp((beta_i - beta_j)(log score_j - log score_i))). The prior is not tempered. A search without tempering is a
 //! ladder of one rung.
 
-use crate::accept::{MetropolisHastings, Rules};
-use crate::streams::Streams;
+use crate::walk::accept::{MetropolisHastings, Rules};
+use crate::walk::streams::Streams;
 use crate::{Chain, Settings};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::invalid::Counts;
@@ -183,7 +183,7 @@ impl<R: Rules> Ladder<R> {
 
     /// The proposals made on each rung.
     pub fn visit(&self) -> u64 {
-        self.rungs.first().map_or(0, Chain::visit)
+        self.rungs.first().map_or(0, |chain| chain.visit())
     }
 
     /// The best log score of any rung, nats.

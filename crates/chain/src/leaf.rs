@@ -1,19 +1,18 @@
 //! The proposals that there are: the leaves of a kernel. Each is a file with its settings, which are read as data, and what
 //! it adapts; [`Proposer`] names them all. A leaf is applied to the kept run of a chain or to the partial run of a particle.
 
-use crate::Proposing;
-use crate::accept::Rules;
 use crate::block::Block;
 use crate::by_family::ByFamily;
 use crate::drift::{Drift, Step};
 use crate::guided::Guided;
 use crate::neighbour::Neighbour;
-use crate::proposal::{FromPrior, Move};
 use crate::regenerate::Regenerate;
 use crate::regrow::Regrow;
 use crate::trajectory;
 use crate::trajectory::Trajectory;
 use crate::user::UserMove;
+use crate::walk::ChainMove;
+use crate::walk::proposal::{FromPrior, Move};
 use niwaki_propose::user::User;
 use niwaki_run::select::Selection;
 use niwaki_run::{Failure, Task};
@@ -138,12 +137,6 @@ pub trait Target {
     fn kept(&mut self, _: &mut impl ChainMove) -> Result<(), Failure> {
         Ok(())
     }
-}
-
-/// A move that needs the kept run of a chain, and all that the chain has for it.
-pub trait ChainMove {
-    /// Makes one proposal, and decides on it.
-    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure>;
 }
 
 /// A leaf: how it proposes, and for which choices.

@@ -1,26 +1,20 @@
 //! Markov chains over kept runs: Metropolis-Hastings with kernels as values (dissertation chapter 3).
 //!
-//! * [`state`]: the state of a chain; [`streams`]: its random numbers;
-//! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; `leaf`: how it proposes; `select`, [`glob`],
-//!   [`weights`]: which choice it changes;
-//! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
-//! * `proposal`: a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function,
+//! * [`kernel`]: kernels as values, and [`form`] as data; `plan`: which leaf is next; [`leaf`]: how it proposes;
+//! * [`walk`]: a chain without its kernel: its state, the algorithm, what is reported afterwards;
+//! * a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function,
 //!   by a guide ([`guided`]);
 //! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
-//! * [`counts`], [`best`], [`samples`]: what is reported afterwards;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches in parallel; `stored`: chains as data, to go on from;
 //! * [`agreement`]: the four strategies, compared to the bit; [`explain`]: what each of them does for one proposal.
 //!
 //! A chain's states depend on its seed and number only: not on the strategy, not on the number of threads.
 
-pub mod accept;
 pub mod agreement;
-pub mod best;
 pub mod block;
 pub(crate) mod by_family;
 mod chain;
-pub mod counts;
 pub mod drift;
 pub mod explain;
 pub mod form;
@@ -29,18 +23,13 @@ pub mod kernel;
 pub mod ladder;
 pub mod leaf;
 pub mod many;
-pub(crate) mod metropolis;
 pub mod neighbour;
 pub mod plan;
-pub mod proposal;
 mod regenerate;
 pub mod regrow;
-pub mod samples;
-pub mod state;
 pub mod stored;
-pub mod streams;
 pub mod trajectory;
 pub mod user;
-pub mod weights;
+pub mod walk;
 
-pub use chain::{Chain, Proposing, Settings};
+pub use chain::{Chain, Settings};

@@ -1,8 +1,8 @@
 //! Several chains of one seed, in parallel. Each chain is the same on any number of threads.
 
 use crate::Settings;
-use crate::accept::{MetropolisHastings, Rules};
 use crate::ladder::Ladder;
+use crate::walk::accept::{MetropolisHastings, Rules};
 use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::invalid::{Count, Counts, Place};

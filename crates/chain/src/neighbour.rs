@@ -3,7 +3,7 @@
 //!
 //! The moves are symmetric, so nothing enters the acceptance ratio; numbers that leave the support are rejected.
 
-use crate::proposal::{FromPrior, Move};
+use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Space, Stream, Support};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -36,7 +36,7 @@ impl Move for Neighbour {
             (_, Value::Int(k)) => Some(Value::Int(match dist.support() {
                 Support::Categories(n @ 2..) => {
                     // One of the other categories: numbers from the old one on are one higher.
-                    let other = crate::streams::below(rng, n as u64 - 1) as i64;
+                    let other = crate::walk::streams::below(rng, n as u64 - 1) as i64;
                     other + i64::from(other >= *k)
                 }
                 _ => near(*k, self.reach.get(), rng),
@@ -54,7 +54,7 @@ impl Move for Neighbour {
 
 /// The same truth values, one of them flipped.
 fn flipped(all: &[Value], rng: &mut Stream) -> Option<Value> {
-    let at = crate::streams::below(rng, all.len() as u64) as usize;
+    let at = crate::walk::streams::below(rng, all.len() as u64) as usize;
     let one = |(i, x): (usize, &Value)| match x {
         Value::Bool(b) => Some(Value::Bool(*b != (i == at))),
         _ => None,
@@ -68,10 +68,10 @@ fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
     if n < 2 {
         return None;
     }
-    let from = crate::streams::below(rng, n);
-    let other = crate::streams::below(rng, n - 1);
+    let from = crate::walk::streams::below(rng, n);
+    let other = crate::walk::streams::below(rng, n - 1);
     let to = other + u64::from(other >= from);
-    let by = (crate::streams::below(rng, reach) + 1) as i64;
+    let by = (crate::walk::streams::below(rng, reach) + 1) as i64;
     let one = |(i, x): (u64, &Value)| match x {
         Value::Int(k) if i == from => Some(Value::Int(k.saturating_sub(by))),
         Value::Int(k) if i == to => Some(Value::Int(k.saturating_add(by))),
@@ -83,7 +83,7 @@ fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
 
 /// A whole number at most `reach` from another, and not the same.
 pub(super) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
-    let at = crate::streams::below(rng, 2 * reach);
+    let at = crate::walk::streams::below(rng, 2 * reach);
     let by = (at / 2 + 1) as i64;
     k.saturating_add(if at.is_multiple_of(2) { by } else { -by })
 }

@@ -4,8 +4,8 @@
 
 use crate::kernel::Kernel;
 use crate::leaf::{Leaf, Learnt, Proposer};
-use crate::state::State;
 use crate::trajectory::Trajectory;
+use crate::walk::state::State;
 use niwaki_math::Stream;
 use niwaki_propose::gradient::nothing_continuous;
 use niwaki_run::select::Selection;

@@ -4,11 +4,10 @@
 //! for any draws below, so the probability of choosing it is the weight of the choices that lead to it over the weight
 //! of all, before and after.
 
-use crate::Chain;
-use crate::Proposing;
-use crate::accept::Rules;
-use crate::leaf::ChainMove;
-use crate::streams::below;
+use crate::walk::Walk;
+use crate::walk::accept::Rules;
+use crate::walk::streams::below;
+use crate::walk::{ChainMove, Proposing};
 use niwaki_run::Failure;
 use niwaki_run::fresh::Fresh;
 use niwaki_vm::code::Program;
@@ -42,12 +41,11 @@ impl ChainMove for Regenerate {
         let old = |n: &usize| (trace.address(program, *n), trace.choice(program, *n).0.clone());
         let moved: Vec<_> = if chain.best.is_noting() { choices.iter().map(old).collect() } else { vec![] };
         let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
-        let change =
-            match machine.redraw(&mut chain.state.trace, &choices, chain.settings.strategy, &mut answers) {
-                Ok(change) => change,
-                Err(met) => chain.give_up(task, met)?,
-            };
-        let selection = |chain: &Chain<R>| {
+        let change = match machine.redraw(&mut chain.state.trace, &choices, chain.strategy, &mut answers) {
+            Ok(change) => change,
+            Err(met) => chain.give_up(task, met)?,
+        };
+        let selection = |chain: &Walk<R>| {
             let trace = &chain.state.trace;
             let after =
                 table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
@@ -60,7 +58,7 @@ impl ChainMove for Regenerate {
     }
 }
 
-impl<R: Rules> Chain<R> {
+impl<R: Rules> Walk<R> {
     /// The weight of the choices that lead to an activation: those `levels` below it. The root also takes
     /// the choices that are nearer to it, because their activation would be above the root.
     fn leading(&self, program: &Program, activation: NodeId, levels: usize, table: Option<usize>) -> u64 {

@@ -4,13 +4,13 @@
 //! sketches are exact, so they come back to the bit, and this is checked. Beside it stands what the proposals so far have
 //! taught: steps, scales, the place in the kernel, counts, the best state, the samples.
 
-use crate::accept::Rules;
-use crate::best::Best;
-use crate::counts::Count;
 use crate::ladder::Ladder;
 use crate::plan;
 use crate::plan::Plan;
-use crate::state::State;
+use crate::walk::accept::Rules;
+use crate::walk::best::Best;
+use crate::walk::counts::Count;
+use crate::walk::state::State;
 use crate::{Chain, Settings};
 use niwaki_math::bits;
 use niwaki_run::checkpoint::unfit;

@@ -4,7 +4,7 @@
 //! forward = log f(x, s)(x')        backward = log f(x', s)(x)
 //! ```
 
-use crate::proposal::Move;
+use crate::walk::proposal::Move;
 use niwaki_math::{Dist, Stream, grid};
 use niwaki_propose::user::User;
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};

@@ -3,14 +3,14 @@
 
 use crate::partial_run::{Choice, Densities, FollowSettings, PartialRun};
 use crate::rejuvenation::{Mover, Round};
-use niwaki_chain::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
 use niwaki_chain::block;
 use niwaki_chain::block::Block;
-use niwaki_chain::counts::Count;
 use niwaki_chain::leaf::{Leaf, Target};
-pub use niwaki_chain::proposal::Move;
-use niwaki_chain::state::State as ChainState;
-use niwaki_chain::streams::below;
+use niwaki_chain::walk::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
+use niwaki_chain::walk::counts::Count;
+pub use niwaki_chain::walk::proposal::Move;
+use niwaki_chain::walk::state::State as ChainState;
+use niwaki_chain::walk::streams::below;
 use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::streams::RngCore;
@@ -218,7 +218,7 @@ pub(super) fn move_ended(p: &mut Particle, round: &Round<'_>) -> Result<Count, F
         p.record = record_of(&mut chain.state, &round.task.program);
         p.state = State::of_result(chain.state.trace.result());
     } else {
-        p.record.sketches = chain.state.sketches;
+        p.record.sketches = chain.into_state().sketches;
     }
     p.weighed = p.record.score();
     Ok(count)

@@ -3,12 +3,10 @@
 //! Particles grow the part from its inputs, in a scene that has everything else. Their weights are those of regrowth, but
 //! none of them holds the present values: they follow the law of the part given the rest, by weight.
 
-use super::{Contents, Regrow, Weighing, pick};
-use crate::kernel::Kernel;
-use crate::plan::Plan;
-use crate::state::State;
-use crate::streams::Streams;
-use crate::{Chain, Settings};
+use super::{Block, Contents, Regrow, Weighing, pick, refuse_memoised};
+use crate::walk::Walk;
+use crate::walk::state::State;
+use crate::walk::streams::Streams;
 use niwaki_math::RngCore;
 use niwaki_run::run::Run;
 use niwaki_run::select::Selection;
@@ -43,7 +41,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
         return Err(fault.into());
     }
     let (program, streams) = (&*task.program, Streams::new(with.seed, 0));
-    super::refuse_memoised(program)?;
+    refuse_memoised(program)?;
     let (state, spreads) = State::start(task, streams, 1, Some(known))?;
     let outside = |part: &HashMap<u128, Value>| -> HashMap<u128, Value> {
         state.choices(program).filter(|(address, _)| !part.contains_key(address)).collect()
@@ -61,7 +59,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
         proposal: None,
         selection: Selection::default(),
     };
-    let block = |particles| super::Block {
+    let block = |particles| Block {
         task,
         start: start.clone(),
         path,
@@ -73,8 +71,7 @@ pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> R
         beta: with.power,
         particles,
     };
-    let settings = Settings { seed: with.seed, thin: 0, ..Settings::default() };
-    let mut chain: Chain = Chain::at(task, &settings, 0, Plan::new(&Kernel::PRIOR)?, state, &spreads)?;
+    let mut chain: Walk = Walk::start(program, streams, state, &spreads);
     let mut machine = task.machine();
     let moves = streams.moves(0);
     // The present part, which scores what the others are compared with.

@@ -33,12 +33,11 @@ pub use afresh::{Afresh, afresh};
 pub use pick::Pick;
 pub use reach::is_apart;
 
-use crate::Chain;
-use crate::Proposing;
-use crate::accept::{Rules, accepts};
-use crate::leaf::ChainMove;
-use crate::metropolis::Decision;
-use crate::state::State;
+use crate::walk::Walk;
+use crate::walk::accept::Decision;
+use crate::walk::accept::{Rules, accepts};
+use crate::walk::state::State;
+use crate::walk::{ChainMove, Proposing};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{RngCore, Stream, Total};
 use niwaki_propose::proposal::Proposal;
@@ -283,7 +282,7 @@ impl Weighing<'_> {
     }
 }
 
-impl<R: Rules> Chain<R> {
+impl<R: Rules> Walk<R> {
     /// Opens a transaction that gives choices of a part the values of a particle.
     fn replace(
         &mut self,
@@ -293,7 +292,7 @@ impl<R: Rules> Chain<R> {
         values: &HashMap<u128, Value>,
     ) -> Result<Change, Failure> {
         let mut answers = Fresh::of(self.streams.fresh(self.visit), Some(values), &*task.hosts);
-        match machine.redraw(&mut self.state.trace, numbers, self.settings.strategy, &mut answers) {
+        match machine.redraw(&mut self.state.trace, numbers, self.strategy, &mut answers) {
             Ok(change) => Ok(change),
             Err(met) => self.give_up(task, met),
         }

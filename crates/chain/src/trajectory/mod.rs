@@ -18,11 +18,10 @@ pub mod counts;
 pub(crate) mod scales;
 pub(crate) mod structures;
 
-use crate::Chain;
-use crate::Proposing;
-use crate::accept::Rules;
-use crate::leaf::ChainMove;
-use crate::metropolis::Decision;
+use crate::walk::Walk;
+use crate::walk::accept::Decision;
+use crate::walk::accept::Rules;
+use crate::walk::{ChainMove, Proposing};
 use counts::TrajectoryCounts;
 use niwaki_continuous::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
 use niwaki_continuous::hamiltonian::step_size::first_guess;
@@ -225,12 +224,11 @@ impl ChainMove for Trajectory {
             changes.push(Changed { choice, proposed: Proposed { value, forward, backward } });
         }
         let mut answers = Fresh::plain(chain.streams.fresh(visit), &*task.hosts);
-        let change =
-            match machine.change(&mut chain.state.trace, changes, chain.settings.strategy, &mut answers) {
-                Ok(change) => change,
-                Err(met) => chain.give_up(task, met)?,
-            };
-        let selection = |chain: &Chain<R>| {
+        let change = match machine.change(&mut chain.state.trace, changes, chain.strategy, &mut answers) {
+            Ok(change) => change,
+            Err(met) => chain.give_up(task, met)?,
+        };
+        let selection = |chain: &Walk<R>| {
             let trace = &chain.state.trace;
             // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
             let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));

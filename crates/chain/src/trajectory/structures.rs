@@ -6,7 +6,7 @@
 //! first. Machine code gives the same bits as a structure's tape, so that nothing depends on when it is ready.
 
 use super::scales::LabelId;
-use crate::state::choices;
+use crate::walk::state::choices;
 use niwaki_continuous::hamiltonian::potential::evaluate;
 use niwaki_continuous::hamiltonian::{Phase, Potential, Stop};
 use niwaki_grad::{Continuous, Live, Model, Rolling, Scope};

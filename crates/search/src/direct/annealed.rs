@@ -20,11 +20,11 @@
 //! own. Particles are independent, so they are the same on any number of threads.
 
 use niwaki_chain::Chain;
-use niwaki_chain::counts::Count;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::plan::Plan;
-use niwaki_chain::state::State;
-use niwaki_chain::streams::Streams;
+use niwaki_chain::walk::counts::Count;
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
 use niwaki_particles::rejuvenation::spreads;
 use niwaki_run::run::Run;
 use niwaki_run::weights::{Normalised, log_step};

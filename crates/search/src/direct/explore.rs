@@ -4,8 +4,8 @@
 //! refused, and its trajectory rejected.
 
 use super::rows;
-use niwaki_chain::state::State;
-use niwaki_chain::streams::Streams;
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
 use niwaki_continuous::hamiltonian::chains::{GLANCE, run};
 use niwaki_continuous::hamiltonian::climb::climb_in_lanes;
 use niwaki_continuous::hamiltonian::potential::evaluate;

@@ -5,7 +5,7 @@
 
 use super::explore::{Member, start};
 use super::rows;
-use niwaki_chain::streams::Streams;
+use niwaki_chain::walk::streams::Streams;
 use niwaki_continuous::hamiltonian::Potential;
 use niwaki_continuous::hamiltonian::potential::evaluate;
 pub use niwaki_continuous::variational::Start;

@@ -3,9 +3,9 @@
 use super::{Improve, population_seed};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::plan::Plan;
-use niwaki_chain::state::State;
 use niwaki_chain::stored::StoredState;
-use niwaki_chain::streams::Streams;
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
 use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_math::Stream;
 use niwaki_math::bits;
@@ -246,7 +246,7 @@ impl<'a> Search<'a> {
             self.best = chain.best.get(&chain.state, self.task)?;
         }
         let (work, parts) = (chain.work() - before, chain.counts.many.accepted);
-        self.state = Some(chain.state);
+        self.state = Some(chain.into_state());
         Ok((work, parts))
     }
 

@@ -4,8 +4,8 @@
 
 use super::lessons::{Example, Making, follow, survey, train};
 use niwaki_chain::kernel::Kernel;
-use niwaki_chain::state::State;
-use niwaki_chain::streams::Streams;
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
 use niwaki_geom::{Aabb, Drawing, Page, match_drawing};
 use niwaki_guide::{Net, NetForm};
 use niwaki_math::{Dist, StreamKey};

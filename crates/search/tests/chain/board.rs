@@ -9,10 +9,10 @@
 use super::programs::leaf;
 use super::programs::task;
 use niwaki_chain::Settings;
-use niwaki_chain::accept::{MetropolisHastings, Rules, Terms};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::leaf::Proposer;
+use niwaki_chain::walk::accept::{MetropolisHastings, Rules, Terms};
 use niwaki_math::Total;
 use niwaki_propose::user::User;
 use niwaki_run::Task;

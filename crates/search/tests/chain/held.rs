@@ -8,10 +8,10 @@
 use super::board::furthest;
 use super::programs::{leaf, task};
 use super::regrown::PROGRAMS;
-use niwaki_chain::accept::MetropolisHastings;
 use niwaki_chain::agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::regrow::{Afresh, afresh};
+use niwaki_chain::walk::accept::MetropolisHastings;
 use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::{Dist, Stream};

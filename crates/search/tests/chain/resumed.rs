@@ -149,7 +149,7 @@ fn the_data_of_another_chain_is_refused() {
     let left = proposed(&one, &own(Kernel::PRIOR), HashMap::new(), 30);
     let refused = |task: &Task, settings: &Settings| {
         let checkpoint = Checkpoint::of(left.clone());
-        Chains::<niwaki_chain::accept::MetropolisHastings>::start_from(
+        Chains::<niwaki_chain::walk::accept::MetropolisHastings>::start_from(
             task,
             settings,
             1,

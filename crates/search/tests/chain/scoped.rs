@@ -6,10 +6,10 @@
 
 use super::board::{NoReverse, furthest};
 use super::programs::{PROGRAMS as OF_THE_MACHINE, task};
-use niwaki_chain::accept::{MetropolisHastings, Rules};
 use niwaki_chain::agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::leaf::Proposer;
+use niwaki_chain::walk::accept::{MetropolisHastings, Rules};
 use niwaki_chain::{Chain, Settings};
 use niwaki_propose::user::User;
 use niwaki_run::Task;

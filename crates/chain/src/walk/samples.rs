@@ -1,6 +1,6 @@
 //! Samples of a chain, thinned, in bounded memory.
 
-use crate::state::State;
+use crate::walk::state::State;
 use niwaki_run::run::Run;
 use niwaki_vm::code::Program;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ impl Samples {
     }
 
     /// Takes the samples of a chain that goes on.
-    pub(super) fn restore(&mut self, all: Vec<Run>, thin: u64) {
+    pub(crate) fn restore(&mut self, all: Vec<Run>, thin: u64) {
         self.held = all.iter().map(|sample| sample.log.len() + 1).sum();
         (self.all, self.thin) = (all.into_iter().map(Arc::new).collect(), thin);
     }

@@ -4,8 +4,8 @@
 //! of changes to undo, and copied only when that list is as long as the trace. The reported state is that of a run with
 //! its choices.
 
-use crate::state::State;
-use crate::streams::Streams;
+use crate::walk::state::State;
+use crate::walk::streams::Streams;
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
@@ -94,7 +94,7 @@ impl Best {
     }
 
     /// Its scores and choices.
-    pub(super) fn stored(&self, state: &State, program: &Program) -> Run {
+    pub(crate) fn stored(&self, state: &State, program: &Program) -> Run {
         let choices = self.copied.clone().unwrap_or_else(|| self.choices(state, program));
         Run { log: choices.into_iter().collect(), ..self.bare_scores() }
     }
@@ -105,7 +105,7 @@ impl Best {
     }
 
     /// The best state of what [`Best::stored`] gave.
-    pub(super) fn restored(run: Run) -> Best {
+    pub(crate) fn restored(run: Run) -> Best {
         let copied = run.log.entries().into_iter().map(|entry| (entry.address(), entry.value)).collect();
         Best { scores: run, copied: Some(copied), since: vec![] }
     }

@@ -68,6 +68,17 @@ pub fn accepts(log_ratio: f64, rng: &mut impl RngCore) -> bool {
     log_ratio >= 0.0 || u.ln() < log_ratio
 }
 
+/// The decision on a proposal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Decision {
+    /// Whether the proposal was the present state.
+    pub same: bool,
+    /// Whether it was kept.
+    pub accepted: bool,
+    /// Log of the acceptance ratio; minus infinity for an impossible proposal.
+    pub log_ratio: f64,
+}
+
 /// How a chain accepts. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
 pub trait Rules: Send {
     /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.

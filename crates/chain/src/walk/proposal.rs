@@ -1,7 +1,7 @@
 //! Proposals for one choice: a new value, and the log densities of proposing it and of proposing the old one from it.
 
-use crate::metropolis::Decision;
-use crate::state::State;
+use crate::walk::accept::Decision;
+use crate::walk::state::State;
 use niwaki_math::first_blocks::Begun;
 use niwaki_math::{Dist, Stream, grid};
 use niwaki_vm::builtins::draw_to_value;

@@ -1,7 +1,7 @@
 //! Metropolis-Hastings with one choice (dissertation 3.2).
 //!
 //! 1. *Pick* a choice of the present run: evenly, or by selection weights; `W` is their sum.
-//! 2. *Propose* a new value `x' ~ q(. | x)` for it ([`proposal`](crate::proposal)).
+//! 2. *Propose* a new value `x' ~ q(. | x)` for it ([`proposal`](crate::walk::proposal)).
 //! 3. *Run on* from there. Everything that reads the value is run again; new choices are drawn from their priors.
 //! 4. *Accept* with probability `min(1, a)`, where `p` is the density of all choices and `s` the score:
 //!
@@ -16,10 +16,10 @@
 //!
 //! Kernels that change many choices differ in the first two steps and in the selection, and share the others (`decide`).
 
-use crate::Chain;
-use crate::accept::{Rules, Terms, accepts, selected};
-use crate::proposal::{Move, MoveProposal};
-use crate::streams::scaled;
+use super::Walk;
+use crate::walk::accept::{Decision, Rules, Terms, accepts, selected};
+use crate::walk::proposal::{Move, MoveProposal};
+use crate::walk::streams::scaled;
 use niwaki_math::RngCore;
 use niwaki_run::fresh::Fresh;
 use niwaki_run::{Failure, Task};
@@ -29,21 +29,10 @@ use niwaki_vm::machine::kept::Change;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 
-/// The decision on a proposal.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Decision {
-    /// Whether the proposal was the present state.
-    pub same: bool,
-    /// Whether it was kept.
-    pub accepted: bool,
-    /// Log of the acceptance ratio; minus infinity for an impossible proposal.
-    pub log_ratio: f64,
-}
-
-impl<R: Rules> Chain<R> {
+impl<R: Rules> Walk<R> {
     /// One proposal; choices are picked evenly, or by the weights of a table.
     #[inline(always)]
-    pub(super) fn single<M: Move>(
+    pub(crate) fn single<M: Move>(
         &mut self,
         task: &Task,
         machine: &mut Machine<'_>,
@@ -71,7 +60,7 @@ impl<R: Rules> Chain<R> {
         let noting = self.best.is_noting();
         let mut proposal = MoveProposal { proposer, site, moves: now.moves, noting, old: None };
         let mut answers = Fresh::plain(self.streams.fresh(visit), &*task.hosts);
-        let (trace, strategy) = (&mut self.state.trace, self.settings.strategy);
+        let (trace, strategy) = (&mut self.state.trace, self.strategy);
         let change = match machine.propose(trace, choice, strategy, &mut proposal, &mut answers) {
             Ok(change) => change,
             Err(met) => self.give_up(task, met)?,
@@ -104,7 +93,7 @@ impl<R: Rules> Chain<R> {
     /// `moved` names the choices that the proposal itself changed, with their values before. The acceptance draw is
     /// the next number of `rng`.
     #[inline(always)]
-    pub(super) fn decide(
+    pub(crate) fn decide(
         &mut self,
         task: &Task,
         change: Change,
@@ -162,7 +151,7 @@ impl<R: Rules> Chain<R> {
     /// # Errors
     /// A sketch scores NaN; the chain is back in its last state.
     #[inline(always)]
-    pub(super) fn show(&mut self, program: &Program) -> Result<(), Failure> {
+    pub(crate) fn show(&mut self, program: &Program) -> Result<(), Failure> {
         self.state.update_sketches().inspect_err(|_| {
             self.state.restore_sketches();
             self.state.trace.rollback(program);
@@ -171,7 +160,7 @@ impl<R: Rules> Chain<R> {
 
     /// Keeps the open transaction.
     #[inline(always)]
-    pub(super) fn keep(&mut self, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
+    pub(crate) fn keep(&mut self, program: &Program, moved: impl IntoIterator<Item = (u128, Value)>) {
         if self.best.is_noting() {
             self.best.note(&self.state, program, moved);
         }
@@ -187,7 +176,7 @@ impl<R: Rules> Chain<R> {
     /// # Errors
     /// Any other fault; the chain is back in its last state.
     #[cold]
-    pub(super) fn give_up(&mut self, task: &Task, met: Box<RunFault>) -> Result<Change, Failure> {
+    pub(crate) fn give_up(&mut self, task: &Task, met: Box<RunFault>) -> Result<Change, Failure> {
         if task.invalid.count(&met).is_some() {
             return Ok(Change::Impossible);
         }

@@ -1,6 +1,6 @@
 //! The state of a chain: a kept run and the sketches of its scene. A proposal opens a transaction on both.
 
-use crate::streams::Streams;
+use crate::walk::streams::Streams;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{StreamKey, Total};
 use niwaki_run::checkpoint::unfit;
@@ -235,7 +235,7 @@ impl State {
 }
 
 /// The choices of a trace.
-pub(super) fn choices<'a>(
+pub(crate) fn choices<'a>(
     trace: &'a Trace,
     program: &'a Program,
 ) -> impl Iterator<Item = (u128, Value)> + 'a {

@@ -1,0 +1,169 @@
+//! A chain without its kernel: the present run, what is noted of it, and how a proposal on it is decided.
+//!
+//! * [`state`]: the state; [`streams`]: its random numbers; [`weights`]: which choice is changed;
+//! * `metropolis`: the algorithm, for one choice; [`accept`]: the acceptance ratio, in plain letters;
+//! * [`proposal`]: a new value for one choice;
+//! * [`counts`], [`best`], [`samples`]: what is reported afterwards.
+//!
+//! Not here: kernels.
+
+pub mod accept;
+pub mod best;
+pub mod counts;
+mod metropolis;
+pub mod proposal;
+pub mod samples;
+pub mod state;
+pub mod streams;
+pub mod weights;
+
+use accept::{Decision, MetropolisHastings, Rules};
+use best::Best;
+use counts::Counts;
+use niwaki_run::run::Run;
+use niwaki_run::{Failure, Task};
+use niwaki_vm::code::Program;
+use niwaki_vm::machine::Machine;
+use niwaki_vm::machine::kept::Strategy;
+use samples::Samples;
+use state::State;
+use std::collections::HashMap;
+use std::marker::PhantomData;
+use streams::{Ahead, Streams};
+use weights::Table;
+
+/// A chain without its kernel.
+pub struct Walk<R: Rules = MetropolisHastings> {
+    /// Its state.
+    pub state: State,
+    /// Proposals by site.
+    pub counts: Counts,
+    /// The best state so far.
+    pub best: Best,
+    /// Thinned states.
+    pub samples: Samples,
+    /// The power of the score that it follows.
+    pub(crate) beta: f64,
+    /// How much of a run is executed again.
+    pub(crate) strategy: Strategy,
+    /// Proposals before the first sample.
+    pub(crate) warmup: u64,
+    pub(crate) streams: Streams,
+    /// Weights of the choices, for the leaves that do not take all alike.
+    pub(crate) tables: Vec<Table>,
+    /// Spreads of the sites' distributions in the first state.
+    pub(crate) spreads: Vec<f64>,
+    /// The number of proposals so far.
+    pub(crate) visit: u64,
+    /// Particle-steps of parts that were grown again.
+    pub(crate) grown: u64,
+    /// The decisions of the next proposal.
+    pub(crate) ahead: Ahead,
+    /// The last decision.
+    pub(crate) last: Decision,
+    /// Whether every proposal is undone, to test that nothing is left behind.
+    pub(crate) undoing: bool,
+    /// How many primitives, factors and observations together a state must have, where that is fixed.
+    pub(crate) barriers: Option<usize>,
+    rules: PhantomData<R>,
+}
+
+impl<R: Rules> Walk<R> {
+    /// From a state, with the spreads of its sites' distributions, by key. It picks choices evenly, has no warm-up and keeps no samples.
+    pub(crate) fn start(
+        program: &Program,
+        streams: Streams,
+        state: State,
+        spreads: &HashMap<u128, f64>,
+    ) -> Walk<R> {
+        let sites = program.functions.iter().flat_map(|f| &f.sites);
+        Walk {
+            spreads: sites.map(|site| spreads.get(&site.key).copied().unwrap_or(1.0)).collect(),
+            counts: Counts::new(program),
+            best: Best::new(&state),
+            samples: Samples::new(0, 0),
+            state,
+            beta: 1.0,
+            strategy: Strategy::C3,
+            warmup: 0,
+            streams,
+            tables: Vec::new(),
+            ahead: Ahead::default(),
+            visit: 0,
+            grown: 0,
+            last: Decision::default(),
+            undoing: false,
+            barriers: None,
+            rules: PhantomData,
+        }
+    }
+
+    /// From now on the chain follows this power of the score, over states with a fixed number of barriers where it is given:
+    /// primitives, factors and observations together.
+    pub fn restrict(&mut self, beta: f64, barriers: Option<usize>) {
+        (self.beta, self.barriers) = (beta, barriers);
+    }
+
+    /// What it has done: proposals, particle-steps of parts that were grown again, and shapes that its state's proposals placed
+    /// or removed.
+    pub fn work(&self) -> u64 {
+        self.visit + self.grown + self.state.moved
+    }
+
+    /// How many proposals it has made.
+    pub fn visit(&self) -> u64 {
+        self.visit
+    }
+
+    /// The present state.
+    pub fn now(&self, program: &Program) -> Run {
+        self.state.run(program, self.visit)
+    }
+
+    /// The share of the warm-up that is over before a proposal; none after the warm-up, when nothing is adapted.
+    pub(crate) fn warming(&self, visit: u64) -> Option<f64> {
+        let warmup = self.warmup;
+        (visit < warmup).then(|| visit as f64 / warmup as f64)
+    }
+
+    /// The visit at which the next sample is due.
+    pub(crate) fn next_sample(&self) -> u64 {
+        let (thin, warmup) = (self.samples.thin, self.warmup);
+        if thin == 0 {
+            return u64::MAX;
+        }
+        warmup + (self.visit.saturating_sub(warmup) / thin + 1) * thin
+    }
+
+    /// Keeps the present state among the samples.
+    pub(crate) fn sample(&mut self, program: &Program) {
+        self.samples.keep(&self.state, program, self.visit, self.warmup);
+    }
+
+    /// Exchanges states with another chain of the same program and kernel.
+    pub(crate) fn exchange_with(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.state, &mut other.state);
+        std::mem::swap(&mut self.tables, &mut other.tables);
+        std::mem::swap(&mut self.best, &mut other.best);
+    }
+}
+
+/// A chain with the context of its next proposal.
+pub struct Proposing<'a, 'm, R: Rules> {
+    pub(crate) chain: &'a mut Walk<R>,
+    pub(crate) task: &'a Task,
+    pub(crate) machine: &'a mut Machine<'m>,
+    /// The weights of the leaf's choices; all weigh the same where there are none.
+    pub(crate) table: Option<usize>,
+    /// The power of the score.
+    pub(crate) beta: f64,
+}
+
+/// A move that needs the kept run of a chain, and all that the chain has for it.
+pub trait ChainMove {
+    /// Makes one proposal, and decides on it.
+    ///
+    /// # Errors
+    /// A fault of the program, or of the proposal.
+    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure>;
+}
