@@ -1,6 +1,6 @@
 //! Users' proposals and guides for the choices of a run that begins, as a chooser.
 
-use crate::guide::ahead::Foresight;
+use crate::foresight::Foresight;
 use crate::guide::bound::{BoundGuide, Sight};
 use crate::look_ahead::Forecast;
 use crate::user::User;

@@ -59,8 +59,8 @@ pub struct Sight {
     /// The place, in shares of the page from its upper left corner.
     pub at: [f64; 2],
     /// A copy of a run whose next choices are looked at, and what was seen there.
-    pub(super) copy: Option<State>,
-    pub(super) prospect: Vec<f64>,
+    pub(crate) copy: Option<State>,
+    pub(crate) prospect: Vec<f64>,
 }
 
 /// What a guide saw last of a run that is paused, for when it goes on: its next choice is often at the same place.
@@ -116,7 +116,7 @@ impl Sight {
 }
 
 /// Which member of a task's score shows each window: the next one of that name.
-pub(super) fn members(
+pub(crate) fn members(
     task: &Task,
     windows: &[(String, WindowForm)],
 ) -> Result<Vec<(usize, WindowForm)>, String> {
