@@ -5,7 +5,8 @@
 //! that met anything, since most of a page is backdrop.
 
 use super::light::TILE;
-use super::trace::{Pixel, Stage};
+use super::pixel::Pixel;
+use super::trace::Stage;
 use rayon::prelude::*;
 
 /// Share of the samples that every pixel takes, as a divisor.
