@@ -1,16 +1,77 @@
-//! The coarse mesh of each convex solid: its corners, placed in the world, and the faces over them.
+//! The coarse mesh of a solid: the corners of each convex one, placed in the world, and the faces over them.
 //!
 //! Polygons are inscribed and have a vertex on each axis that they can, because parts are attached flush exactly
 //! there. A frustum that ends in a point, and a limb whose rings cut each other's plane, take the general hull.
 
-use crate::convex::{Coarse, Hull, cuboid};
+use crate::bounds::Aabb;
+use crate::convex::{Coarse, Convex, cuboid};
+use crate::error::{GeomError, bad_shape};
 use crate::hull::hull;
 use crate::limb::band;
+use crate::mesh::TriMesh;
+use crate::plane::flat;
+use crate::polytope::Hull;
+use crate::ring::ring;
 use crate::segment;
-use crate::shape::{Placement, Solid};
+use crate::solid::{Placement, Solid};
 use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
 use std::sync::Arc;
+
+/// What a shape knows of its coarse mesh as soon as it is made.
+pub(crate) struct Extent {
+    /// The smallest box around it, world space; of a flat shape, around the outline.
+    pub aabb: Aabb,
+    /// Of a solid that is neither a box nor a mesh nor flat.
+    pub hull: Option<Coarse>,
+}
+
+/// The extent of a solid in the world.
+///
+/// # Errors
+/// `bad-shape` for a solid without inside, and for a flat one that is turned out of its plane.
+pub(crate) fn extent(solid: &Solid, placement: &Placement) -> Result<Extent, GeomError> {
+    let flat = || bad_shape(format!("{} has no inside", solid.kind()));
+    let around = |aabb| Ok(Extent { aabb, hull: None });
+    match solid {
+        Solid::Mesh(mesh) => around(Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+        Solid::Box { size } => {
+            let convex = Convex::cuboid(*size, placement);
+            // A size that is lost in rounding beside the placement leaves the corners equal.
+            if convex.width() <= 0.0 {
+                return flat();
+            }
+            around(Aabb::around(convex.corners().iter().copied()))
+        }
+        solid if solid.is_flat() => {
+            flat::check(solid, placement)?;
+            around(flat::aabb(solid, placement).unwrap_or(Aabb::EMPTY))
+        }
+        solid => {
+            let Some(hull) = convex(solid, placement) else { return flat() };
+            Ok(Extent { aabb: Aabb::around(hull.corners().iter().copied()), hull: Some(hull) })
+        }
+    }
+}
+
+/// The coarse mesh in the world; `convex` is the solid where that is convex.
+///
+/// # Errors
+/// `bad-shape` for a solid without geometry.
+pub(crate) fn mesh(
+    solid: &Solid,
+    placement: &Placement,
+    convex: Option<Convex<'_>>,
+) -> Result<TriMesh, GeomError> {
+    match (solid, convex) {
+        (Solid::Mesh(mesh), _) => Ok(mesh.placed(|p| placement.apply(p))),
+        (solid, _) if solid.is_flat() => {
+            flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
+        }
+        (_, Some(convex)) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
+        (_, None) => bad_shape("a solid without geometry".to_string()),
+    }
+}
 
 /// The convex solid in the world; `None` for a box, a mesh, a flat solid, and for a solid without inside.
 pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Coarse> {
@@ -65,15 +126,4 @@ fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement
     vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * top, half, cos * top))));
     vertices.extend([-half, half].map(|y| placement.apply(vec3(0.0, y, 0.0))));
     if top == bottom { Hull::prism(vertices, sides) } else { Hull::new(vertices, Topology::prism(sides)) }
-}
-
-/// Sine and cosine of `2 pi k / sides`. Exact on the axes, where flush attachment needs it.
-pub(crate) fn ring(sides: usize) -> impl Iterator<Item = (f64, f64)> {
-    const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
-    const OCTAGON: [(f64, f64); 8] =
-        [(0.0, 1.0), (H, H), (1.0, 0.0), (H, -H), (0.0, -1.0), (-H, -H), (-1.0, 0.0), (-H, H)];
-    (0..sides).map(move |k| match 8 * k % sides {
-        0 => OCTAGON[8 * k / sides],
-        _ => (std::f64::consts::TAU * k as f64 / sides as f64).sin_cos(),
-    })
 }

@@ -11,6 +11,5 @@ pub mod flat;
 pub mod outline;
 pub mod page;
 
-pub use flat::Round;
 pub use outline::Outline;
 pub use page::Page;
