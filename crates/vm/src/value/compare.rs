@@ -289,6 +289,12 @@ impl<S: Scalar> Value<S> {
     }
 }
 
+impl<S: Scalar> PartialEq for Value<S> {
+    fn eq(&self, other: &Value<S>) -> bool {
+        equal(self, other).unwrap_or(false)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
