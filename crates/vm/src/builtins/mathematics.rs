@@ -4,8 +4,8 @@
 //! (here `math-domain`), beyond the largest float `OverflowError` (`float-overflow`). Source: Python library
 //! reference, `math`, "CPython implementation detail".
 
+use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole, with_sign};
-use super::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::numbers::{self, Number, exact_or, pin};
 use crate::value::{Scalar, Value, print};
