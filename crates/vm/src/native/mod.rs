@@ -32,7 +32,6 @@ mod calls;
 mod entries;
 mod flow;
 mod functions;
-mod kinds;
 mod numbers;
 mod operate;
 mod registers;
@@ -41,23 +40,4 @@ mod typed;
 mod vectors;
 mod write;
 
-pub(crate) use entries::{Entries, Entry};
-pub(crate) use kinds::{Kind, Made, Part, Reg, is_counted};
-pub(crate) use routine::{Exit, Input, Routine};
-
-/// Words that code and machine exchange.
-pub(crate) mod words {
-    /// Steps that the code may take, and how many are left.
-    pub const STEPS: usize = 0;
-    /// Instructions carried out.
-    pub const DONE: usize = 1;
-    /// Scratch registers that the run has used before, from the first one of the function.
-    pub const ROOM: usize = 2;
-    /// Bytes that the code may charge, and how many are left.
-    pub const BYTES: usize = 3;
-    /// Addresses of constants, at most so many.
-    pub const CONSTANTS: usize = 4;
-    pub const MOST_CONSTANTS: usize = 32;
-    /// Registers: what they hold where the code begins, and where it leaves.
-    pub const REGISTERS: usize = CONSTANTS + MOST_CONSTANTS;
-}
+pub(crate) use entries::{entries_of, write};
