@@ -9,7 +9,7 @@ use crate::error::{GeomError, bad_shape};
 use crate::hull::hull;
 use crate::limb::band;
 use crate::mesh::TriMesh;
-use crate::plane::flat;
+use crate::plate;
 use crate::polytope::Hull;
 use crate::ring::ring;
 use crate::segment;
@@ -44,8 +44,8 @@ pub(crate) fn extent(solid: &Solid, placement: &Placement) -> Result<Extent, Geo
             around(Aabb::around(convex.corners().iter().copied()))
         }
         solid if solid.is_flat() => {
-            flat::check(solid, placement)?;
-            around(flat::aabb(solid, placement).unwrap_or(Aabb::EMPTY))
+            plate::check(solid, placement)?;
+            around(plate::aabb(solid, placement).unwrap_or(Aabb::EMPTY))
         }
         solid => {
             let Some(hull) = convex(solid, placement) else { return flat() };
@@ -66,7 +66,7 @@ pub(crate) fn mesh(
     match (solid, convex) {
         (Solid::Mesh(mesh), _) => Ok(mesh.placed(|p| placement.apply(p))),
         (solid, _) if solid.is_flat() => {
-            flat::plate(solid, flat::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
+            plate::plate(solid, plate::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
         }
         (_, Some(convex)) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
         (_, None) => bad_shape("a solid without geometry".to_string()),

@@ -2,7 +2,7 @@
 //!
 //! - [`bounds`]: boxes along the axes
 //! - [`solid`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
-//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`], `coarse`: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`], `plate`, `coarse`: surfaces and convex solids
 //! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
 //! - [`voxel`]: which cells of a grid a shape fills
@@ -30,6 +30,7 @@ pub mod look;
 pub mod mesh;
 mod once;
 pub mod plane;
+mod plate;
 pub mod polytope;
 pub mod primitive;
 pub mod render;

@@ -20,7 +20,7 @@ mod segment;
 
 pub use mesh::{ARC, FineMesh, ROUND};
 
-use crate::plane::flat;
+use crate::plate;
 use crate::shape::Shape;
 use crate::solid::Solid;
 
@@ -44,7 +44,7 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
         Solid::Limb { rings, .. } => limb::domed(&rings[0], &rings[1]),
         Solid::Segment(tube) => segment::grown(&tube.frames(), tube.onto().as_ref()),
         Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
-        flat @ (Solid::Stroke { .. } | Solid::Ellipse { .. }) => flat::plate(flat, flat::FINE)
+        flat @ (Solid::Stroke { .. } | Solid::Ellipse { .. }) => plate::plate(flat, plate::FINE)
             .map_or_else(|_| FineMesh::default(), |mesh| crease::creased(&mesh, crease::SHARP)),
     };
     mesh = mesh.without_unused();
