@@ -212,7 +212,9 @@ macro_rules! predicates {
 
 mod predicates {
     //! Tests of a float, named as those of `f64`.
-    use super::{Answer, Scalar, Value, real};
+    use crate::builtins::answer::Answer;
+    use crate::builtins::arithmetic::real;
+    use crate::value::{Scalar, Value};
 
     predicates! {
         /// Neither infinite nor NaN.

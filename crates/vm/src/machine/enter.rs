@@ -2,7 +2,7 @@
 
 use super::registers::Registers;
 use super::state::State;
-use super::{Machine, PureCall};
+use super::workspace::{Machine, PureCall};
 use crate::code::entries::Entry;
 use crate::code::kinds::{Kind, Made, Part, Reg, is_counted};
 use crate::code::routine::{Exit, Input, Routine, words};
