@@ -18,38 +18,31 @@ use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
 use std::sync::Arc;
 
-/// What a shape knows of its coarse mesh as soon as it is made.
-pub(crate) struct Extent {
-    /// The smallest box around it, world space; of a flat shape, around the outline.
-    pub aabb: Aabb,
-    /// Of a solid that is neither a box nor a mesh nor flat.
-    pub hull: Option<Coarse>,
+/// The fault of a solid that lies in a plane.
+#[cold]
+pub(crate) fn no_inside<T>(solid: &Solid) -> Result<T, GeomError> {
+    bad_shape(format!("{} has no inside", solid.kind()))
 }
 
-/// The extent of a solid in the world.
+/// The smallest box in the world around a solid that needs no hull for it: around a box, a mesh, or the outline of a flat solid.
 ///
 /// # Errors
-/// `bad-shape` for a solid without inside, and for a flat one that is turned out of its plane.
-pub(crate) fn extent(solid: &Solid, placement: &Placement) -> Result<Extent, GeomError> {
-    let flat = || bad_shape(format!("{} has no inside", solid.kind()));
-    let around = |aabb| Ok(Extent { aabb, hull: None });
+/// `bad-shape` for a box without inside, and for a flat solid that is turned out of its plane.
+#[inline]
+pub(crate) fn aabb(solid: &Solid, placement: &Placement) -> Result<Aabb, GeomError> {
     match solid {
-        Solid::Mesh(mesh) => around(Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+        Solid::Mesh(mesh) => Ok(Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
         Solid::Box { size } => {
             let convex = Convex::cuboid(*size, placement);
             // A size that is lost in rounding beside the placement leaves the corners equal.
             if convex.width() <= 0.0 {
-                return flat();
+                return no_inside(solid);
             }
-            around(Aabb::around(convex.corners().iter().copied()))
-        }
-        solid if solid.is_flat() => {
-            plate::check(solid, placement)?;
-            around(plate::aabb(solid, placement).unwrap_or(Aabb::EMPTY))
+            Ok(Aabb::around(convex.corners().iter().copied()))
         }
         solid => {
-            let Some(hull) = convex(solid, placement) else { return flat() };
-            Ok(Extent { aabb: Aabb::around(hull.corners().iter().copied()), hull: Some(hull) })
+            plate::check(solid, placement)?;
+            Ok(plate::aabb(solid, placement).unwrap_or(Aabb::EMPTY))
         }
     }
 }

@@ -35,6 +35,7 @@ impl Paint {
     ///
     /// # Errors
     /// `bad-shape` for a look that is out of range.
+    #[inline]
     pub fn of(look: &Look) -> Result<Option<Box<Paint>>, GeomError> {
         let Look { bevel, color, metalness, roughness, .. } = *look;
         if let Some(b) = bevel.filter(|b| !(*b >= 0.0 && b.is_finite())) {

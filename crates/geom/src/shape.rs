@@ -4,8 +4,8 @@
 //! ([`crate::store`]). Pictures make a finer mesh from the same solid.
 
 use crate::bounds::Aabb;
-use crate::coarse::{Extent, convex, extent, mesh};
-use crate::convex::{Coarse, Convex, is_aligned};
+use crate::coarse::{aabb, convex, mesh, no_inside};
+use crate::convex::{Convex, is_aligned};
 use crate::error::{GeomError, bad_shape};
 use crate::look::{Look, Paint};
 use crate::solid::{Placement, Solid};
@@ -112,19 +112,26 @@ impl Shape {
         solid.check()?;
         placement.check()?;
         let paint = Paint::of(look)?;
-        let Extent { aabb, hull } = extent(&solid, &placement)?;
+        let (mut width, mut number) = (f64::INFINITY, Number::NONE);
+        let aabb = match &solid {
+            Solid::Box { .. } => aabb(&solid, &placement)?,
+            Solid::Mesh(_) => {
+                number = Number::new();
+                aabb(&solid, &placement)?
+            }
+            flat if flat.is_flat() => aabb(flat, &placement)?,
+            solid => {
+                let Some(hull) = convex(solid, &placement) else { return no_inside(solid) };
+                (width, number) = (hull.width(), Number::new());
+                let aabb = Aabb::around(hull.corners().iter().copied());
+                store::keep_hull(&number, Rc::new(hull));
+                aabb
+            }
+        };
         // Beyond this, squares and products of lengths lose all meaning.
         let reach = aabb.union(&Aabb { low: Vec3::ZERO, high: Vec3::ZERO }).extent().norm();
         if reach.is_nan() || reach > 1e12 {
             return bad_shape("the shape is farther than 1e12 from the origin".to_string());
-        }
-        let number = match hull.is_some() || matches!(solid, Solid::Mesh(_)) {
-            true => Number::new(),
-            false => Number::NONE,
-        };
-        let width = hull.as_ref().map_or(f64::INFINITY, Coarse::width);
-        if let Some(hull) = hull {
-            store::keep_hull(&number, Rc::new(hull));
         }
         let Placement { rotation, translation } = placement;
         let bits = |turn: &Mat3| turn.columns.map(|column| column.to_array().map(f64::to_bits));

@@ -115,6 +115,7 @@ impl Solid {
     ///
     /// # Errors
     /// `bad-shape` for sizes that are not positive and finite, and for directions that are none.
+    #[inline]
     pub(crate) fn check(&self) -> Result<(), GeomError> {
         let positive = |what: &str, x: f64| match x > 0.0 && x.is_finite() {
             true => Ok(()),
@@ -199,6 +200,7 @@ impl Placement {
     pub const IDENTITY: Placement = Placement { rotation: Mat3::IDENTITY, translation: Vec3::ZERO };
 
     /// Refuses a place that is not finite, and what is no rotation.
+    #[inline]
     pub(crate) fn check(&self) -> Result<(), GeomError> {
         if !self.translation.is_finite() {
             return bad(format!("the centre is {:?}, expected finite numbers", self.translation.to_array()));
