@@ -2,7 +2,8 @@
 //!
 //! - [`bounds`]: boxes along the axes
 //! - [`solid`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
-//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`], `plate`, `coarse`: surfaces and convex solids
+//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`], `plate`, `coarse`: surfaces and convex
+//!   solids
 //! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
 //! - [`voxel`]: which cells of a grid a shape fills

@@ -1,5 +1,10 @@
 //! Bytecode: the parts of a compiled program. Numbers in newtypes, layouts in one place.
 //!
+//! * `operand`, `op`, `site`, `function`: operands, instructions, suspension sites, functions and programs;
+//! * `flow`: what instructions read and write, and which registers are live; `verify`: the check of a program; `disassemble`: its
+//!   text; `convert`: the program over other numbers;
+//! * `entries`, `routine`, `kinds`: where machine code may begin, the code that is there, and the registers that it reads.
+//!
 //! An operand is 16 bits: two of class, fourteen of index.
 //!
 //! | class | where it is stored | what it holds |

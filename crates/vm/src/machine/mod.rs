@@ -3,19 +3,21 @@
 //! Its verbs are few: [`Machine::start`] a run, [`Machine::resume`] one of its futures, fork (a `clone` of the
 //! [`State`]). It never recurses on the host stack, draws no random numbers and does not know which algorithm uses it.
 //!
-//! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given;
+//! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given, by `numbers`;
+//! * `workspace`: the machine itself; `outcome`: how a run stops, and how it goes on;
 //! * [`answers`]: the questions, and the trait of those who answer;
-//! * [`state`]: nodes, registers, futures; [`runnable`]: the futures that can run; `begin`: those of a run that has not begun;
+//! * [`state`]: nodes, registers, futures, by their numbers (`ids`) and in vectors that are copied (`buffers`);
+//!   [`runnable`]: the futures that can run; `begin`: those of a run that has not begun;
 //! * `budget`: what an operation costs in steps and bytes, and the audit of a run's memory;
-//! * `parts`: what activations emitted last, for guides;
+//! * `parts`: what activations emitted last, for guides, in `boxes`;
 //! * [`kept`]: traces: kept activations, and re-running what changed;
 //! * [`lanes`]: many runs at the same place, an instruction at a time for all of them;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
 //! * `enter`: machine code, where there is some;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
-//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops; `memo`:
-//!   memoised functions;
+//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
+//!   `memo`: memoised functions, over `memos`, the calls that there are; `keep`: what is kept of an activation that returns;
 //! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults of runs that are outside of the
 //!   model's support.
 

@@ -54,7 +54,8 @@ pub(super) fn routine<'v>(
         Some(Reg::Scratch(last)) => *last as usize + 1,
         _ => 0,
     };
-    // SAFETY: it was written with this signature, and it names the texts. It stays within so many words and reads what its kinds say.
+    // SAFETY: it was written with this signature, and the texts are all that it names. It stays within so many words, and reads
+    // what its kinds say.
     #[allow(unsafe_code)]
     let code = unsafe {
         let start = std::mem::transmute::<*const u8, Start>(memory.address(id));

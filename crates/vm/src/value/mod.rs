@@ -1,7 +1,8 @@
 //! Values: the contents of registers.
 //!
 //! A value is 16 bytes: a tag and either the number itself or one thin pointer to something shared that never changes.
-//! [`List`] is a persistent trie of our own ([`list`]); tuples, records, dictionaries and closures are flat.
+//! The kinds are in `variants`. [`List`] is a persistent trie of our own ([`list`]); tuples, records, dictionaries and closures
+//! are flat.
 //! Nothing in this module recurses on the host stack: dropping (`release`), identity (`same`), Python's
 //! `==` and `<` ([`compare`]), hashing and printing (`print`) all keep their own stack, so a chain of a million
 //! nested tuples is an ordinary value (a plain drop of such a chain overflows).
