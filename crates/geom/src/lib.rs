@@ -1,4 +1,4 @@
-//! Shapes, voxels, intersections, sketches and pictures.
+//! Shapes, voxels, intersections and sketches.
 //!
 //! - [`bounds`]: boxes along the axes
 //! - [`solid`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
@@ -13,7 +13,7 @@
 //! - [`bricks`]: counts of the shapes in each cell, and the cells of a target
 //! - [`sketch`]: running scores of the emitted shapes
 //! - [`window`]: what a sketch shows around a place
-//! - [`fine`], [`render`]: meshes with many sides, and pictures of them
+//! - [`fine`]: meshes with many sides, for pictures and files
 //! - [`store`]: geometry that shapes have needed lately
 //! - `once`: values that are computed when they are first needed
 
@@ -34,7 +34,6 @@ pub mod plane;
 mod plate;
 pub mod polytope;
 pub mod primitive;
-pub mod render;
 pub mod ring;
 pub mod segment;
 pub mod shape;

@@ -74,7 +74,7 @@ pub const LARGEST: usize = 16_384;
 /// straight (not premultiplied) alpha.
 ///
 /// ```
-/// use niwaki_geom::render::{render, Shot, Surface};
+/// use niwaki_render::{render, Shot, Surface};
 /// let triangle = Surface {
 ///     vertices: vec![[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]],
 ///     faces: vec![[0, 1, 2]],

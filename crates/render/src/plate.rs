@@ -174,7 +174,7 @@ fn contrast(dark: f32, bright: f32) -> bool {
 #[cfg(test)]
 mod tests {
     //! Claim: a picture in which most pixels take a quarter of the samples is as good as one in which all take all.
-    use crate::render::{Shot, Surface, render};
+    use crate::{Shot, Surface, render};
 
     /// A grey post on a red slab, both turned.
     fn scene() -> Vec<Surface> {

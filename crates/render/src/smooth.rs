@@ -118,8 +118,8 @@ fn tent(d: usize) -> f32 {
 mod tests {
     //! Claim: light does not leak across a crease, and noise on one plane goes down.
     use super::*;
-    use crate::render::plate::Row;
-    use crate::render::v3::v3;
+    use crate::plate::Row;
+    use crate::v3::v3;
 
     #[test]
     fn stops_at_a_crease() {
