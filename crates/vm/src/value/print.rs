@@ -220,8 +220,6 @@ impl<S: Scalar> std::fmt::Debug for Value<S> {
     }
 }
 
-/// Python's `==`, for tests and tables; values count as different beyond the budget of a comparison.
-
 impl Fault {
     /// The same fault, as that of a call whose arguments are of the right kinds, but have no result: the run is invalid.
     #[cold]
