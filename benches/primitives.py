@@ -42,7 +42,7 @@ ALLOWED = 1e-3
 SEARCHES = ("building", "ship", "tree", "tree-and-ledges", "digits-of-pipes")
 #: What a function belongs to: the first that its name matches.
 PARTS = (
-    ("sketches", r"niwaki_geom::(sketch|voxel|intersect|view|plane|tree|window)"),
+    ("sketches", r"niwaki_geom::(sketch|bricks|voxel|intersect|view|plane|tree|window)"),
     ("shapes", r"niwaki_geom::"),
     ("streams and densities", r"niwaki_math::"),
     ("the machine", r"niwaki_vm::"),

@@ -5,9 +5,9 @@ use crate::solids::{mesh, shape};
 use arbitrary::Unstructured;
 use niwaki_geom::fine::fine_mesh;
 use niwaki_geom::hull::hull;
-use niwaki_geom::render::{Camera, Shot, Surface, render};
 use niwaki_geom::voxel::surface::touches;
 use niwaki_geom::{Grid, Look, Rule, Shape, Target, TriMesh, Vec3, Voxels, intersects};
+use niwaki_render::{Camera, Shot, Surface, render};
 use std::sync::Arc;
 
 /// Grids of more cells than this are not filled, so that an input takes some milliseconds at most.

@@ -1,16 +1,70 @@
-//! The coarse mesh of each convex solid: its corners, placed in the world, and the faces over them.
+//! The coarse mesh of a solid: the corners of each convex one, placed in the world, and the faces over them.
 //!
 //! Polygons are inscribed and have a vertex on each axis that they can, because parts are attached flush exactly
 //! there. A frustum that ends in a point, and a limb whose rings cut each other's plane, take the general hull.
 
-use crate::convex::{Coarse, Hull, cuboid};
+use crate::bounds::Aabb;
+use crate::convex::{Coarse, Convex, cuboid};
+use crate::error::{GeomError, bad_shape};
 use crate::hull::hull;
 use crate::limb::band;
+use crate::mesh::TriMesh;
+use crate::plate;
+use crate::polytope::Hull;
+use crate::ring::ring;
 use crate::segment;
-use crate::shape::{Placement, Solid};
+use crate::solid::{Placement, Solid};
 use crate::topology::Topology;
 use crate::vector::{Vec3, vec3};
 use std::sync::Arc;
+
+/// The fault of a solid that lies in a plane.
+#[cold]
+pub(crate) fn no_inside<T>(solid: &Solid) -> Result<T, GeomError> {
+    bad_shape(format!("{} has no inside", solid.kind()))
+}
+
+/// The smallest box in the world around a solid that needs no hull for it: around a box, a mesh, or the outline of a flat solid.
+///
+/// # Errors
+/// `bad-shape` for a box without inside, and for a flat solid that is turned out of its plane.
+#[inline]
+pub(crate) fn aabb(solid: &Solid, placement: &Placement) -> Result<Aabb, GeomError> {
+    match solid {
+        Solid::Mesh(mesh) => Ok(Aabb::around(mesh.corners().flatten().map(|p| placement.apply(p)))),
+        Solid::Box { size } => {
+            let convex = Convex::cuboid(*size, placement);
+            // A size that is lost in rounding beside the placement leaves the corners equal.
+            if convex.width() <= 0.0 {
+                return no_inside(solid);
+            }
+            Ok(Aabb::around(convex.corners().iter().copied()))
+        }
+        solid => {
+            plate::check(solid, placement)?;
+            Ok(plate::aabb(solid, placement).unwrap_or(Aabb::EMPTY))
+        }
+    }
+}
+
+/// The coarse mesh in the world; `convex` is the solid where that is convex.
+///
+/// # Errors
+/// `bad-shape` for a solid without geometry.
+pub(crate) fn mesh(
+    solid: &Solid,
+    placement: &Placement,
+    convex: Option<Convex<'_>>,
+) -> Result<TriMesh, GeomError> {
+    match (solid, convex) {
+        (Solid::Mesh(mesh), _) => Ok(mesh.placed(|p| placement.apply(p))),
+        (solid, _) if solid.is_flat() => {
+            plate::plate(solid, plate::COARSE).map(|mesh| mesh.map(|p| placement.apply(p)))
+        }
+        (_, Some(convex)) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
+        (_, None) => bad_shape("a solid without geometry".to_string()),
+    }
+}
 
 /// The convex solid in the world; `None` for a box, a mesh, a flat solid, and for a solid without inside.
 pub(crate) fn convex(solid: &Solid, placement: &Placement) -> Option<Coarse> {
@@ -65,15 +119,4 @@ fn prism(bottom: f64, top: f64, length: f64, sides: usize, placement: &Placement
     vertices.extend(ring(sides).map(|(sin, cos)| placement.apply(vec3(sin * top, half, cos * top))));
     vertices.extend([-half, half].map(|y| placement.apply(vec3(0.0, y, 0.0))));
     if top == bottom { Hull::prism(vertices, sides) } else { Hull::new(vertices, Topology::prism(sides)) }
-}
-
-/// Sine and cosine of `2 pi k / sides`. Exact on the axes, where flush attachment needs it.
-pub(crate) fn ring(sides: usize) -> impl Iterator<Item = (f64, f64)> {
-    const H: f64 = std::f64::consts::FRAC_1_SQRT_2;
-    const OCTAGON: [(f64, f64); 8] =
-        [(0.0, 1.0), (H, H), (1.0, 0.0), (H, -H), (0.0, -1.0), (-H, -H), (-1.0, 0.0), (-H, H)];
-    (0..sides).map(move |k| match 8 * k % sides {
-        0 => OCTAGON[8 * k / sides],
-        _ => (std::f64::consts::TAU * k as f64 / sides as f64).sin_cos(),
-    })
 }

@@ -1,7 +1,8 @@
 //! Convex solids as intersection and voxels use them.
 
+use crate::polytope::{Hull, narrowest};
 use crate::segment;
-use crate::shape::Placement;
+use crate::solid::Placement;
 use crate::topology::Topology;
 use crate::vector::{Mat3, Vec3, vec3};
 use std::cell::OnceCell;
@@ -33,82 +34,6 @@ pub struct Coarse {
     pieces: OnceCell<Box<[Hull]>>,
 }
 
-/// A convex solid that is no box.
-#[derive(Debug)]
-pub struct Hull {
-    /// Vertices, then face normals: one allocation.
-    points: Box<[Vec3]>,
-    vertices: usize,
-    topology: Arc<Topology>,
-    edges: OnceCell<Box<[Vec3]>>,
-    width: f64,
-}
-
-impl Hull {
-    /// From world vertices (hull corners first, then the points that only triangles use).
-    ///
-    /// `None` when a face has no normal, which a flat solid has.
-    pub(crate) fn new(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
-        Hull::over(vertices, topology, false)
-    }
-
-    /// As [`Hull::new`], for a solid that is nearly convex; a face without a normal is left out.
-    pub(crate) fn nearly(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
-        Hull::over(vertices, topology, true)
-    }
-
-    /// A prism over a regular polygon, whose opposite sides are parallel when there is an even number of them.
-    pub(crate) fn prism(vertices: Vec<Vec3>, sides: usize) -> Option<Hull> {
-        let topology = Topology::prism(sides);
-        if sides % 2 == 1 {
-            return Hull::new(vertices, topology);
-        }
-        let faces = topology.faces[..sides / 2].iter().chain([&topology.faces[sides]]);
-        let normals = faces.map(|face| face_normal(face, &vertices)).collect::<Option<Vec<Vec3>>>()?;
-        Hull::of_parts(vertices, normals, topology)
-    }
-
-    fn over(vertices: Vec<Vec3>, topology: Arc<Topology>, flat_faces: bool) -> Option<Hull> {
-        let mut normals = Vec::with_capacity(topology.faces.len());
-        for face in &topology.faces {
-            match face_normal(face, &vertices) {
-                Some(normal) => push_direction(&mut normals, normal),
-                None if flat_faces => {}
-                None => return None,
-            }
-        }
-        Hull::of_parts(vertices, normals, topology)
-    }
-
-    fn of_parts(vertices: Vec<Vec3>, normals: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
-        let width = narrowest(&vertices[..topology.corners], &normals);
-        let points = [&vertices[..], &normals].concat().into();
-        let edges = OnceCell::new();
-        (width > 0.0).then_some(Hull { points, vertices: vertices.len(), topology, edges, width })
-    }
-
-    /// Smallest extent along a face normal: how thick the solid is.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
-    fn corners(&self) -> &[Vec3] {
-        &self.points[..self.topology.corners]
-    }
-
-    fn edges(&self) -> &[Vec3] {
-        self.edges.get_or_init(|| {
-            let mut edges = Vec::new();
-            for [a, b] in &self.topology.edges {
-                if let Some(direction) = (self.points[*b as usize] - self.points[*a as usize]).unit() {
-                    push_direction(&mut edges, direction);
-                }
-            }
-            edges.into()
-        })
-    }
-}
-
 impl Coarse {
     /// Of a convex solid.
     pub(crate) fn new(whole: Hull) -> Coarse {
@@ -122,7 +47,7 @@ impl Coarse {
 
     /// Smallest extent along a face normal: how thick the solid is.
     pub fn width(&self) -> f64 {
-        self.whole.width
+        self.whole.width()
     }
 
     /// Corners of the hull, world space.
@@ -132,8 +57,8 @@ impl Coarse {
 
     /// Bytes that it takes, or a little more, with all that it may compute.
     pub(crate) fn bytes(&self) -> usize {
-        let Hull { points, topology, .. } = &self.whole;
-        let whole = (points.len() + topology.edges.len()) * size_of::<Vec3>() + size_of::<Coarse>();
+        let whole = self.whole.bytes() + size_of::<Coarse>();
+        let topology = self.whole.topology();
         // The pieces of a segment have more corners than it.
         whole * if self.welded.is_some() { 3 } else { 1 }
             + if Arc::strong_count(topology) == 1 { topology.bytes() } else { 0 }
@@ -153,7 +78,7 @@ impl Convex<'_> {
         match self {
             Convex::Cuboid(corners, normals) => narrowest(corners, normals),
             Convex::Coarse(coarse) => coarse.width(),
-            Convex::Hull(hull) => hull.width,
+            Convex::Hull(hull) => hull.width(),
         }
     }
 
@@ -172,8 +97,8 @@ impl Convex<'_> {
     pub fn vertices(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(corners, _) => corners,
-            Convex::Coarse(coarse) => &coarse.whole.points[..coarse.whole.vertices],
-            Convex::Hull(hull) => &hull.points[..hull.vertices],
+            Convex::Coarse(coarse) => coarse.whole.vertices(),
+            Convex::Hull(hull) => hull.vertices(),
         }
     }
 
@@ -182,8 +107,8 @@ impl Convex<'_> {
     pub fn topology(&self) -> &Topology {
         match self {
             Convex::Cuboid(..) => Topology::cuboid(),
-            Convex::Coarse(coarse) => &coarse.whole.topology,
-            Convex::Hull(hull) => &hull.topology,
+            Convex::Coarse(coarse) => coarse.whole.topology(),
+            Convex::Hull(hull) => hull.topology(),
         }
     }
 
@@ -192,8 +117,8 @@ impl Convex<'_> {
     pub fn normals(&self) -> &[Vec3] {
         match self {
             Convex::Cuboid(_, normals) => normals,
-            Convex::Coarse(coarse) => &coarse.whole.points[coarse.whole.vertices..],
-            Convex::Hull(hull) => &hull.points[hull.vertices..],
+            Convex::Coarse(coarse) => coarse.whole.normals(),
+            Convex::Hull(hull) => hull.normals(),
         }
     }
 
@@ -215,11 +140,6 @@ impl Convex<'_> {
     }
 }
 
-/// Smallest extent of `corners` along one of `normals`.
-fn narrowest(corners: &[Vec3], normals: &[Vec3]) -> f64 {
-    normals.iter().map(|n| span(corners, *n)).map(|(low, high)| high - low).fold(f64::INFINITY, f64::min)
-}
-
 /// True when a rotation leaves the sides of a box exactly along the coordinate directions.
 #[inline]
 pub(crate) fn is_aligned(rotation: &Mat3) -> bool {
@@ -235,38 +155,4 @@ pub(crate) fn cuboid(size: Vec3, taper: f64, placement: &Placement) -> [Vec3; 8]
         let end = if i >> 2 == 1 { taper } else { 1.0 };
         placement.apply(vec3(sign(0) * half.x * end, sign(1) * half.y * end, sign(2) * half.z))
     })
-}
-
-/// Extent of `points` along `axis`.
-#[inline]
-pub(crate) fn span(points: &[Vec3], axis: Vec3) -> (f64, f64) {
-    // Two at a time, so that one need not wait for the other.
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    let mut look = |k: usize, p: &Vec3| {
-        let along = p.dot(axis);
-        low[k] = if along < low[k] { along } else { low[k] };
-        high[k] = if along > high[k] { along } else { high[k] };
-    };
-    let (pairs, rest) = points.as_chunks::<2>();
-    for [p, q] in pairs {
-        look(0, p);
-        look(1, q);
-    }
-    rest.iter().for_each(|p| look(0, p));
-    (low[0].min(low[1]), high[0].max(high[1]))
-}
-
-/// Newell's normal: exact for planar faces, the mean one otherwise.
-fn face_normal(face: &[u32], vertices: &[Vec3]) -> Option<Vec3> {
-    let at = |i: usize| vertices[face[i % face.len()] as usize];
-    let origin = at(0);
-    (1..face.len() - 1).fold(Vec3::ZERO, |sum, i| sum + (at(i) - origin).cross(at(i + 1) - origin)).unit()
-}
-
-/// Adds a direction, unless it is among them.
-fn push_direction(directions: &mut Vec<Vec3>, new: Vec3) {
-    // Parallel to within 1e-10 radians, in either direction.
-    if !directions.iter().any(|d| d.dot(new).abs() > 0.999_999 && d.cross(new).dot(d.cross(new)) < 1e-20) {
-        directions.push(new);
-    }
 }

@@ -19,6 +19,11 @@ impl GeomError {
     }
 }
 
+/// Refuses a shape: `bad-shape`.
+pub(crate) fn bad_shape<T>(message: String) -> Result<T, GeomError> {
+    Err(GeomError::new("bad-shape", message))
+}
+
 impl fmt::Display for GeomError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)

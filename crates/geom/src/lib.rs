@@ -1,20 +1,24 @@
-//! Shapes, voxels, intersections, sketches and pictures.
+//! Shapes, voxels, intersections and sketches.
 //!
 //! - [`bounds`]: boxes along the axes
-//! - [`mesh`], [`topology`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
+//! - [`solid`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
+//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`], `plate`, `coarse`: surfaces and convex
+//!   solids
 //! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
 //! - [`view`]: the rays of a picture, and which of them meet a shape
 //! - [`tree`]: a bag of boxes that copies share
+//! - [`bricks`]: counts of the shapes in each cell, and the cells of a target
 //! - [`sketch`]: running scores of the emitted shapes
 //! - [`window`]: what a sketch shows around a place
-//! - [`fine`], [`render`]: meshes with many sides, and pictures of them
+//! - [`fine`]: meshes with many sides, for pictures and files
 //! - [`store`]: geometry that shapes have needed lately
 //! - `once`: values that are computed when they are first needed
 
 pub mod bounds;
+pub mod bricks;
 mod coarse;
 pub mod convex;
 pub mod error;
@@ -23,33 +27,42 @@ mod folds;
 pub mod hull;
 pub mod intersect;
 pub mod limb;
+pub mod look;
 pub mod mesh;
 mod once;
 pub mod plane;
+mod plate;
+pub mod polytope;
 pub mod primitive;
-pub mod render;
+pub mod ring;
 pub mod segment;
 pub mod shape;
 pub mod sketch;
+pub mod solid;
 pub mod store;
 pub mod topology;
 pub mod tree;
+pub mod tube;
 pub mod view;
 pub mod voxel;
 pub mod window;
 pub mod words;
 
 pub use bounds::Aabb;
-pub use convex::{Coarse, Convex, Hull};
+pub use bricks::Target;
+pub use convex::{Coarse, Convex};
 pub use error::GeomError;
 pub use intersect::{Rule, intersects};
+pub use look::Look;
 pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
-pub use plane::{Page, Round};
+pub use plane::Page;
+pub use polytope::Hull;
 pub use primitive::Primitive;
-pub use segment::{Bark, Frame, Tube};
-pub use shape::{Placement, Ring, Shape, Solid};
+pub use ring::Ring;
+pub use shape::Shape;
 pub use sketch::*;
+pub use solid::{Placement, Round, Solid};
+pub use tube::{Bark, Frame, Tube};
 pub use voxel::{Grid, Voxels};
 pub use window::{Place, WindowForm, WindowKind, WindowPoint};
-pub use words::Look;

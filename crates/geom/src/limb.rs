@@ -63,7 +63,7 @@ mod tests {
     //! The band is the general hull: the same volume, and every vertex below every face.
     use super::band;
     use crate::hull::hull;
-    use crate::shape::Ring;
+    use crate::ring::Ring;
     use crate::topology::Topology;
     use crate::vector::{Vec3, vec3};
 

@@ -1,27 +1,19 @@
 //! The shape functions of a model: `box`, `cylinder`, `limb`, `segment`, `stroke`, `ellipse` and `mesh`, with centres, axes and defaults.
 
 use crate::error::GeomError;
+use crate::look::Look;
 use crate::mesh::TriMesh;
-use crate::plane::Round;
-use crate::segment::{Bark, Frame, Tube};
-use crate::shape::{CYLINDER_SIDES, LIMB_SIDES, Placement, Ring, Shape, Solid};
+use crate::ring::Ring;
+use crate::shape::Shape;
+use crate::solid::{Placement, Round, Solid};
+use crate::tube::{Bark, Frame, Tube};
 use crate::vector::{Mat3, Vec3, vec3};
 use std::sync::Arc;
 
-/// The arguments of every shape besides its measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Look {
-    /// Turn about the centre, after the shape was aligned with its axis.
-    pub rotation: Option<Mat3>,
-    /// Rounding of edges in pictures.
-    pub bevel: Option<f64>,
-    /// Linear colour in `[0, 1]`.
-    pub color: Option<[f32; 3]>,
-    /// From 0 (paint, wood, stone) to 1 (metal).
-    pub metalness: Option<f32>,
-    /// From 0 (a mirror) to 1 (chalk).
-    pub roughness: Option<f32>,
-}
+/// Default number of sides of a cylinder (dissertation chapter 5's coarse mesh).
+pub const CYLINDER_SIDES: usize = 8;
+/// Default number of sides of a limb.
+pub const LIMB_SIDES: usize = 10;
 
 impl Shape {
     /// A solid around `center`, turned by `laid` to its axis before the look turns it.

@@ -8,12 +8,11 @@
 //! * [`scalar`]: the number that records its operations; [`mod@record`]: a run of a program, recorded;
 //! * [`mod@positions`]: where the shapes of a run are, by its choices;
 //! * [`coordinates`]: from bounded values to coordinates without bounds and back;
-//! * [`compiled`]: the tape first, then machine code; [`live`]: records again where a guard fails;
+//! * [`live`]: records again where a guard fails, over [`live::compiled`]: the tape first, then machine code;
 //! * [`jax`]: the same density as Python text.
 
 #![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
 
-pub mod compiled;
 pub mod coordinates;
 pub mod density;
 pub mod graph;
@@ -29,10 +28,10 @@ pub mod scalar;
 pub mod tape;
 pub mod wide;
 
-pub use compiled::Compiled;
 pub use coordinates::{Continuous, Transform};
 pub use density::{Comparison, Density, Guard};
 pub use graph::{Graph, Id};
+pub use live::compiled::Compiled;
 pub use live::{Live, Model, Refused};
 pub use native::{Native, Rolling};
 pub use operation::Op;

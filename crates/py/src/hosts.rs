@@ -7,7 +7,7 @@
 //! An exception makes the run invalid. `KeyboardInterrupt`, `SystemExit`, whatever else is no `Exception`, and `MemoryError` are
 //! not about the model: they are kept beside the search, end it, and are raised from it ([`Hosts::raised`]).
 
-use crate::search::end_if_forked;
+use crate::forks::end_if_forked;
 use crate::values::Classes;
 use niwaki_run::task::Hosts;
 use niwaki_vm::fault::Fault;

@@ -18,6 +18,7 @@ mod chains;
 mod checkpoints;
 mod distributions;
 mod faults;
+mod forks;
 mod geometry;
 mod gradients;
 mod guides;

@@ -4,8 +4,8 @@
 
 use crate::geometry::PyShape;
 use crate::threads::Pool;
-use niwaki_geom::render::{self, Backdrop, Camera, Shot, Surface, View};
 use niwaki_geom::{Vec3, fine};
+use niwaki_render::{self as render, Backdrop, Camera, Shot, Surface, View};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;

@@ -6,6 +6,7 @@
 
 use crate::checkpoints::PyCheckpoint;
 use crate::faults;
+use crate::forks::end_if_forked;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::guides::PyGuide;
@@ -51,18 +52,6 @@ use std::time::Duration;
 
 /// Time between two calls of the callback.
 const PAUSE: Duration = Duration::from_millis(50);
-
-/// The exit status of a child that was forked in a callback and came back (`EX_SOFTWARE` of sysexits.h).
-const FORKED: i32 = 70;
-
-/// Ends this process where it is a child that was forked in `callback`, a function of the user that `process` called: the
-/// search does not go on in it.
-pub(crate) fn end_if_forked(process: u32, callback: &str) {
-    if std::process::id() != process {
-        eprintln!("niwaki: the search stays in the parent of this fork; end the child in {callback}");
-        std::process::exit(FORKED);
-    }
-}
 
 /// The progress of a search, and whether it should stop.
 #[derive(Default)]

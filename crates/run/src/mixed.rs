@@ -10,7 +10,7 @@
 //! number per unit of `grade`. No weight can compare the two: written in other units, the same model would have another
 //! posterior, and in truth the density counts nothing beside the probability.
 //!
-//! Most programs cannot: [`niwaki_vm::code::kinds`] tells without a run. Of the others a few runs from the prior show it: an
+//! Most programs cannot: [`niwaki_vm::code::observed`] tells without a run. Of the others a few runs from the prior show it: an
 //! observation is named by its activation and the text of what is observed, so that it is the same in two arms of an `if`. It is
 //! reported where one run has it only as a probability and another only as a density. Columns of data that are of different
 //! kinds in the same manner in all runs are not.
@@ -24,7 +24,7 @@ use crate::forward::Forward;
 use crate::record::Record;
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, StreamKey};
-use niwaki_vm::code::kinds::{is_density, may_mix, subject};
+use niwaki_vm::code::observed::{is_density, may_mix, subject};
 use niwaki_vm::core::Span;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::address::join;

@@ -7,8 +7,6 @@
 //! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
 //! instruction returns one.
 
-use crate::value::print::call_text;
-use crate::value::{Scalar, Value};
 use std::fmt;
 use std::ops::Deref;
 
@@ -139,10 +137,10 @@ impl Fault {
         )
     }
 
-    /// The same fault, as that of a call whose arguments are of the right kinds, but have no result: the run is invalid.
+    /// The same fault, making the run invalid by that call.
     #[cold]
-    pub fn of_call<S: Scalar>(mut self, name: &str, args: &[Value<S>]) -> Fault {
-        self.0.invalid = Some(InvalidCall { name: name.to_string(), text: call_text(name, args) });
+    pub fn invalid_by(mut self, call: InvalidCall) -> Fault {
+        self.0.invalid = Some(call);
         self
     }
 

@@ -4,7 +4,7 @@
 //! direction from the clamped point, which is also the normal there. Differs from chapter 5's programs: they round
 //! the cube and then stretch it; here the radius is the same on every edge, a share of the *smallest* half length.
 
-use super::{ARC, FineMesh, unit_or};
+use super::mesh::{ARC, FineMesh, unit_or};
 use crate::vector::{Vec3, vec3};
 use std::collections::HashMap;
 

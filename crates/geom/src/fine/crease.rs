@@ -3,7 +3,7 @@
 //! At each corner of each face the normals of the faces around that vertex are averaged, weighted by their angle at
 //! the vertex (Thurmer & Wuthrich 1998), leaving out those that turn away by more than the crease angle.
 
-use super::{FineMesh, unit_or};
+use super::mesh::{FineMesh, unit_or};
 use crate::mesh::TriMesh;
 use crate::vector::{Vec3, vec3};
 use std::collections::HashMap;

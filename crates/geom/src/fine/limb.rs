@@ -5,8 +5,8 @@
 //! axis *in the ring's plane*: neighbours agree there, and a branch of many limbs looks like one surface. The dome is
 //! hidden by the next limb, and rounds off the last.
 
-use super::{FineMesh, ROUND, unit_or};
-use crate::shape::Ring;
+use super::mesh::{FineMesh, ROUND, unit_or};
+use crate::ring::Ring;
 use crate::vector::Vec3;
 
 /// Height of the dome over the end, in radii of the end.

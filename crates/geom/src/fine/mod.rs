@@ -4,6 +4,7 @@
 //! normals (the high resolution of chapter 5's figures). The mesh of a box, cylinder or limb is closed; where a flat
 //! face meets a round rim they share vertices, because their normals agree there.
 //!
+//! - `mesh.rs`    triangles with normals
 //! - `boxes.rs`   rounded boxes, tapered or not
 //! - `revolve.rs` cylinders and cones with rounded rims
 //! - `limb.rs`    smooth tubes with a domed end
@@ -13,73 +14,20 @@
 mod boxes;
 mod crease;
 mod limb;
+mod mesh;
 mod revolve;
 mod segment;
 
-use crate::plane::flat;
-use crate::shape::{Shape, Solid};
-use crate::vector::Vec3;
+pub use mesh::{ARC, FineMesh, ROUND};
 
-/// Sides of everything round.
-pub const ROUND: usize = 48;
-/// Segments of a rounded edge for each quarter turn.
-pub const ARC: usize = 6;
+use crate::plate;
+use crate::shape::Shape;
+use crate::solid::Solid;
+
 /// Rounding of boxes whose shape gives none, as a share of the smallest half length.
 pub const BOX_BEVEL: f64 = 0.16;
 /// Rounding of cylinders' rims, as a share of the smaller of the radius and the half length.
 pub const RIM_BEVEL: f64 = 0.12;
-
-/// Triangles with a unit normal at every vertex.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FineMesh {
-    /// Scene units.
-    pub vertices: Vec<Vec3>,
-    /// As many as vertices.
-    pub normals: Vec<Vec3>,
-    /// Counter-clockwise seen from outside.
-    pub faces: Vec<[u32; 3]>,
-}
-
-impl FineMesh {
-    /// Adds a vertex and returns its number.
-    fn point(&mut self, position: Vec3, normal: Vec3) -> u32 {
-        self.vertices.push(position);
-        self.normals.push(normal);
-        (self.vertices.len() - 1) as u32
-    }
-
-    /// Adds a triangle unless two of its corners coincide.
-    fn face(&mut self, [a, b, c]: [u32; 3]) {
-        let [p, q, r] = [a, b, c].map(|i| self.vertices[i as usize]);
-        if p != q && q != r && r != p {
-            self.faces.push([a, b, c]);
-        }
-    }
-
-    /// Adds the quadrilateral `a b c d`, counter-clockwise.
-    fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
-        self.face([a, b, c]);
-        self.face([a, c, d]);
-    }
-
-    /// Removes the vertices of no triangle: a row that has shrunk to a point leaves some.
-    fn without_unused(self) -> FineMesh {
-        let mut used = vec![false; self.vertices.len()];
-        for &corner in self.faces.iter().flatten() {
-            used[corner as usize] = true;
-        }
-        if used.iter().all(|&one| one) {
-            return self;
-        }
-        let mut kept = FineMesh::default();
-        let mut numbers = Vec::with_capacity(used.len());
-        for ((&place, &normal), &is_used) in self.vertices.iter().zip(&self.normals).zip(&used) {
-            numbers.push(if is_used { kept.point(place, normal) } else { 0 });
-        }
-        kept.faces = self.faces.iter().map(|face| face.map(|corner| numbers[corner as usize])).collect();
-        kept
-    }
-}
 
 /// The fine mesh of a shape, in the world.
 pub fn fine_mesh(shape: &Shape) -> FineMesh {
@@ -96,7 +44,7 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
         Solid::Limb { rings, .. } => limb::domed(&rings[0], &rings[1]),
         Solid::Segment(tube) => segment::grown(&tube.frames(), tube.onto().as_ref()),
         Solid::Mesh(mesh) => crease::creased(mesh, crease::SHARP),
-        flat @ (Solid::Stroke { .. } | Solid::Ellipse { .. }) => flat::plate(flat, flat::FINE)
+        flat @ (Solid::Stroke { .. } | Solid::Ellipse { .. }) => plate::plate(flat, plate::FINE)
             .map_or_else(|_| FineMesh::default(), |mesh| crease::creased(&mesh, crease::SHARP)),
     };
     mesh = mesh.without_unused();
@@ -110,19 +58,14 @@ pub fn fine_mesh(shape: &Shape) -> FineMesh {
     mesh
 }
 
-/// `v` as a unit vector; `or` when it has no direction.
-fn unit_or(v: Vec3, or: Vec3) -> Vec3 {
-    v.unit().unwrap_or(or)
-}
-
 #[cfg(test)]
 mod tests {
     //! Claim: every fine mesh is closed, has unit normals that agree with its faces and no vertex without one, lies
     //! within the solid's box (a limb's dome excepted) and fills nearly the solid's volume.
     use super::*;
+    use crate::look::Look;
     use crate::mesh::TriMesh;
-    use crate::vector::vec3;
-    use crate::words::Look;
+    use crate::vector::{Vec3, vec3};
 
     fn check(shape: &Shape, volume: f64, tolerance: f64) {
         let fine = fine_mesh(shape);

@@ -1,6 +1,6 @@
 //! Cylinders and cones along +y: a profile with rounded corners, turned about the axis.
 
-use super::{ARC, FineMesh, ROUND};
+use super::mesh::{ARC, FineMesh, ROUND};
 use crate::vector::{Vec3, vec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 

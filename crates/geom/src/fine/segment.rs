@@ -5,9 +5,9 @@
 //! At the foot the normals are the parent's own, so that the shading has no seam.
 
 use super::limb::{between, close, dome, domed, join, row};
-use super::{FineMesh, unit_or};
-use crate::segment::{Bark, Frame};
-use crate::shape::Ring;
+use super::mesh::{FineMesh, unit_or};
+use crate::ring::Ring;
+use crate::tube::{Bark, Frame};
 use crate::vector::Vec3;
 
 /// The foot of the collar, in radii of the branch.

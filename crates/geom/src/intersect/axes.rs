@@ -5,7 +5,8 @@
 //! only touch.
 
 use crate::bounds::Aabb;
-use crate::convex::{Convex, span};
+use crate::convex::Convex;
+use crate::polytope::span;
 use crate::vector::Vec3;
 
 /// The sine up to which edges count as parallel: what they could separate, a face normal does.

@@ -12,7 +12,8 @@
 //! The two may differ where the overlap is the tolerance to within rounding.
 
 use super::axes::PARALLEL;
-use crate::shape::{Shape, Solid};
+use crate::shape::Shape;
+use crate::solid::Solid;
 use crate::vector::{Mat3, Vec3};
 
 /// A box in any direction.

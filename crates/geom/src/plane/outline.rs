@@ -3,7 +3,8 @@
 //! An outline is one convex piece of a shape seen along z: the hull of two circles, an ellipse, or a polygon. Between
 //! two heights each has one interval of x, in closed form, with square roots and no angles: the same bits everywhere.
 
-use crate::shape::{Shape, Solid};
+use crate::shape::Shape;
+use crate::solid::Solid;
 
 /// A point of the plane, scene units.
 type Point = [f64; 2];

@@ -9,8 +9,8 @@
 //! around it, and one when the obstacle fills the cell of a point of it. The shared cells are counted when a person asks.
 
 use super::bag::Bag;
-use super::volume::Target;
-use super::{Sketch, SketchSpec, share};
+use super::score::{Sketch, SketchSpec, share};
+use crate::bricks::Target;
 use crate::primitive::Primitive;
 use crate::shape::Shape;
 use crate::vector::Vec3;

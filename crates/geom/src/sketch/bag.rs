@@ -6,7 +6,6 @@
 //! *mark*: what the sketch computed for this primitive alone and needs to remove it, for example the cells that it
 //! fills. Copies share marks, also those that are computed after the copy.
 
-use super::same_bag;
 use crate::bounds::Aabb;
 use crate::once::Once;
 use crate::primitive::Primitive;
@@ -135,6 +134,18 @@ impl<M: Clone> PartialEq for Bag<M> {
     fn eq(&self, other: &Bag<M>) -> bool {
         same_bag(&self.tree(), &other.tree(), |item| &item.primitive)
     }
+}
+
+/// Equality of bags: every primitive of one is in the other as often.
+pub(crate) fn same_bag<T: Clone + Boxed>(
+    a: &BoxTree<T>,
+    b: &BoxTree<T>,
+    of: impl Fn(&T) -> &Primitive,
+) -> bool {
+    let mut rest = a.clone();
+    let mut same = a.len() == b.len();
+    b.each(|item| same = same && rest.remove(item.aabb(), |p| of(p) == of(item)).is_some());
+    same
 }
 
 #[cfg(test)]

@@ -23,8 +23,8 @@
 
 use super::bag::Bag;
 use super::outside::Outside;
+use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use super::tiles::Tiles;
-use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;

@@ -4,7 +4,7 @@
 //! sketch. Touching has the tolerance of intersections: a millionth of a shape's thickness.
 
 use super::bag::Bag;
-use super::{Sketch, SketchSpec};
+use super::score::{Sketch, SketchSpec};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
 use crate::primitive::Primitive;

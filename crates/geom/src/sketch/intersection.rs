@@ -3,7 +3,8 @@
 //! Pieces of one primitive are not tested against each other. A tree of boxes that copies share finds the few
 //! primitives near a new one, so that the cost does not grow with distant primitives.
 
-use super::{Sketch, SketchSpec, same_bag};
+use super::bag::same_bag;
+use super::score::{Sketch, SketchSpec};
 use crate::intersect::{Rule, primitives_intersect};
 use crate::primitive::Primitive;
 use crate::tree::BoxTree;

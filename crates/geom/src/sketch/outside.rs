@@ -13,7 +13,8 @@
 
 use crate::bounds::Aabb;
 use crate::plane::Page;
-use crate::shape::{Shape, Solid};
+use crate::shape::Shape;
+use crate::solid::Solid;
 
 /// The share of the window that costs one nat.
 const SCALE: f64 = 0.001;

@@ -10,7 +10,7 @@
 //! maximum.
 
 use super::bag::Bag;
-use super::{Sketch, SketchSpec, check_sigma, log_normal};
+use super::score::{Sketch, SketchSpec, check_sigma, log_normal};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::primitive::Primitive;

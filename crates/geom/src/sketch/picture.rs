@@ -15,8 +15,8 @@
 //! are used only when the score is computed. The empty scene is scored as a picture with every pixel off.
 
 use super::bag::Bag;
+use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use super::tiles::Tiles;
-use super::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use crate::error::GeomError;
 use crate::once::Once;
 use crate::primitive::Primitive;

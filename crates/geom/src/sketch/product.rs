@@ -4,7 +4,7 @@
 //! primitives that they have not seen. They catch up as soon as the ones before allow the scene again, so the state
 //! depends on the scene only, not on its history.
 
-use super::{Sketch, SketchSpec};
+use super::score::{Sketch, SketchSpec};
 use crate::primitive::Primitive;
 use crate::window::{Place, WindowForm};
 use niwaki_math::{Total, grid};

@@ -3,7 +3,7 @@
 //! A tile is 64 bundles of 64 rays that are near each other. Changing one copies that tile only, and only when
 //! it is shared; a tile without counts is not stored.
 
-use super::brick::Brick;
+use crate::bricks::brick::Brick;
 use crate::view::Cover;
 use std::sync::Arc;
 

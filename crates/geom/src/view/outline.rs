@@ -6,7 +6,8 @@
 //! does when its start is behind every plane that faces along the ray.
 
 use super::rays::{BUNDLE, Bundle, Node, Projection, ROW};
-use crate::convex::{Convex, span};
+use crate::convex::Convex;
+use crate::polytope::span;
 use crate::vector::Vec3;
 use std::cell::OnceCell;
 use wide::f64x4;

@@ -4,7 +4,7 @@
 //! 0.1 scene units on all six sides; the number of cells is the extent divided by the given voxel size, rounded
 //! up, so that cells are a little smaller than given and not cubes.
 
-use super::CellBox;
+use super::cells::CellBox;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::vector::{Vec3, vec3};

@@ -8,24 +8,17 @@
 //! - [`surface`], [`fill`]: any triangle mesh
 //! - [`slabs`]: convex solids, row by row; must agree with the method for meshes
 
+pub mod cells;
 pub mod fill;
 pub mod grid;
 pub mod slabs;
 pub mod surface;
 
+pub use cells::CellBox;
 pub use grid::Grid;
 
 use crate::shape::Shape;
 use surface::Bits;
-
-/// Cells from `low` to `high`, both included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CellBox {
-    /// Smallest indices.
-    pub low: [usize; 3],
-    /// Largest indices.
-    pub high: [usize; 3],
-}
 
 /// The cells of a grid that a shape fills.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@
 //! The slabs are cut along y instead when the solid is upright (all corners on two heights). A prism along either
 //! axis is cut once: all its slices are one polygon.
 
-use super::CellBox;
+use super::cells::CellBox;
 use super::grid::{Grid, TOUCH};
 use crate::convex::Convex;
 

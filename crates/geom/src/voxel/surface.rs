@@ -5,7 +5,7 @@
 //!
 //! How a flat part was cut into triangles makes no difference, even where they lie over one another ([`crate::folds`]).
 
-use super::CellBox;
+use super::cells::CellBox;
 use super::grid::{Grid, TOUCH};
 use crate::folds::Fold;
 use crate::mesh::TriMesh;

@@ -1,6 +1,6 @@
 //! One bit for each cell of a page, in tiles that copies share.
 
-use crate::sketch::brick::Plane;
+use crate::bricks::brick::Plane;
 use std::sync::Arc;
 
 /// Words of bits. Cloning shares all tiles; changing one copies that tile only, and only when it is shared.

@@ -1,8 +1,9 @@
 //! Reading parameters: each is checked once, when a distribution is built; all refusals are [`BadParameter`].
 
-use super::draw::{Draw, Param};
+use super::draw::Draw;
 use super::family::Dist;
 use super::family::Family;
+use super::param::Param;
 use crate::scalar::Scalar;
 use std::fmt;
 

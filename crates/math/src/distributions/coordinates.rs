@@ -16,7 +16,7 @@
 //! bounds instead ([`Interval::moved`]), so that it loses no digits. Where the numbers of 64 bits end, see [`super::ends`].
 
 use super::draw::Draw;
-use super::family::Space;
+use super::space::Space;
 use super::support::Support;
 use crate::scalar::Scalar;
 use std::f64::consts::PI;

@@ -4,7 +4,8 @@
 //! registers.
 
 use super::check::{BadParameter, Reader};
-use super::draw::{Draw, Param};
+use super::draw::Draw;
+use super::param::Param;
 
 use super::family::{Dist, Family};
 use super::lists::{DiagonalGaussian, Multinomial};

@@ -1,6 +1,5 @@
-//! The inputs and outputs of a distribution: parameters and drawn values.
+//! The outputs of a distribution: drawn values.
 
-use super::family::Dist;
 use crate::scalar::Scalar;
 use std::fmt;
 use std::sync::Arc;
@@ -102,32 +101,13 @@ impl<S: Scalar> Draw<S> {
     }
 }
 
-/// A parameter of a distribution, as a model passes it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Param<S: Scalar = f64> {
-    /// A truth value; counts as 0 or 1 where a number is wanted.
-    Bool(bool),
-    /// A whole number; counts as a real where one is wanted.
-    Int(i64),
-    /// A real number.
-    Real(S),
-    /// Numbers in a row.
-    Vector(Vec<S>),
-    /// Rows of numbers.
-    Matrix(Vec<Vec<S>>),
-    /// Distributions.
-    Dists(Vec<Dist<S>>),
-    /// A value to be returned as it is.
-    Draw(Draw<S>),
-}
-
 /// A number as Python writes it.
-fn number<S: Scalar>(f: &mut fmt::Formatter<'_>, x: S) -> fmt::Result {
+pub(super) fn number<S: Scalar>(f: &mut fmt::Formatter<'_>, x: S) -> fmt::Result {
     if x.value().is_nan() { f.write_str("nan") } else { write!(f, "{:?}", x.value()) }
 }
 
 /// Up to eight values of a row, for a message.
-fn row<T: Copy>(
+pub(super) fn row<T: Copy>(
     f: &mut fmt::Formatter<'_>,
     values: &[T],
     write: impl Fn(&mut fmt::Formatter<'_>, T) -> fmt::Result,
@@ -155,30 +135,6 @@ impl<S: Scalar> fmt::Display for Draw<S> {
             Draw::Vector(v) => row(f, v, number),
             Draw::Counts(v) => row(f, v, |f, k| write!(f, "{k}")),
             Draw::Truths(v) => row(f, v, truth),
-        }
-    }
-}
-
-/// As text, shortened where it is long.
-impl<S: Scalar> fmt::Display for Param<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Param::Bool(b) => Draw::<S>::Bool(*b).fmt(f),
-            Param::Int(i) => write!(f, "{i}"),
-            Param::Real(x) => Draw::Real(*x).fmt(f),
-            Param::Vector(v) => row(f, v, number),
-            Param::Matrix(rows) if rows.len() <= 3 => {
-                write!(f, "[")?;
-                for (k, r) in rows.iter().enumerate() {
-                    write!(f, "{}", if k > 0 { ", " } else { "" })?;
-                    row(f, r, number)?;
-                }
-                write!(f, "]")
-            }
-            Param::Matrix(rows) => write!(f, "{} rows of numbers", rows.len()),
-            Param::Dists(dists) if dists.len() == 1 => write!(f, "one distribution"),
-            Param::Dists(dists) => write!(f, "{} distributions", dists.len()),
-            Param::Draw(d) => d.fmt(f),
         }
     }
 }

@@ -24,7 +24,8 @@
 
 use super::coordinates::Interval;
 use super::draw::Draw;
-use super::family::{Dist, Space};
+use super::family::Dist;
+use super::space::Space;
 use super::support::Support;
 use super::truncated;
 use crate::log_sums::log_sum_exp_of;

@@ -5,61 +5,18 @@
 //! [`Support`] is used: a family cannot be left out.
 
 use super::coordinates::Interval;
-use super::draw::{Draw, Param};
+use super::draw::Draw;
 use super::fields::Field;
 use super::lists::{DiagonalGaussian, Multinomial};
 use super::mixture::Mixture;
+use super::param::Param;
+use super::space::Space;
 use super::support::Support;
 use super::vectors::MultivariateGaussian;
 use super::weights::Weights;
 use crate::scalar::Scalar;
 use std::fmt;
 use std::sync::Arc;
-
-/// Where the values of a family lie, for all of its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Space {
-    /// Truth values.
-    Booleans,
-    /// Whole numbers without order, from zero.
-    Categories,
-    /// Whole numbers.
-    Integers,
-    /// All real numbers; the family has a scale.
-    Line,
-    /// Real numbers above zero.
-    Positive,
-    /// Real numbers from zero to one.
-    Unit,
-    /// Real numbers with bounds that are parameters.
-    Bounded,
-    /// Angles.
-    Circle,
-    /// Vectors of positive numbers that sum to one.
-    Simplex,
-    /// Vectors; the family has a scale.
-    Vectors,
-    /// Lists of counts.
-    Counts,
-    /// Lists of truth values.
-    Truths,
-    /// Where the values of its components lie.
-    Components,
-    /// A value that is given.
-    Fixed,
-}
-
-impl Space {
-    /// Whether values are real numbers or vectors, other than ones that are given.
-    pub const fn is_continuous(self) -> bool {
-        match self {
-            Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => false,
-            Space::Counts | Space::Truths => false,
-            Space::Line | Space::Positive | Space::Unit | Space::Bounded | Space::Circle => true,
-            Space::Simplex | Space::Vectors | Space::Components => true,
-        }
-    }
-}
 
 /// The support of a row.
 macro_rules! support {

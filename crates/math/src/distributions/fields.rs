@@ -1,6 +1,11 @@
 //! The fields of distributions: over another kind of number, and as parameters.
 
-use super::draw::{Draw, Param};
+use super::draw::Draw;
+use super::lists::{DiagonalGaussian, Multinomial};
+use super::mixture::Mixture;
+use super::param::Param;
+use super::vectors::MultivariateGaussian;
+use super::weights::Weights;
 use crate::scalar::Scalar;
 use std::sync::Arc;
 
@@ -73,5 +78,78 @@ impl<S: Scalar, P: Field<S>> Field<S> for Arc<P> {
 
     fn params(&self) -> Vec<Param<S>> {
         (**self).params()
+    }
+}
+
+impl<S: Scalar> Field<S> for Multinomial<S> {
+    type Over<T: Scalar> = Multinomial<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Multinomial<T> {
+        let all = |xs: &[S]| xs.iter().map(|x| number(*x)).collect();
+        Multinomial { n: self.n, weights: all(&self.weights), shares: all(&self.shares) }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Int(self.n), Param::Vector(self.weights.clone())]
+    }
+}
+
+impl<S: Scalar> Field<S> for DiagonalGaussian<S> {
+    type Over<T: Scalar> = DiagonalGaussian<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> DiagonalGaussian<T> {
+        let all = |xs: &[S]| xs.iter().map(|x| number(*x)).collect();
+        DiagonalGaussian { mean: all(&self.mean), sd: all(&self.sd) }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.mean.clone()), Param::Vector(self.sd.clone())]
+    }
+}
+
+impl<S: Scalar> Field<S> for MultivariateGaussian<S> {
+    type Over<T: Scalar> = MultivariateGaussian<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {
+        let all = |xs: &Vec<S>| xs.iter().map(|x| number(*x)).collect::<Vec<_>>();
+        MultivariateGaussian {
+            mean: all(&self.mean),
+            covariance: self.covariance.iter().map(all).collect(),
+            factor: self.factor.iter().map(all).collect(),
+            log_peak: number(self.log_peak),
+        }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.mean.clone()), Param::Matrix(self.covariance.clone())]
+    }
+}
+
+impl<S: Scalar> Field<S> for Weights<S> {
+    type Over<T: Scalar> = Weights<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {
+        Weights {
+            given: self.given.iter().map(|w| number(*w)).collect(),
+            log: self.log.iter().map(|w| number(*w)).collect(),
+            cumulative: self.cumulative.clone(),
+        }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.given.to_vec())]
+    }
+}
+
+impl<S: Scalar> Field<S> for Mixture<S> {
+    type Over<T: Scalar> = Mixture<T>;
+
+    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Mixture<T> {
+        let components = self.components.iter().map(|c| c.convert(number)).collect();
+        Mixture { weights: self.weights.over(number), components }
+    }
+
+    fn params(&self) -> Vec<Param<S>> {
+        vec![Param::Vector(self.weights.given().to_vec()), Param::Dists(self.components.clone())]
     }
 }

@@ -1,8 +1,5 @@
 //! Lists of independent or shared-out values: multinomial, multivariate_bernoulli, diagonal_gaussian.
 
-use super::check::{BadParameter, Reader};
-use super::draw::Param;
-use super::fields::Field;
 use super::{bell, counts, whole};
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
@@ -13,33 +10,12 @@ pub struct Multinomial<S: Scalar = f64> {
     /// The number of trials.
     pub n: i64,
     /// Weights of the categories, as given.
-    weights: Vec<S>,
+    pub(super) weights: Vec<S>,
     /// Of each category: its share of what it and those after it have.
-    shares: Vec<S>,
+    pub(super) shares: Vec<S>,
 }
 
 impl<S: Scalar> Multinomial<S> {
-    pub(super) fn read(reader: &Reader<'_, S>) -> Result<Self, BadParameter> {
-        const EXPECTED: &str = "finite weights, none negative, with a positive finite sum";
-        let n = reader.whole(0)?;
-        if n < 0 {
-            return reader.refuse(0, "a whole number, not negative");
-        }
-        let weights = reader.vector_where(1, EXPECTED, |w| w >= S::from_f64(0.0))?.to_vec();
-        let mut rest = S::from_f64(0.0);
-        let mut shares = vec![rest; weights.len()];
-        for (share, w) in shares.iter_mut().zip(&weights).rev() {
-            rest = rest + *w;
-            if w.varies() || w.value() > 0.0 {
-                *share = *w / rest;
-            }
-        }
-        if !(rest.value() > 0.0 && rest.is_finite()) {
-            return reader.refuse(1, EXPECTED);
-        }
-        Ok(Multinomial { n, weights, shares })
-    }
-
     /// The number of categories.
     pub fn len(&self) -> usize {
         self.weights.len()
@@ -128,19 +104,6 @@ impl<S: Scalar> Multinomial<S> {
     }
 }
 
-impl<S: Scalar> Field<S> for Multinomial<S> {
-    type Over<T: Scalar> = Multinomial<T>;
-
-    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Multinomial<T> {
-        let all = |xs: &[S]| xs.iter().map(|x| number(*x)).collect();
-        Multinomial { n: self.n, weights: all(&self.weights), shares: all(&self.shares) }
-    }
-
-    fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Int(self.n), Param::Vector(self.weights.clone())]
-    }
-}
-
 /// Products of smaller shares and numbers of trials may be no normal numbers.
 const TINY: f64 = 1e-290;
 
@@ -191,16 +154,6 @@ pub struct DiagonalGaussian<S: Scalar = f64> {
 }
 
 impl<S: Scalar> DiagonalGaussian<S> {
-    pub(super) fn read(reader: &Reader<'_, S>) -> Result<Self, BadParameter> {
-        const EXPECTED: &str = "finite numbers above zero, as many as `mean` has";
-        let mean = reader.vector_where(0, "finite numbers, at least one", |_| true)?.to_vec();
-        let sd = reader.vector_where(1, EXPECTED, |x| x > S::from_f64(0.0))?.to_vec();
-        if sd.len() != mean.len() {
-            return reader.refuse_kind(1, EXPECTED);
-        }
-        Ok(DiagonalGaussian { mean, sd })
-    }
-
     /// The root of the mean variance: a typical distance between its values.
     pub(super) fn scale(&self) -> S {
         let sum = self.sd.iter().fold(S::from_f64(0.0), |sum, sd| sum + *sd * *sd);
@@ -223,19 +176,6 @@ impl<S: Scalar> DiagonalGaussian<S> {
     pub(super) fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Vec<f64> {
         let draw = |(mean, sd): (&S, &S)| bell::gaussian_sample(mean.value(), sd.value(), rng);
         self.mean.iter().zip(&self.sd).map(draw).collect()
-    }
-}
-
-impl<S: Scalar> Field<S> for DiagonalGaussian<S> {
-    type Over<T: Scalar> = DiagonalGaussian<T>;
-
-    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> DiagonalGaussian<T> {
-        let all = |xs: &[S]| xs.iter().map(|x| number(*x)).collect();
-        DiagonalGaussian { mean: all(&self.mean), sd: all(&self.sd) }
-    }
-
-    fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Vector(self.mean.clone()), Param::Vector(self.sd.clone())]
     }
 }
 

@@ -7,10 +7,8 @@
 //! All components must have the same kind of value with the same measure: the density of a coin or a fixed
 //! value cannot be compared with that of a Gaussian.
 
-use super::check::{BadParameter, Reader};
-use super::draw::{Draw, Param};
+use super::draw::Draw;
 use super::family::Dist;
-use super::fields::Field;
 use super::support::Support;
 use super::weights::Weights;
 use crate::log_sums::log_sum_exp_of;
@@ -27,19 +25,6 @@ pub struct Mixture<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Mixture<S> {
-    pub(super) fn read(reader: &Reader<'_, S>) -> Result<Self, BadParameter> {
-        const EXPECTED: &str = "as many distributions as there are weights";
-        let weights = Weights::read(reader, 0)?;
-        let components = reader.dists(1, EXPECTED)?;
-        if components.len() != weights.len() {
-            return reader.refuse_kind(1, EXPECTED);
-        }
-        if components.iter().any(|c| !c.compares_with(&components[0])) {
-            return reader.refuse_kind(1, "distributions over values of one kind");
-        }
-        Ok(Mixture { weights, components: components.to_vec() })
-    }
-
     /// `ln sum exp(ln w_k + ln density_k(x))`, relative to the largest term.
     #[inline(never)]
     pub fn log_density(&self, x: &Draw<S>) -> S {
@@ -76,19 +61,6 @@ impl<S: Scalar> Mixture<S> {
             }
         }
         Some(values)
-    }
-}
-
-impl<S: Scalar> Field<S> for Mixture<S> {
-    type Over<T: Scalar> = Mixture<T>;
-
-    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Mixture<T> {
-        let components = self.components.iter().map(|c| c.convert(number)).collect();
-        Mixture { weights: self.weights.over(number), components }
-    }
-
-    fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Vector(self.weights.given().to_vec()), Param::Dists(self.components.clone())]
     }
 }
 

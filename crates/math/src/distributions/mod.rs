@@ -3,11 +3,12 @@
 //! | file | what it holds |
 //! | --- | --- |
 //! | `family` | the table: [`Family`] and [`Dist`], names, parameters, and where values lie: [`Space`] |
-//! | `draw` | inputs and outputs: [`Param`], [`Draw`] |
-//! | `check` | reading parameters, and the error of a wrong one: [`BadParameter`] |
+//! | `draw`, `param` | outputs and inputs: [`Draw`], [`Param`] |
+//! | `check`, `read` | reading parameters, and the error of a wrong one: [`BadParameter`] |
 //! | `fields` | fields of distributions: over another kind of number, and as parameters |
 //! | `dist` | what each family does: building, scoring, drawing |
-//! | `support` | [`Support`], and listing the values of the finite discrete families |
+//! | `support` | where the values of a distribution lie: [`Support`] |
+//! | `listing` | the values of the finite discrete families |
 //! | `ends` | the last numbers of 64 bits inside an interval, and what each stands for |
 //! | `coordinates` | real numbers with bounds as numbers without, and small moves there: [`Interval`] |
 //! | `whole` | bernoulli, discrete_uniform, geometric |
@@ -44,9 +45,13 @@ mod ends;
 mod family;
 mod fields;
 mod interval;
+mod listing;
 mod lists;
 mod mixture;
+mod param;
 mod ranks;
+mod read;
+mod space;
 mod support;
 mod tables;
 mod tails;
@@ -61,11 +66,13 @@ mod testing;
 
 pub use check::BadParameter;
 pub use coordinates::{Interval, Placed, logistic};
-pub use draw::{Draw, Param};
+pub use draw::Draw;
 pub use ends::{COORDINATES, LEAST};
-pub use family::{Dist, Family, Space};
+pub use family::{Dist, Family};
 pub use lists::{DiagonalGaussian, Multinomial};
 pub use mixture::Mixture;
+pub use param::Param;
+pub use space::Space;
 pub use support::Support;
 pub use tables::Tables;
 pub use vectors::MultivariateGaussian;

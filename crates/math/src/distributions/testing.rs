@@ -3,9 +3,10 @@
 //! Fixed seeds. Each call of [`continuous_agrees`], [`follows`] or [`discrete_agrees`] raises a false alarm with
 //! probability at most 1e-6; there are about a hundred of them.
 
-use super::draw::{Draw, Param};
+use super::draw::Draw;
 use super::family::Dist;
 use super::family::Family;
+use super::param::Param;
 use crate::streams::Stream;
 use std::ops::RangeInclusive;
 

@@ -1,9 +1,5 @@
 //! Vectors: dirichlet, multivariate_gaussian.
 
-use super::bell::HALF_LN_TAU;
-use super::check::{BadParameter, Reader};
-use super::draw::Param;
-use super::fields::Field;
 use super::waiting::{gamma_draw, log_gamma_draw};
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
@@ -85,37 +81,12 @@ pub struct MultivariateGaussian<S: Scalar = f64> {
     /// Covariance, shape (n, n).
     pub covariance: Vec<Vec<S>>,
     /// Lower triangle with `factor factor' = covariance`; row i has i + 1 entries.
-    factor: Vec<Vec<S>>,
+    pub(super) factor: Vec<Vec<S>>,
     /// `-(n / 2) ln(2 pi) - sum ln factor_ii`.
-    log_peak: S,
+    pub(super) log_peak: S,
 }
 
 impl<S: Scalar> MultivariateGaussian<S> {
-    pub(super) fn read(reader: &Reader<'_, S>) -> Result<Self, BadParameter> {
-        const SQUARE: &str = "as many rows and columns of finite numbers as `mean` has entries";
-        let mean = reader.vector_where(0, "finite numbers, at least one", |_| true)?.to_vec();
-        let n = mean.len();
-        let covariance = reader.square(1, n, SQUARE)?;
-        for i in 0..n {
-            for j in 0..i {
-                let (a, b) = (covariance[i][j].value(), covariance[j][i].value());
-                // A product such as A A' is symmetric only up to rounding.
-                if (a - b).abs() > 1e-10 * (covariance[i][i].value() * covariance[j][j].value()).abs().sqrt()
-                {
-                    return reader.refuse(1, "a symmetric matrix");
-                }
-            }
-        }
-        match cholesky(covariance) {
-            Some(factor) => {
-                let peak = S::from_f64(-HALF_LN_TAU * n as f64);
-                let log_peak = factor.iter().enumerate().fold(peak, |sum, (i, row)| sum - row[i].ln());
-                Ok(MultivariateGaussian { mean, covariance: covariance.to_vec(), factor, log_peak })
-            }
-            None => reader.refuse(1, "a positive definite matrix"),
-        }
-    }
-
     /// The root of the mean variance: a typical distance between its values.
     pub(super) fn scale(&self) -> S {
         let sum = (0..self.mean.len()).fold(S::from_f64(0.0), |sum, i| sum + self.covariance[i][i]);
@@ -151,26 +122,8 @@ impl<S: Scalar> MultivariateGaussian<S> {
     }
 }
 
-impl<S: Scalar> Field<S> for MultivariateGaussian<S> {
-    type Over<T: Scalar> = MultivariateGaussian<T>;
-
-    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> MultivariateGaussian<T> {
-        let all = |xs: &Vec<S>| xs.iter().map(|x| number(*x)).collect::<Vec<_>>();
-        MultivariateGaussian {
-            mean: all(&self.mean),
-            covariance: self.covariance.iter().map(all).collect(),
-            factor: self.factor.iter().map(all).collect(),
-            log_peak: number(self.log_peak),
-        }
-    }
-
-    fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Vector(self.mean.clone()), Param::Matrix(self.covariance.clone())]
-    }
-}
-
 /// Lower triangular factor of a symmetric matrix, or `None` when it is not positive definite.
-fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
+pub(super) fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
     let mut factor: Vec<Vec<S>> = Vec::with_capacity(matrix.len());
     for (i, given) in matrix.iter().enumerate() {
         let mut row: Vec<S> = Vec::with_capacity(i + 1);

@@ -3,9 +3,6 @@
 //! Weights need not sum to one. Logarithms and running sums are computed once, when the table is built, so
 //! that scoring is a look-up and drawing one uniform and a search.
 
-use super::check::{BadParameter, Reader};
-use super::draw::Param;
-use super::fields::Field;
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
 
@@ -13,38 +10,14 @@ use crate::streams::{RngCore, open_unit};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights<S: Scalar = f64> {
     /// As given.
-    given: Box<[S]>,
+    pub(super) given: Box<[S]>,
     /// Log probabilities, nats.
-    log: Box<[S]>,
+    pub(super) log: Box<[S]>,
     /// Running sums of the probabilities; from the last possible choice on exactly 1.
-    cumulative: Box<[f64]>,
+    pub(super) cumulative: Box<[f64]>,
 }
 
 impl<S: Scalar> Weights<S> {
-    /// Parameter `k` of the reader as weights.
-    pub(super) fn read(reader: &Reader<'_, S>, k: usize) -> Result<Self, BadParameter> {
-        const EXPECTED: &str = "finite weights, none negative, with a positive finite sum";
-        let given = reader.vector_where(k, EXPECTED, |w| w >= S::from_f64(0.0))?;
-        let total = given.iter().fold(S::from_f64(0.0), |sum, w| sum + *w);
-        if !(total.value() > 0.0 && total.is_finite()) {
-            return reader.refuse(k, EXPECTED);
-        }
-        let log_total = total.ln();
-        let log = given.iter().map(|w| w.ln() - log_total).collect();
-        let mut sum = 0.0;
-        let mut cumulative: Box<[f64]> = given
-            .iter()
-            .map(|w| {
-                sum += w.value();
-                sum / total.value()
-            })
-            .collect();
-        // Rounding may leave the last sum below 1, and trailing zeros must never be drawn.
-        let last = given.iter().rposition(|w| w.value() > 0.0).unwrap_or(0);
-        cumulative[last..].fill(1.0);
-        Ok(Weights { given: given.into(), log, cumulative })
-    }
-
     /// How many choices there are.
     pub fn len(&self) -> usize {
         self.log.len()
@@ -84,22 +57,6 @@ impl<S: Scalar> Weights<S> {
         } else {
             self.cumulative.partition_point(|sum| *sum <= u)
         }
-    }
-}
-
-impl<S: Scalar> Field<S> for Weights<S> {
-    type Over<T: Scalar> = Weights<T>;
-
-    fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {
-        Weights {
-            given: self.given.iter().map(|w| number(*w)).collect(),
-            log: self.log.iter().map(|w| number(*w)).collect(),
-            cumulative: self.cumulative.clone(),
-        }
-    }
-
-    fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Vector(self.given.to_vec())]
     }
 }
 

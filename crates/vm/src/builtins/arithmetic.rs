@@ -1,6 +1,6 @@
 //! Conversions, rounding and the small functions of numbers that every model uses.
 
-use super::{Answer, less, unfit};
+use super::answer::{Answer, less, unfit};
 use crate::fault::Fault;
 use crate::value::numbers::{self, Number, exact_or};
 use crate::value::{Scalar, Value, print};

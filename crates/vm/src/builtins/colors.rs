@@ -1,6 +1,6 @@
 //! Colours: vectors of three sRGB parts, made from and read as HSV and CIELAB.
 
-use super::Answer;
+use super::answer::Answer;
 use super::arithmetic::real;
 use super::vectors::three;
 use crate::value::{Scalar, Value};

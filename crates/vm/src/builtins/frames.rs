@@ -2,8 +2,8 @@
 //!
 //! A frame is a position and two unit directions at right angles. What lies in the plane is given by pairs: its z is 0.
 
+use super::answer::{Answer, unfit};
 use super::vectors::{length, parts};
-use super::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::{Scalar, Value, Vector};
 

@@ -4,8 +4,8 @@
 //! (here `math-domain`), beyond the largest float `OverflowError` (`float-overflow`). Source: Python library
 //! reference, `math`, "CPython implementation detail".
 
+use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole, with_sign};
-use super::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::numbers::{self, Number, exact_or, pin};
 use crate::value::{Scalar, Value, print};
@@ -212,7 +212,9 @@ macro_rules! predicates {
 
 mod predicates {
     //! Tests of a float, named as those of `f64`.
-    use super::{Answer, Scalar, Value, real};
+    use crate::builtins::answer::Answer;
+    use crate::builtins::arithmetic::real;
+    use crate::value::{Scalar, Value};
 
     predicates! {
         /// Neither infinite nor NaN.

@@ -12,6 +12,7 @@
 //! The operators (`add`, `lt`, `index`, ...) are in the table as well, so that any of them can be a function value.
 //! Mathematics goes through [`Scalar`], so a recording scalar sees it.
 
+pub mod answer;
 pub mod arithmetic;
 pub mod colors;
 pub mod dist;
@@ -25,12 +26,10 @@ pub mod strings;
 pub mod vectors;
 
 use crate::fault::Fault;
-use crate::value::{Scalar, Value, compare, index, ops};
+use crate::value::{Scalar, Value, index, ops};
 
+pub use answer::Answer;
 pub use dist::{draw_to_value, make_dist, quick_dist, value_to_draw};
-
-/// The result of a built-in function.
-pub type Answer<S> = Result<Value<S>, Fault>;
 
 /// A built-in function.
 pub struct Builtin<S: Scalar = f64> {
@@ -244,17 +243,6 @@ table! {
     "stroke" 3 5 shapes::stroke;
     "ellipse" 3 5 shapes::ellipse;
     "disc" 2 3 shapes::disc;
-}
-
-/// `a < b` as a plain truth value, for ordering.
-pub(crate) fn less<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
-    Ok(compare::order(a, b, "<")? == Some(std::cmp::Ordering::Less))
-}
-
-/// The fault of an argument of a kind that a function does not take.
-#[cold]
-pub(crate) fn unfit<S: Scalar>(name: &str, expected: &str, found: &Value<S>) -> Fault {
-    Fault::type_mismatch(format!("`{name}` takes {expected}, found {}", found.described()))
 }
 
 #[cfg(test)]

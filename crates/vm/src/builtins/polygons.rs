@@ -1,7 +1,7 @@
 //! Polygons of the plane: sequences of three or more points.
 
+use super::answer::{Answer, unfit};
 use super::vectors::parts;
-use super::{Answer, unfit};
 use crate::builtins::arithmetic::real;
 use crate::fault::Fault;
 use crate::value::index::{iter_get, iter_len};

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::answer::{Answer, less};
 use super::arithmetic::whole;
-use super::{Answer, less};
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_len};
 use crate::value::numbers::Number;

@@ -10,9 +10,9 @@ use std::sync::Arc;
 
 use niwaki_geom::{Bark, Frame, GeomError, Look, Mat3, Shape, TriMesh, Vec3, vec3};
 
+use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole};
 use super::vectors::three;
-use super::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_get, iter_len};
 use crate::value::{Scalar, Value, same};

@@ -3,7 +3,7 @@
 //! All but `softeq` (dissertation eq. 4.1) are made of `sqrt(d^2 + width^2)`, which has derivatives of every order and
 //! no branch: a recorded graph holds for every argument. The same formulas as in the package's `words/soft.py`.
 
-use super::Answer;
+use super::answer::Answer;
 use super::arithmetic::real;
 use crate::fault::Fault;
 use crate::value::{Scalar, Value, print};

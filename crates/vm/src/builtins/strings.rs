@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Answer, unfit};
+use super::answer::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::index::iter_all;
 use crate::value::{Dict, MAX_ELEMENTS, Scalar, Text, Tuple, Value, equal, format as spec, print};

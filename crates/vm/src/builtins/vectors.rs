@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
+use super::answer::{Answer, unfit};
 use super::arithmetic::real;
-use super::{Answer, unfit};
 use crate::fault::Fault;
 use crate::value::index::{iter_get, iter_len};
 use crate::value::{Scalar, Value, Vector};

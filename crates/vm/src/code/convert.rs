@@ -1,7 +1,7 @@
 //! A program for another scalar: the same instructions, its constants as constants of that scalar.
 
+use super::entries::Entries;
 use super::{Function, Program};
-use crate::native::Entries;
 use crate::value::{Closure, Dict, Record, Text, Value, Vector};
 use niwaki_math::Scalar;
 use std::sync::Arc;

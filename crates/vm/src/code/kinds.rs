@@ -1,201 +1,150 @@
-//! Whether an observation has the probability of a single value or a density, as far as a program tells without a run.
-//!
-//! A site of a family is of the family's kind. A site of a distribution that is a value is of the kinds of all
-//! distributions that may come there: those of its constant where it has one, else every one that the program makes, or has
-//! in an argument or in a constant that other instructions read. A function of the host may return any.
+//! What machine code knows of a register: its name, and the kind of value that it holds.
 
-use super::{Function, Op, Operand, Place, Program, Site, SiteKind, Source};
 use crate::value::Value;
-use niwaki_math::{Dist, Family};
-use std::collections::{BTreeSet, HashMap};
+use niwaki_math::Scalar;
 
-/// Values that are looked at in constants and arguments; where there are more, they are taken to hold both kinds.
-const LOOKED_AT: usize = 100_000;
-
-/// The kinds that some distributions may be of.
-#[derive(Clone, Copy, Default)]
-struct Possible {
-    probability: bool,
-    density: bool,
+/// A register, as seen from the activation where the code begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Reg {
+    /// Of the activation.
+    Node(u16),
+    /// Of the loop node above it.
+    Outer(u16),
+    /// Of the machine, counted from the first one of the function where the code begins.
+    Scratch(u32),
 }
 
-impl Possible {
-    const EITHER: Possible = Possible { probability: true, density: true };
+/// The kind of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Kind {
+    /// `None`.
+    None,
+    /// Not assigned yet.
+    Unset,
+    /// A truth value: one or zero in a register of the processor.
+    Bool,
+    /// A whole number.
+    Int,
+    /// A real number.
+    Real,
+    /// A range: its address, its first number and its step.
+    Range,
+    /// Anything shared: the address of the register, or of the element, that holds it. The code reads it and never
+    /// changes it.
+    Object(Form),
+    /// A vector, tuple or range that the code made: one number for each part, and no object in memory yet. Registers
+    /// with the same number hold the same one.
+    Fresh { made: Made, parts: Parts, number: u16 },
+    /// Something else that machine code never looks at.
+    Opaque,
+}
 
-    fn is_either(self) -> bool {
-        self.probability && self.density
-    }
+/// What a value is that the code made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Made {
+    Vector,
+    Tuple,
+    /// Its first number, its end, its step.
+    Range,
+}
 
-    fn add(&mut self, is_density: bool) {
-        *(if is_density { &mut self.density } else { &mut self.probability }) = true;
-    }
+/// The kind of a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Part {
+    Bool,
+    Int,
+    Real,
+}
 
-    fn or(self, other: Possible) -> Possible {
-        Possible {
-            probability: self.probability || other.probability,
-            density: self.density || other.density,
+/// The kinds of up to four parts.
+pub(crate) type Parts = [Option<Part>; 4];
+
+/// The form of what is shared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(u8)]
+pub(crate) enum Form {
+    List = 16,
+    Tuple,
+    Record,
+    Vector2,
+    Vector3,
+    Vector4,
+    Other,
+}
+
+impl Kind {
+    /// The kind of a value.
+    #[inline]
+    pub fn of<S: Scalar>(value: &Value<S>) -> Kind {
+        match value {
+            Value::Real(_) => Kind::Real,
+            Value::Int(_) => Kind::Int,
+            Value::Bool(_) => Kind::Bool,
+            Value::None => Kind::None,
+            Value::Unset => Kind::Unset,
+            Value::Future(_) | Value::Cell(_) => Kind::Opaque,
+            Value::Range(_) => Kind::Range,
+            Value::List(_) => Kind::Object(Form::List),
+            Value::Tuple(_) => Kind::Object(Form::Tuple),
+            Value::Record(_) => Kind::Object(Form::Record),
+            Value::Vector(v) => Kind::Object(match v.components().len() {
+                2 => Form::Vector2,
+                3 => Form::Vector3,
+                _ => Form::Vector4,
+            }),
+            Value::Str(_) | Value::Returned(_) | Value::Dict(_) => Kind::Object(Form::Other),
+            Value::Rotation(_) | Value::Shape(_) => Kind::Object(Form::Other),
+            Value::Dist(_) | Value::Function(_) => Kind::Object(Form::Other),
         }
     }
 
-    /// The kinds of the distributions that values hold.
-    fn of<'v>(values: impl IntoIterator<Item = &'v Value>) -> Possible {
-        let (mut kinds, mut left, mut work) = (Possible::default(), LOOKED_AT, Vec::from_iter(values));
-        while let Some(value) = work.pop() {
-            left = left.saturating_sub(1);
-            if left == 0 || kinds.is_either() {
-                return Possible::EITHER;
-            }
-            match value {
-                Value::Dist(dist) => kinds.add(is_density(dist)),
-                Value::Returned(items) | Value::Tuple(items) => work.extend(items.items()),
-                Value::List(list) => work.extend(list.iter().filter(|item| !item.is_plain())),
-                Value::Dict(dict) => work.extend(dict.keys().iter().chain(dict.values())),
-                Value::Record(record) => work.extend(&record.fields),
-                Value::Function(closure) => work.extend(&closure.captures),
-                _ => {}
-            }
-        }
-        kinds
-    }
-}
-
-/// Whether a value of a distribution has a density, and not a probability.
-pub fn is_density(dist: &Dist) -> bool {
-    match dist {
-        Dist::Mixture(mixture) => mixture.components.first().is_some_and(is_density),
-        other => other.family().space().is_continuous(),
-    }
-}
-
-/// What a site observes, within an activation: two sites that observe the same text observe the same.
-pub fn subject(site: &Site) -> u128 {
-    if site.subject == 0 { site.key } else { site.subject }
-}
-
-/// Whether a run of a program may observe one thing by both kinds. `given` are the values that come from outside: arguments, captures of
-/// its model; `held` says whether choices may be held, which are then observed.
-pub fn may_mix<'v>(program: &'v Program, given: &[&'v Value], held: bool) -> bool {
-    let mut values = None;
-    let mut of_values = || *values.get_or_insert_with(|| of_values(program, given));
-    program.functions.iter().any(|f| {
-        let mut kinds: HashMap<u128, Possible> = HashMap::new();
-        f.sites.iter().any(|site| {
-            let source = match site.kind {
-                SiteKind::Observe(source) => source,
-                SiteKind::Sample(source) if held => source,
-                _ => return false,
-            };
-            let known = kinds.entry(subject(site)).or_default();
-            *known = known.or(of_site(f, site, source).unwrap_or_else(&mut of_values));
-            known.is_either()
-        })
-    })
-}
-
-/// The kinds of the distributions that can come to a site, if it alone tells.
-fn of_site(f: &Function, site: &Site, source: Source) -> Option<Possible> {
-    let Source::Family(family) = source else {
-        let from = f.operands[site.args.range()].first()?;
-        return (from.place() == Place::Constant).then(|| Possible::of(f.constants.get(from.index())));
-    };
-    of_family(family)
-}
-
-/// The kinds of a family's distributions; none of a mixture's, which are its components'.
-fn of_family(family: Family) -> Option<Possible> {
-    let mut kinds = Possible::default();
-    kinds.add(family.space().is_continuous());
-    (family != Family::Mixture).then_some(kinds)
-}
-
-/// The kinds of all distributions that are values in some run.
-fn of_values(program: &Program, given: &[&Value]) -> Possible {
-    let made = program.functions.iter().flat_map(|f| &f.code).map(|op| match op {
-        Op::Dist { family, .. } => of_family(*family).unwrap_or_default(),
-        Op::Host { .. } => Possible::EITHER,
-        _ => Possible::default(),
-    });
-    let known = program.functions.iter().flat_map(values_in).chain(given.iter().copied());
-    made.fold(Possible::default(), Possible::or).or(Possible::of(known))
-}
-
-/// The constants of a function that may come anywhere: all but those of which a site takes the distribution itself.
-fn values_in(f: &Function) -> impl Iterator<Item = &Value> {
-    let takes = |op: &Op| match op {
-        Op::Site { site } => matches!(
-            f.sites[site.0 as usize].kind,
-            SiteKind::Sample(Source::Value | Source::Element)
-                | SiteKind::Observe(Source::Value | Source::Element)
-        ),
-        _ => false,
-    };
-    let mut read: BTreeSet<usize> = BTreeSet::new();
-    for op in &f.code {
-        let operands = f.reads(op).into_iter().skip(takes(op) as usize);
-        read.extend(operands.filter(|o| o.place() == Place::Constant).map(Operand::index));
-    }
-    let defaults = f.defaults.iter().filter(|o| o.place() == Place::Constant).map(|o| o.index());
-    read.extend(defaults);
-    read.into_iter().filter_map(|index| f.constants.get(index))
-}
-
-#[cfg(test)]
-mod tests {
-    //! The claim: a program is passed over only where no run can observe one thing by both kinds.
-
-    use super::*;
-    use crate::core::parse::parse;
-    use crate::passes::compile;
-    use niwaki_math::Param;
-    use std::sync::Arc;
-
-    const DELTA: &str = "(dist delta 1)";
-    const NORMAL: &str = "(dist gaussian 0.0 1.0)";
-
-    fn program(body: &str) -> Program {
-        let text = format!(
-            "(module (const 0 (list {NORMAL} {NORMAL})) (const 1 (list {DELTA} {DELTA}))
-               (const 2 (list 1 (tuple {DELTA} (list {NORMAL}))))
-               (fn \"m\" (params $d) (set $s (sample (dist bernoulli 0.5))) {body}) (entry \"m\"))"
-        );
-        compile(&parse(&text).unwrap(), vec![]).unwrap()
+    /// Whether such a value holds nothing that is shared.
+    pub fn is_plain(self) -> bool {
+        !matches!(self, Kind::Range | Kind::Object(_) | Kind::Fresh { .. })
     }
 
-    #[test]
-    fn who_observes_one_kind_is_passed_over() {
-        for body in [
-            format!("(do (observe {NORMAL} 1.0)) (do (observe {DELTA} 1))"),
-            "(do (observe (index (data 0) $s) 1.0)) (do (observe (index (data 1) $s) 2))".to_string(),
-            format!("(set $d (cond $s {NORMAL} (dist uniform 0.0 1.0))) (do (observe $d 0.5))"),
-            format!("(set $d (sample {DELTA}))"),
-        ] {
-            assert!(!may_mix(&program(&body), &[&Value::None], false), "{body}");
+    /// How a function called by the code names the kind of what it gives.
+    pub fn mark(self) -> u64 {
+        match self {
+            Kind::None => 0,
+            Kind::Bool => 1,
+            Kind::Int => 2,
+            Kind::Real => 3,
+            Kind::Unset => 4,
+            Kind::Range => 5,
+            Kind::Opaque => 6,
+            Kind::Fresh { .. } => 7,
+            Kind::Object(form) => form as u64,
         }
     }
 
-    #[test]
-    fn who_may_observe_both_is_not() {
-        for body in [
-            format!("(set $d (cond $s {NORMAL} {DELTA})) (do (observe $d 1))"),
-            format!("(set $x 1) (if $s (then (do (observe {NORMAL} $x))) (else (do (observe {DELTA} $x))))"),
-            format!("(do (observe (index (list {NORMAL} {DELTA}) $s) 1))"),
-            "(do (observe (index (index (data 2) 1) 0) 1))".to_string(),
-            "(do (observe (host 0 $s) 1))".to_string(),
-            format!("(do (observe (dist mixture (list 1.0) (list (cond $s {NORMAL} {DELTA}))) 1))"),
-        ] {
-            assert!(may_mix(&program(&body), &[&Value::None], false), "{body}");
+    /// How many words it has where the code begins.
+    pub fn words(self) -> usize {
+        match self {
+            Kind::None | Kind::Unset | Kind::Opaque => 0,
+            Kind::Bool | Kind::Int | Kind::Real | Kind::Object(_) => 1,
+            Kind::Range => 3,
+            Kind::Fresh { parts, .. } => parts.iter().flatten().count(),
         }
     }
 
-    #[test]
-    fn arguments_and_held_choices_count() {
-        let given = program(&format!("(set $n {NORMAL}) (do (observe $d 1)) (return $n)"));
-        assert!(!may_mix(&given, &[&Value::None], false));
-        let counts = Dist::new(Family::Poisson, &[Param::Real(2.0)]).unwrap();
-        assert!(may_mix(&given, &[&Value::list(vec![Value::Dist(Arc::new(counts))])], false));
-
-        let held = program(&format!("(set $x (sample (cond $s {NORMAL} {DELTA})))"));
-        assert!(!may_mix(&held, &[&Value::None], false));
-        assert!(may_mix(&held, &[&Value::None], true));
+    /// How many words it has where the code leaves.
+    pub fn words_out(self) -> usize {
+        if self == Kind::Range { 1 } else { self.words() }
     }
+
+    /// Whether what a register of that kind holds may be counted as memory of the run.
+    pub fn is_counted(self, reg: Reg) -> bool {
+        let in_scratch = matches!(reg, Reg::Scratch(_));
+        match self {
+            Kind::Fresh { .. } => !in_scratch,
+            Kind::Range | Kind::Object(Form::Vector2 | Form::Vector3 | Form::Vector4) => !in_scratch,
+            other => !other.is_plain(),
+        }
+    }
+}
+
+/// Whether what a register holds is counted as memory of the run: see [`Value::is_small`].
+pub(crate) fn is_counted<S: Scalar>(reg: Reg, value: &Value<S>) -> bool {
+    !(value.is_plain() || matches!(reg, Reg::Scratch(_)) && value.is_small())
 }

@@ -5,8 +5,8 @@
 //! register that other activations may have overwritten is never read; a register that was read is not overwritten;
 //! a slice that writes a register of the node also has the instructions of its path that write it later.
 
+use super::flow::{live_before, reads_and_writes, successors};
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
-use crate::passes::place::{live_before, reads_and_writes, successors};
 use niwaki_math::Scalar;
 use std::collections::HashSet;
 

@@ -1,6 +1,7 @@
 //! The state of a run that has not begun: the call of the program's entry function, or of any closure of the program.
 
-use super::held::{Held, Numbers};
+use super::held::Held;
+use super::numbers::Numbers;
 use super::state::{NodeId, State, Status};
 use super::{Machine, address};
 use crate::code::{FunctionId, Mode, Place};

@@ -9,9 +9,10 @@
 //! allocated.
 
 use super::keep::Keep;
+use super::operate;
 use super::registers::Registers;
 use super::state::State;
-use super::{Machine, operate};
+use super::workspace::{Machine, PureCall};
 use crate::builtins::Builtin;
 use crate::code::{Args, Binary, Operand};
 use crate::fault::Fault;
@@ -202,7 +203,7 @@ impl<S: Scalar> Machine<'_, S> {
     /// Bytes that the machine itself holds for the run: scratch registers and calls of pure functions.
     #[inline]
     pub(super) fn own_bytes(&self) -> usize {
-        self.high.max(SCRATCH) * size_of::<Value<S>>() + self.pure.len() * size_of::<super::PureCall>()
+        self.high.max(SCRATCH) * size_of::<Value<S>>() + self.pure.len() * size_of::<PureCall>()
     }
 
     /// A run that has not begun is audited when it may have used up its memory, not before.

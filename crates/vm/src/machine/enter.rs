@@ -2,9 +2,12 @@
 
 use super::registers::Registers;
 use super::state::State;
-use super::{Machine, PureCall};
+use super::workspace::{Machine, PureCall};
+use crate::code::entries::Entry;
+use crate::code::kinds::{Kind, Made, Part, Reg, is_counted};
+use crate::code::routine::{Exit, Input, Routine, words};
 use crate::code::{FunctionId, Mode, Program};
-use crate::native::{Entry, Exit, Input, Kind, Made, Part, Reg, Routine, is_counted, words};
+use crate::native;
 use crate::value::{Range, Value};
 use niwaki_math::Scalar;
 use std::any::Any;
@@ -54,7 +57,7 @@ impl<S: Scalar> Machine<'_, S> {
         if (writes_plainly || r.f.mode == Mode::Pure) && entry.is_due() {
             let program: &dyn Any = self.program;
             if let Some(program) = program.downcast_ref::<Program>() {
-                entry.write(program, function, &|reg| {
+                native::write(entry, program, function, &|reg| {
                     let value: &dyn Any = self.held_by(state, r, reg)?;
                     value.downcast_ref::<Value>()
                 });

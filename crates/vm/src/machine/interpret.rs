@@ -2,12 +2,15 @@
 
 use super::answers::Answers;
 use super::budget::{self, Price};
+use super::buffers::make_room;
 use super::keep::{Keep, put};
-use super::question::Halt;
+use super::operate;
+use super::outcome::After;
+use super::outcome::Halt;
+use super::outcome::Stop;
 use super::registers::Registers;
-use super::state::{FutureId, NodeId, State, make_room};
-use super::suspend::After;
-use super::{Here, Machine, PureCall, Stop, operate};
+use super::state::{FutureId, NodeId, State};
+use super::workspace::{Here, Machine, PureCall};
 use crate::builtins;
 use crate::code::{Binary, FunctionId, Mode, Op, SiteKind, exit};
 use crate::core::readable;

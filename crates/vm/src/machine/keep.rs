@@ -5,10 +5,10 @@
 
 use super::Machine;
 use super::answers::Answers;
-use super::question::Halt;
+use super::outcome::After;
+use super::outcome::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
-use super::suspend::After;
 use crate::code::{Args, Operand, SiteId};
 use crate::fault::Fault;
 use crate::value::{Census, Value};

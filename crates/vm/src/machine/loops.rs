@@ -3,9 +3,9 @@
 use super::Machine;
 use super::address::{iteration_key, join};
 use super::keep::Dropped;
+use super::outcome::After;
 use super::registers::Registers;
 use super::state::{FutureId, Node, NodeId, State};
-use super::suspend::After;
 use crate::code::{Args, Loop, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len};

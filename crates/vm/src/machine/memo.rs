@@ -10,13 +10,13 @@
 //!
 //! Source: `mem` of Church (Goodman et al. 2008, section 2.1). differs: the table belongs to the run and is copied with it.
 
-use super::address::{ROOT, join, site_key};
+use super::Machine;
+use super::address::join;
+use super::memos::{identity, path_of};
+use super::outcome::{After, Stop};
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
-use super::suspend::After;
-use super::{Machine, Stop};
 use crate::code::{FunctionId, Program, Site, SiteId};
-use crate::core::Name;
 use crate::fault::Fault;
 use crate::machine::keep::Dropped;
 use crate::value::{Closure, Memo, Value, print};
@@ -25,76 +25,6 @@ use std::sync::Arc;
 
 /// So many characters of a call's address cost one step.
 pub(super) const TEXT: u64 = 64;
-
-/// The memoised calls of a run, by their addresses.
-#[derive(Debug, Default)]
-pub(crate) struct Memos(Vec<Call>);
-
-/// One call.
-#[derive(Clone, Debug)]
-struct Call {
-    path: u128,
-    /// Its number among the futures: whether it has returned, what, and who waits.
-    future: FutureId,
-    /// Its readable address.
-    name: Name,
-}
-
-impl Clone for Memos {
-    fn clone(&self) -> Self {
-        Memos(self.0.clone())
-    }
-
-    #[inline]
-    fn clone_from(&mut self, source: &Self) {
-        if !(self.0.is_empty() && source.0.is_empty()) {
-            self.0.clone_from(&source.0);
-        }
-    }
-}
-
-impl Memos {
-    fn place(&self, path: u128) -> Result<usize, usize> {
-        self.0.binary_search_by_key(&path, |call| call.path)
-    }
-
-    fn find(&self, path: u128) -> Option<FutureId> {
-        self.place(path).ok().map(|at| self.0[at].future)
-    }
-
-    fn add(&mut self, path: u128, future: FutureId, name: &str) {
-        if let Err(at) = self.place(path) {
-            self.0.insert(at, Call { path, future, name: Name::from(name) });
-        }
-    }
-
-    /// The readable address of a call.
-    pub fn name(&self, path: u128) -> Option<&str> {
-        self.place(path).ok().map(|at| &*self.0[at].name)
-    }
-
-    /// Notes the readable address of a call, in a trace: the call is there under another number.
-    pub fn note(&mut self, path: u128, name: &str) {
-        self.add(path, FutureId::NONE, name);
-    }
-
-    /// Forgets a call.
-    pub fn forget(&mut self, path: u128) {
-        if let Ok(at) = self.place(path) {
-            self.0.remove(at);
-        }
-    }
-
-    /// A hash of which calls there are.
-    pub fn hash(&self, start: u128) -> u128 {
-        self.0.iter().fold(start, |hash, call| join(join(hash, call.path), u128::from(call.future.0)))
-    }
-
-    /// Bytes of the table.
-    pub fn bytes(&self) -> usize {
-        self.0.len() * (size_of::<Call>() + 32)
-    }
-}
 
 /// The text of arguments, by which they are compared. No component of an address has a slash inside.
 ///
@@ -127,17 +57,6 @@ fn text_of<S: Scalar>(args: &[Value<S>]) -> Result<String, Fault> {
     }
     let texts = args.iter().map(print::repr).collect::<Result<Vec<_>, Fault>>()?;
     Ok(format!("({})", texts.join(", ")).replace('/', "\\x2f"))
-}
-
-/// The identity of a memoised function, from the place where it was made and the function: one place may memoise one of
-/// several, as a choice decides.
-pub(crate) fn identity<S: Scalar>(place: u128, program: &Program<S>, called: FunctionId) -> u128 {
-    join(place, site_key(&program.function(called).name, 0))
-}
-
-/// The address of a call, from the identity of the function and the text of the arguments in brackets.
-pub(crate) fn path_of(function: u128, text: &str) -> u128 {
-    join(join(ROOT, function), site_key(text, 0))
 }
 
 /// The address of a call of a memoised function with these arguments, and the readable one.

@@ -4,34 +4,10 @@
 //! nodes and only in runs that ask for them, so that other runs neither copy nor write anything. A box belongs to the
 //! activation whose path it has: a node that is used again has another path.
 
-use super::state::{NodeId, State, copy};
+use super::state::{NodeId, State};
 use crate::code::{Mode, Program};
 use niwaki_geom::{Aabb, Shape};
 use niwaki_math::Scalar;
-
-/// What activations emitted last.
-#[derive(Debug, Default)]
-pub(crate) struct Parts {
-    noted: bool,
-    /// By node: the path of the activation that emitted it, and its box.
-    boxes: Vec<(u128, Aabb)>,
-}
-
-impl Parts {
-    /// Whether the run notes them.
-    pub fn are_noted(&self) -> bool {
-        self.noted
-    }
-
-    /// Becomes a copy, in place.
-    #[inline]
-    pub fn clone_from(&mut self, source: &Parts) {
-        self.noted = source.noted;
-        if self.noted {
-            copy(&mut self.boxes, &source.boxes);
-        }
-    }
-}
 
 impl<S: Scalar> State<S> {
     /// From now on the run notes the part that each activation emitted last.

@@ -8,6 +8,7 @@ use super::address::join;
 use super::answers::{Answer, Answers, At, Factor};
 use super::budget;
 use super::keep::Dropped;
+use super::outcome::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use crate::builtins::{make_dist, quick_dist, value_to_draw};
@@ -51,25 +52,6 @@ pub(super) fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
         Value::Int(i) => Ok(S::from_f64(*i as f64)),
         Value::Bool(b) => Ok(S::from_f64(f64::from(u8::from(*b)))),
         other => Err(no_number(other)),
-    }
-}
-
-/// Why the run stops at a question. Two words with the `Ok` around it, so that it is returned in registers.
-pub(super) enum Halt {
-    /// The answer was to pause.
-    Paused,
-    /// The answer to a held choice was to pause. The run continues after it.
-    PausedAfter,
-    /// The score is minus infinity.
-    Impossible,
-    /// The question is not valid, or was answered by a fault.
-    Fault(Fault),
-}
-
-impl From<Fault> for Halt {
-    #[inline]
-    fn from(fault: Fault) -> Halt {
-        Halt::Fault(fault)
     }
 }
 

@@ -6,7 +6,8 @@
 //!
 //! Source: Fenwick, A new data structure for cumulative frequency tables, 1994.
 
-use super::state::{FutureId, copy};
+use super::buffers::copy;
+use super::ids::FutureId;
 
 /// Most futures in a plain list.
 const FEW: usize = 64;

@@ -2,7 +2,7 @@
 
 use super::registers::Registers;
 use super::state::{NodeId, State};
-use super::{Here, Machine};
+use super::workspace::{Here, Machine};
 use crate::code::{FunctionId, Mode, Op, SiteKind};
 use crate::core::{Name, Span};
 use crate::fault::Fault;

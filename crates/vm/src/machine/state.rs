@@ -14,9 +14,10 @@
 //! iterations nothing is allocated.
 
 use super::address;
-use super::held::Numbers;
-use super::memo::Memos;
-use super::parts::Parts;
+use super::boxes::Parts;
+use super::buffers::{copy, make_room};
+use super::memos::Memos;
+use super::numbers::Numbers;
 use super::runnable::Runnable;
 use crate::code::{FunctionId, Mode, Program};
 use crate::value::{Census, Value};
@@ -24,23 +25,7 @@ use niwaki_math::Scalar;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Number of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct NodeId(pub u32);
-
-impl NodeId {
-    /// No node.
-    pub const NONE: NodeId = NodeId(u32::MAX);
-}
-
-/// Number of a future; the root call is future 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct FutureId(pub u32);
-
-impl FutureId {
-    /// No future.
-    pub const NONE: FutureId = FutureId(u32::MAX);
-}
+pub use super::ids::{FutureId, NodeId};
 
 /// An activation.
 #[derive(Clone, Copy, Debug)]
@@ -181,33 +166,6 @@ impl<S: Scalar> Clone for State<S> {
         self.origins.clone_from(&source.origins);
         self.parts.clone_from(&source.parts);
         self.memos.clone_from(&source.memos);
-    }
-}
-
-/// `clone_from` for short slices: an inlined loop without calls.
-#[inline(always)]
-pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
-    if to.len() != from.len() {
-        to.truncate(from.len());
-        to.extend_from_slice(&from[to.len()..]);
-        return to.clone_from_slice(from);
-    }
-    for (to, from) in to.iter_mut().zip(from) {
-        to.clone_from(from);
-    }
-}
-
-/// From this many bytes on a vector that grows is given all the room that it may need.
-const LARGE: usize = 1 << 20;
-
-/// Makes room for more elements. A large vector gets room for `spare` bytes at once: pages that are not written take no
-/// memory, while a vector that doubles is in memory twice when it moves.
-#[inline]
-pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: impl FnOnce() -> usize) {
-    if vector.capacity() - vector.len() < more && vector.len() * size_of::<T>() >= LARGE {
-        let room = (spare() / size_of::<T>()).max(more);
-        // Where so much cannot be had, the vector grows as usual.
-        let _ = vector.try_reserve_exact(room);
     }
 }
 

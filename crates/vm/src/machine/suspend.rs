@@ -1,14 +1,15 @@
 //! What happens at a suspension site that is neither a choice nor a factor: calls, emits, queries, futures.
 
+use super::Machine;
 use super::address::join;
 use super::answers::{Answer, Answers, At};
 use super::budget;
 use super::keep::Dropped;
 use super::memo;
+use super::outcome::{After, Stop};
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
-use super::{Machine, Stop};
-use crate::code::{Function, FunctionId, Mode, Operand, Place, Site, SiteId, SiteKind};
+use crate::code::{Function, FunctionId, Mode, Place, Site, SiteId, SiteKind};
 use crate::fault::Fault;
 use crate::value::{Closure, Memo, Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
@@ -16,22 +17,6 @@ use std::sync::Arc;
 
 /// Steps of an emission: a search takes about as long to add a primitive to its sketches.
 const EMISSION: u64 = 256;
-
-/// How to continue after a site.
-pub(super) enum After {
-    /// At the next instruction.
-    Next,
-    /// In another activation, at that instruction.
-    Enter(NodeId, u32),
-    /// At another instruction of this one.
-    Goto(u32),
-    /// In a pure function, its arguments in the buffer.
-    Pure { function: FunctionId, to: Operand, as_future: bool },
-    /// In a pure function, which lanes have entered.
-    Entered,
-    /// The run stops here.
-    Stop(Stop),
-}
 
 /// What a function value is.
 pub(super) struct Callee {

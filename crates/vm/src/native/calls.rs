@@ -6,8 +6,8 @@
 
 #![allow(unsafe_code)] // They are given addresses by the code that `write` makes.
 
-use super::kinds::Kind;
 use crate::builtins::builtin;
+use crate::code::kinds::Kind;
 use crate::value::{Range, Value, index, iter_len};
 use niwaki_math::Scalar;
 

@@ -1,10 +1,10 @@
 //! What the code of a function needs to know of it: which registers are live where, and where jumps lead.
 
 use super::functions::is_known;
-use super::kinds::Reg;
 use crate::builtins::builtin;
+use crate::code::flow::{Bits, live_before, reads_and_writes, successors};
+use crate::code::kinds::Reg;
 use crate::code::{Function, Mode, Op, Operand, Place};
-use crate::passes::place::{Bits, live_before, reads_and_writes, successors};
 use niwaki_math::Scalar;
 use std::collections::BTreeSet;
 

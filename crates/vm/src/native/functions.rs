@@ -1,10 +1,10 @@
 //! Built-in functions.
 
 use super::calls;
-use super::kinds::{Kind, Made};
 use super::typed::{Number, Typed};
 use super::write::{ARGUMENTS, Now, PLAIN, Then, Writer};
 use crate::builtins::builtin;
+use crate::code::kinds::{Kind, Made};
 use crate::code::{Args, Operand};
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};

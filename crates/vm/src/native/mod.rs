@@ -17,12 +17,14 @@
 //! with every register as the interpreter would have it there. So values are the same to the last bit, a fault is raised by
 //! the interpreter at its place, and limits of steps and memory are met at the same instruction.
 //!
-//! * `entries`: where code may begin, and the code that was made for it; `apart`: the thread that writes it; `routine`: such code
-//!   and its exits. How it is run is in `machine/enter`;
+//! What was written is a routine ([`crate::code::routine`]) at a place of a function ([`crate::code::entries`]). So programs hold
+//! machine code, and do not know who writes it. How it is run is in `machine/enter`.
+//!
+//! * `entries`: where code may begin; `apart`: the thread that writes it; `routine`: the writing of one routine;
 //! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `registers`: the model's
 //!   registers while it is written; `flow`: which of them are live;
 //! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in functions;
-//! * `kinds`: what is known of a register; `typed`: a value in the processor; `calls`: functions that the code calls.
+//! * `typed`: a value in the processor; `calls`: functions that the code calls.
 //!
 //! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block Versioning"
 //! (ECOOP 2015), with all versions made at once.
@@ -32,7 +34,6 @@ mod calls;
 mod entries;
 mod flow;
 mod functions;
-mod kinds;
 mod numbers;
 mod operate;
 mod registers;
@@ -41,23 +42,4 @@ mod typed;
 mod vectors;
 mod write;
 
-pub(crate) use entries::{Entries, Entry};
-pub(crate) use kinds::{Kind, Made, Part, Reg, is_counted};
-pub(crate) use routine::{Exit, Input, Routine};
-
-/// Words that code and machine exchange.
-pub(crate) mod words {
-    /// Steps that the code may take, and how many are left.
-    pub const STEPS: usize = 0;
-    /// Instructions carried out.
-    pub const DONE: usize = 1;
-    /// Scratch registers that the run has used before, from the first one of the function.
-    pub const ROOM: usize = 2;
-    /// Bytes that the code may charge, and how many are left.
-    pub const BYTES: usize = 3;
-    /// Addresses of constants, at most so many.
-    pub const CONSTANTS: usize = 4;
-    pub const MOST_CONSTANTS: usize = 32;
-    /// Registers: what they hold where the code begins, and where it leaves.
-    pub const REGISTERS: usize = CONSTANTS + MOST_CONSTANTS;
-}
+pub(crate) use entries::{entries_of, write};

@@ -1,9 +1,9 @@
 //! Arithmetic and comparisons of numbers.
 
-use super::kinds::Made;
 use super::typed::Typed;
 use super::write::{Now, Writer};
 use crate::code::Binary;
+use crate::code::kinds::Made;
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};

@@ -1,11 +1,11 @@
 //! The instructions that have machine code.
 
 use super::calls::{self, NOT};
-use super::kinds::{Form, Kind, Made};
-use super::routine::Call;
 use super::typed::{Got, Number, Typed};
-use super::words;
 use super::write::{Now, PLAIN, Then, Writer};
+use crate::code::kinds::{Form, Kind, Made};
+use crate::code::routine::Call;
+use crate::code::routine::words;
 use crate::code::{Args, Binary, FunctionId, Op, Operand};
 use crate::value::{Value as Model, index};
 use niwaki_native::codegen::ir::condcodes::IntCC;

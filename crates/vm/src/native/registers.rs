@@ -1,9 +1,9 @@
 //! The registers of the model as variables of Cranelift's builder.
 
-use super::kinds::{Kind, Part, Reg};
 use super::typed::{Got, Number, Typed};
-use super::words;
 use super::write::{Now, Writer};
+use crate::code::kinds::{Kind, Part, Reg};
+use crate::code::routine::words;
 use crate::code::{Operand, Place};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::types::{F64, I64};

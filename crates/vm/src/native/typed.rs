@@ -1,6 +1,6 @@
 //! Values in the processor.
 
-use super::kinds::{Form, Kind, Made, Part};
+use crate::code::kinds::{Form, Kind, Made, Part};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::Value;
 

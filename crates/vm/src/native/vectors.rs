@@ -1,10 +1,10 @@
 //! Vectors and tuples of numbers: their parts are in the processor, and no object is made of them before the code leaves.
 
 use super::calls;
-use super::kinds::{Form, Made};
 use super::typed::{Number, Typed};
 use super::write::{Now, PLAIN, Writer};
 use crate::code::Binary;
+use crate::code::kinds::{Form, Made};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::condcodes::FloatCC;
 use niwaki_native::codegen::ir::types::{F64, I64};

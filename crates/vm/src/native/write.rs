@@ -6,12 +6,11 @@
 //! a variable that is a whole number in the first round of a loop and a real one in the others has a piece for each, and no
 //! instruction tests a kind that is known.
 
-use super::entries::Found;
 use super::flow::{Flow, registers};
-use super::kinds::{Kind, Made, Reg, is_counted};
-use super::routine::{Call, Exit, Input};
 use super::typed::{Number, Typed};
-use super::words;
+use crate::code::kinds::{Kind, Made, Reg, is_counted};
+use crate::code::routine::words;
+use crate::code::routine::{Call, Exit, Input};
 use crate::code::{Function, FunctionId, Operand, Place, Program};
 use crate::value::{Range, Value as Model};
 use niwaki_native::Written;
@@ -24,6 +23,9 @@ use niwaki_native::codegen::isa::CallConv;
 use niwaki_native::frontend::{FunctionBuilder, Variable};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
+
+/// What the registers of a function hold where code begins.
+pub(super) type Found<'a, 'v> = &'a dyn Fn(Reg) -> Option<&'v Model>;
 
 /// Most pieces of a routine: what is beyond them is left to the interpreter.
 const PIECES: usize = 160;

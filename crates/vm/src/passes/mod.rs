@@ -26,7 +26,7 @@ use crate::core::deep::with_stack;
 use crate::core::visit::each_stmt;
 use crate::core::{Expr, ExprKind, Literal, Module, Name};
 use crate::fault::Fault;
-use crate::native::Entries;
+use crate::native::entries_of;
 use crate::value::Value;
 use collections::Collections;
 use effects::Effects;
@@ -154,7 +154,7 @@ fn compile_here<S: Scalar>(
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
     if TypeId::of::<S>() == TypeId::of::<f64>() {
-        program.functions.iter_mut().for_each(|f| f.native = Entries::of(f));
+        program.functions.iter_mut().for_each(|f| f.native = entries_of(f));
     }
     Ok(program)
 }

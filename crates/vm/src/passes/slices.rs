@@ -12,7 +12,7 @@
 //! A branch on an unchanged value takes the same arm as before; at a branch on a changed one, or at a loop that is no
 //! site, a slice ends with a jump into the whole code.
 
-use super::place::reads_and_writes;
+use crate::code::flow::reads_and_writes;
 use crate::code::{Function, Mode, Op, Operand, Place, SiteId, SiteKind};
 use niwaki_math::Scalar;
 use std::collections::HashSet;

@@ -5,7 +5,8 @@
 
 use std::sync::Arc;
 
-use super::census::{Census, block, shared};
+use super::blocks::{block, shared};
+use super::census::Census;
 use super::{Scalar, Value, compare, release};
 
 /// An immutable tuple.

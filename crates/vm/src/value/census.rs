@@ -6,33 +6,11 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use super::blocks::{block, shared};
 use super::{Scalar, Shape, Value};
-
-/// Bytes of the two counters in front of what is shared.
-const COUNTERS: usize = 16;
-
-/// Bytes of a page.
-const PAGE: usize = 4096;
 
 /// Values inside of one another that a census counts by calls; deeper ones wait in a list.
 const DEPTH: usize = 16;
-
-/// Bytes that an allocation of a size takes: allocators round up, large blocks by a sixteenth on average.
-#[inline]
-pub(super) const fn block(size: usize) -> usize {
-    match size {
-        0..=128 => size.next_multiple_of(16),
-        // Four sizes for each power of two; the rest of a page that is not written takes no memory.
-        129..=PAGE => size.next_multiple_of(1 << ((size - 1).ilog2() - 2)),
-        _ => size.next_multiple_of(PAGE),
-    }
-}
-
-/// Bytes of a shared object of a type.
-#[inline]
-pub(super) const fn shared<T>() -> usize {
-    block(COUNTERS + size_of::<T>())
-}
 
 /// Counts the bytes of values.
 #[derive(Default)]
@@ -58,7 +36,7 @@ impl<'v, S: Scalar> Census<'v, S> {
     /// A value is not to be counted: it belongs to someone else. O(1): what it holds counts where it is held apart from it.
     pub fn leave_out(&mut self, value: &Value<S>) {
         match value {
-            Value::Str(text) => text.leave_out(self),
+            Value::Str(text) => self.note(text.address()),
             Value::Returned(tuple) | Value::Tuple(tuple) => self.note(tuple.address()),
             Value::List(list) => list.leave_out(self),
             Value::Dict(dict) => self.note(Arc::as_ptr(dict) as usize),
@@ -134,7 +112,11 @@ impl<'v, S: Scalar> Census<'v, S> {
     #[expect(clippy::collapsible_match, reason = "a guard that counts would be easy to miss")]
     fn add_own(&mut self, value: &'v Value<S>) {
         match value {
-            Value::Str(text) => text.count(self),
+            Value::Str(text) => {
+                if !text.is_shared() || self.seen.insert(text.address()) {
+                    self.bytes += text.own_bytes();
+                }
+            }
             Value::Returned(tuple) | Value::Tuple(tuple) => tuple.count(self),
             Value::List(list) => list.count(self),
             Value::Dict(dict) => {

@@ -289,6 +289,13 @@ impl<S: Scalar> Value<S> {
     }
 }
 
+/// Python's `==`, for tests and tables; values count as different beyond the budget of a comparison.
+impl<S: Scalar> PartialEq for Value<S> {
+    fn eq(&self, other: &Value<S>) -> bool {
+        equal(self, other).unwrap_or(false)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -15,7 +15,8 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::census::{Census, block, shared};
+use super::blocks::{block, shared};
+use super::census::Census;
 use super::{Scalar, Value, release};
 
 const BITS: u32 = 5;
@@ -274,20 +275,6 @@ impl<S: Scalar> List<S> {
             }
         }
         ControlFlow::Continue(())
-    }
-
-    /// Positions where two versions differ by `same`, ascending: those in the common length, then all that only the
-    /// longer one has. Costs the nodes that they do not share.
-    pub fn diff(old: &List<S>, new: &List<S>) -> Vec<usize> {
-        let mut changed = Vec::new();
-        let _ = List::visit_unshared(old, new, &mut |at, a, b| {
-            if !super::same(a, b) {
-                changed.push(at);
-            }
-            ControlFlow::<()>::Continue(())
-        });
-        changed.extend(old.len().min(new.len())..old.len().max(new.len()));
-        changed
     }
 
     /// Counts what the list takes; versions of it share nodes.

@@ -1,7 +1,7 @@
 //! `repr` and `str` as Python writes them, with a stack of our own and a limit on the length.
 
 use super::{List, MAX_ELEMENTS, Scalar, Value};
-use crate::fault::Fault;
+use crate::fault::{Fault, InvalidCall};
 
 /// Python's `repr` of a float: the shortest digits that read back, an exponent below 1e-4 and from 1e16.
 pub fn float(x: f64) -> String {
@@ -209,6 +209,23 @@ fn begin<'a, S: Scalar>(
         Value::Cell(_) => out.push_str("<cell>"),
     }
     Ok(None)
+}
+
+impl<S: Scalar> std::fmt::Debug for Value<S> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match repr(self) {
+            Ok(text) => f.write_str(&text),
+            Err(fault) => write!(f, "<{fault}>"),
+        }
+    }
+}
+
+impl Fault {
+    /// The same fault, as that of a call whose arguments are of the right kinds, but have no result: the run is invalid.
+    #[cold]
+    pub fn of_call<S: Scalar>(self, name: &str, args: &[Value<S>]) -> Fault {
+        self.invalid_by(InvalidCall { name: name.to_string(), text: call_text(name, args) })
+    }
 }
 
 #[cfg(test)]

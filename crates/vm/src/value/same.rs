@@ -196,6 +196,22 @@ pub fn same_within<'a, S: Scalar>(a: &'a Value<S>, b: &'a Value<S>, mut budget: 
     true
 }
 
+impl<S: Scalar> List<S> {
+    /// Positions where two versions differ by `same`, ascending: those in the common length, then all that only the
+    /// longer one has. Costs the nodes that they do not share.
+    pub fn diff(old: &List<S>, new: &List<S>) -> Vec<usize> {
+        let mut changed = Vec::new();
+        let _ = List::visit_unshared(old, new, &mut |at, a, b| {
+            if !same(a, b) {
+                changed.push(at);
+            }
+            ControlFlow::<()>::Continue(())
+        });
+        changed.extend(old.len().min(new.len())..old.len().max(new.len()));
+        changed
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

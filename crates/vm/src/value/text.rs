@@ -1,6 +1,6 @@
 //! Strings: shared, one pointer wide, counted in code points as Python counts them.
 
-use super::census::{Census, block, shared};
+use super::blocks::{block, shared};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -38,14 +38,14 @@ impl Text {
         &self.0.text[byte(from)..byte(to)]
     }
 
-    pub(super) fn count<S: super::Scalar>(&self, census: &mut Census<'_, S>) {
-        if census.is_first(&self.0) {
-            census.add_bytes(self.own_bytes());
-        }
+    /// Its address in memory: no other text has it while this one exists.
+    pub(super) fn address(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
     }
 
-    pub(super) fn leave_out<S: super::Scalar>(&self, census: &mut Census<'_, S>) {
-        census.note(Arc::as_ptr(&self.0) as usize);
+    /// Whether something else holds it, too.
+    pub(super) fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.0) > 1
     }
 
     pub(super) fn own_bytes(&self) -> usize {

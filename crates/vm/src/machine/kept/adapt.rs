@@ -6,7 +6,8 @@
 //! proposal counts once, however often it reaches the site.
 
 use super::super::state::{NodeId, State};
-use super::{Kept, Slot, Trace};
+use super::slot::Slot;
+use super::trace::{Kept, Trace};
 use crate::code::{FunctionId, Mode, Program, SiteKind};
 use niwaki_math::Scalar;
 

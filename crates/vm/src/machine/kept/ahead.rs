@@ -3,7 +3,7 @@
 #![allow(unsafe_code)] // The processor's prefetch, which reads nothing and accepts any address.
 
 use super::super::address::join;
-use super::{ChoiceAt, Trace};
+use super::trace::{ChoiceAt, Trace};
 use crate::code::{Mode, Program};
 use niwaki_math::Scalar;
 

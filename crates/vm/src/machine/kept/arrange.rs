@@ -3,7 +3,7 @@
 //! The numbers depend on the proposals that a trace has seen, and a chain picks choices by number. So a chain that goes on
 //! from stored choices needs them in their order.
 
-use super::{Kept, Trace};
+use super::trace::{Kept, Trace};
 use crate::code::Program;
 use niwaki_math::Scalar;
 use std::collections::HashMap;

@@ -1,10 +1,13 @@
 //! The first run of a trace.
 
+use super::super::Machine;
 use super::super::address;
+use super::super::answers::Answers;
 use super::super::held::Held;
 use super::super::stack::RunFault;
-use super::super::{Answers, Machine, NodeId, State};
-use super::{Change, Kept, Strategy, Trace};
+use super::super::state::{NodeId, State};
+use super::strategy::{Change, Strategy};
+use super::trace::{Kept, Trace};
 use crate::code::{FunctionId, Mode};
 use crate::value::{Closure, Value};
 use niwaki_math::Scalar;

@@ -12,38 +12,17 @@ use super::super::Machine;
 use super::super::answers::Answers;
 use super::super::budget;
 use super::super::keep::Keep;
-use super::super::question::Halt;
+use super::super::outcome::Halt;
 use super::super::registers::Registers;
 use super::super::stack::RunFault;
 use super::super::state::{NodeId, State};
-use super::{Change, Kept, Slot, Step, Trace};
+use super::readers::{Reader, Readers};
+use super::slot::Slot;
+use super::strategy::{Change, Step};
+use super::trace::{Kept, Trace};
 use crate::code::{Op, Operand, Site, SiteKind};
 use crate::value::{Cell, List, Value, index, ops};
 use niwaki_math::Scalar;
-
-/// A read of an element.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Reader {
-    pub node: NodeId,
-    pub site: u16,
-    /// Its slot: `held` is the list of readers that contains it, `mark` its place there.
-    pub slot: u32,
-}
-
-/// The readers of one element.
-#[derive(Debug, Default)]
-pub(crate) struct Readers {
-    /// The register that holds the element.
-    pub register: u32,
-    pub all: Vec<Reader>,
-}
-
-impl Readers {
-    /// Its bytes.
-    pub fn bytes(&self) -> usize {
-        size_of::<Readers>() + self.all.capacity() * size_of::<Reader>()
-    }
-}
 
 impl<S: Scalar> Kept<S> {
     /// An element is created, or computed again.

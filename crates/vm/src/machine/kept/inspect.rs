@@ -2,7 +2,7 @@
 
 use super::super::address::join;
 use super::super::state::NodeId;
-use super::{Kept, Trace};
+use super::trace::{Kept, Trace};
 use crate::code::{Function, Mode, Program, Site, SiteKind};
 use crate::value::Value;
 use niwaki_geom::{Aabb, Primitive};

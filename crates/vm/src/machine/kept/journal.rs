@@ -4,7 +4,7 @@
 //! gets its first value back. An activation created in the transaction needs no entries: it is removed as a whole.
 
 use super::super::state::NodeId;
-use super::cells::Reader;
+use super::readers::Reader;
 use super::slot::Slot;
 use crate::value::Value;
 use niwaki_math::Scalar;

@@ -6,12 +6,14 @@
 use super::super::Machine;
 use super::super::address::{iteration_key, join};
 use super::super::keep::Onward;
+use super::super::outcome::After;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
-use super::super::suspend::After;
+use super::entry::Entry;
 use super::journal::Cut;
-use super::slices::Entry;
-use super::{Active, Kept, Slot, Step};
+use super::slot::Slot;
+use super::strategy::Step;
+use super::trace::{Active, Kept};
 use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
 use crate::value::{Value, iter_get, iter_len, same};

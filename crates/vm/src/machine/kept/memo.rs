@@ -16,12 +16,14 @@
 
 use super::super::Machine;
 use super::super::memo::{TEXT, call_of, cycle};
-use super::super::question::Halt;
+use super::super::outcome::After;
+use super::super::outcome::Halt;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
-use super::super::suspend::After;
-use super::slices::Entry;
-use super::{Kept, Slot, Step};
+use super::entry::Entry;
+use super::slot::Slot;
+use super::strategy::Step;
+use super::trace::Kept;
 use crate::code::{FunctionId, Program, Site, SiteId};
 use crate::value::{Memo, Value, same};
 use niwaki_math::Scalar;

@@ -5,6 +5,7 @@
 //! [`Machine::change`], then [`Trace::commit`] or [`Trace::rollback`]. Two switches make four strategies
 //! ([`Strategy`]); they differ in what they skip and in nothing else.
 //!
+//! * `trace`: what a trace consists of; `strategy`: how much is done again, and what came of it;
 //! * `begin`: the first run; `slot`, `journal`: what is remembered, and what can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
 //! * `calls`, `loops`: activations that are entered, skipped, created and removed; `adapt`: calls where reuse does not
@@ -28,379 +29,39 @@ mod begin;
 mod calls;
 mod cells;
 mod changes;
+mod entry;
 pub mod inspect;
 mod journal;
 mod loops;
 mod memo;
 pub mod part;
 mod questions;
+mod readers;
 mod scene;
 mod slices;
 mod slot;
+mod strategy;
+mod trace;
 mod transaction;
 
 pub use adapt::Adaptation;
 pub use questions::fits;
-pub use transaction::{Change, Changed, Propose, Proposed};
+pub use strategy::{Change, Counters, Step, Strategy, Totals};
+pub use trace::Trace;
+pub use transaction::{Changed, Propose, Proposed};
+
+pub(crate) use trace::Kept;
 
 use super::Machine;
 use super::answers::Answers;
 use super::keep::{Keep, Onward};
-use super::question::Halt;
+use super::outcome::{After, Halt};
 use super::registers::Registers;
-use super::state::{NodeId, State, make_room};
-use super::suspend::After;
-use crate::code::{Args, Mode, Program, SiteId};
+use super::state::{NodeId, State};
+use crate::code::{Args, SiteId};
 use crate::fault::Fault;
-use crate::value::{Census, Value, same};
-use adapt::Sites;
-use cells::{Reader, Readers};
-use journal::{Journal, MOVING};
-use memo::Memos;
-use niwaki_geom::Primitive;
-use niwaki_math::{Scalar, Total};
-use slices::Entry;
-use slot::Slot;
-
-/// How much of a run is done again when a choice changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Strategy {
-    /// All of it, from the start: Lightweight MH.
-    Rerun,
-    /// Everything after the choice.
-    Resume,
-    /// From the start, but calls whose inputs are unchanged are skipped.
-    Cache,
-    /// From the choice on, skipping, until nothing that changed is left.
-    #[default]
-    C3,
-}
-
-impl Strategy {
-    /// All of them, with their names.
-    pub const NAMED: [(&str, Strategy); 4] = [
-        ("rerun", Strategy::Rerun),
-        ("resume", Strategy::Resume),
-        ("cache", Strategy::Cache),
-        ("c3", Strategy::C3),
-    ];
-
-    /// The strategy of a name.
-    pub fn from_name(name: &str) -> Option<Strategy> {
-        Strategy::NAMED.into_iter().find(|(own, _)| *own == name).map(|(_, strategy)| strategy)
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        Strategy::NAMED.into_iter().find(|(_, own)| *own == self).map_or("", |(name, _)| name)
-    }
-
-    /// Whether a run starts at the changed choice.
-    pub fn starts_at_choice(self) -> bool {
-        matches!(self, Strategy::Resume | Strategy::C3)
-    }
-
-    /// Whether calls with unchanged inputs are skipped.
-    pub fn reuses(self) -> bool {
-        matches!(self, Strategy::Cache | Strategy::C3)
-    }
-}
-
-/// Work done, for reports and tests.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counters {
-    /// Activations that were entered, from above or from inside.
-    pub entered: u64,
-    /// Calls and iterations that were skipped.
-    pub skipped: u64,
-    /// Instructions.
-    pub instructions: u64,
-}
-
-/// What happened to an activation in a run, for reports.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
-    /// Instructions of it were carried out.
-    Entered(NodeId),
-    /// It was skipped: its inputs were unchanged.
-    Skipped(NodeId),
-    /// It was created.
-    Created(NodeId),
-    /// It was removed.
-    Removed(NodeId),
-    /// It returned to its caller.
-    Unwound(NodeId),
-}
-
-/// A choice's place in the trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ChoiceAt {
-    pub node: NodeId,
-    pub site: u16,
-}
-
-/// A loop that was entered from above in the run in progress.
-#[derive(Clone, Copy, Debug)]
-struct Active {
-    header: NodeId,
-    /// What its iterations capture has changed.
-    captures: Entry,
-    /// What it runs over has changed.
-    over: bool,
-}
-
-/// Sums over a trace, or what a transaction adds to them; exact.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Totals {
-    /// Log densities of the choices, nats.
-    pub log_prior: Total,
-    /// Factors and observations, nats.
-    pub log_factors: Total,
-    /// The number of factors and observations.
-    pub factors: i64,
-}
-
-impl Totals {
-    /// Adds other sums.
-    #[inline(always)]
-    pub fn add(&mut self, other: &Totals) {
-        self.log_prior.add_total(&other.log_prior);
-        self.log_factors.add_total(&other.log_factors);
-        self.factors += other.factors;
-    }
-
-    /// Whether a choice or a factor is minus infinity.
-    #[inline(always)]
-    pub fn is_impossible(&self) -> bool {
-        self.log_prior.is_impossible() || self.log_factors.is_impossible()
-    }
-}
-
-/// The kept part of a trace.
-#[derive(Debug)]
-pub(crate) struct Kept<S: Scalar> {
-    pub slots: Vec<Slot>,
-    /// Iterations of each loop node.
-    pub loops: Vec<Vec<NodeId>>,
-    pub choices: Vec<ChoiceAt>,
-    pub emits: Vec<Option<Primitive>>,
-    pub free_emits: Vec<u32>,
-    /// The readers of each cell.
-    pub readers: Vec<Readers>,
-    pub free_readers: Vec<u32>,
-    pub memos: Memos<S>,
-    pub sites: Sites,
-    pub result: Value<S>,
-    /// How often each held choice is in the trace, and how many of them are not.
-    pub met: Vec<i32>,
-    pub unmet: usize,
-    /// Sums over the trace before the open transaction.
-    pub totals: Totals,
-    pub counters: Counters,
-    pub steps: Option<Vec<Step>>,
-    // The open transaction.
-    pub journal: Journal<S>,
-    pub open: bool,
-    /// What it adds to the sums.
-    pub change: Totals,
-    pub result_before: Option<Value<S>>,
-    /// Log densities of choices that were drawn, and of those that were removed.
-    pub fresh: Total,
-    pub stale: Total,
-    /// The new value of the changed choice is outside its support.
-    pub outside: bool,
-    /// The changed choices: slot, and the log densities of the change and of its reverse.
-    pub changed: Vec<(u32, f64, f64)>,
-    pub now: u32,
-    // The run in progress.
-    depth: u32,
-    /// The current instruction, and where each activation entered from above continues when it is left.
-    pc: u32,
-    returns: Vec<u32>,
-    /// The current activation was created in this transaction: the journal need not record it.
-    quiet: bool,
-    early: bool,
-    reuse: bool,
-    active: Vec<Active>,
-    /// Transaction in which a node was marked as being above a changed choice.
-    marks: Vec<u32>,
-    marking: bool,
-    /// Readers of changed cells, and how many of them have run.
-    woken: Vec<Reader>,
-    taken: usize,
-    /// The run must not leave the current activation; and whether it did.
-    confined: bool,
-    tangled: bool,
-}
-
-/// A run whose activations are kept.
-#[derive(Debug)]
-pub struct Trace<S: Scalar = f64> {
-    pub(crate) state: State<S>,
-    pub(crate) kept: Kept<S>,
-}
-
-impl<S: Scalar> Kept<S> {
-    fn new(program: &Program<S>) -> Self {
-        Kept {
-            slots: vec![],
-            loops: vec![],
-            choices: vec![],
-            emits: vec![],
-            free_emits: vec![],
-            readers: vec![],
-            free_readers: vec![],
-            memos: Memos::default(),
-            sites: Sites::new(program, Some(Adaptation::default())),
-            result: Value::None,
-            met: vec![],
-            unmet: 0,
-            totals: Totals::default(),
-            counters: Counters::default(),
-            steps: None,
-            journal: Journal::default(),
-            open: false,
-            change: Totals::default(),
-            result_before: None,
-            fresh: Total::default(),
-            stale: Total::default(),
-            outside: false,
-            changed: vec![],
-            now: 0,
-            depth: 0,
-            pc: 0,
-            returns: vec![],
-            quiet: false,
-            early: false,
-            reuse: false,
-            active: vec![],
-            marks: vec![],
-            marking: false,
-            woken: vec![],
-            taken: 0,
-            confined: false,
-            tangled: false,
-        }
-    }
-
-    #[inline(always)]
-    fn slot_at(state: &State<S>, node: NodeId, site: usize) -> usize {
-        state.nodes[node.0 as usize].slots as usize + site
-    }
-
-    #[inline]
-    fn is_new(&self, state: &State<S>, node: NodeId) -> bool {
-        state.nodes[node.0 as usize].created == self.now
-    }
-
-    #[inline(always)]
-    fn note(&mut self, step: Step) {
-        if let Some(steps) = &mut self.steps {
-            steps.push(step);
-        }
-    }
-
-    /// Puts a value into a register of a node; false when it holds that already.
-    #[inline]
-    fn write_to(&mut self, state: &mut State<S>, node_is_new: bool, place: usize, value: Value<S>) -> bool {
-        let register = &mut state.registers[place];
-        if same(register, &value) {
-            return false;
-        }
-        if node_is_new {
-            register.store(value);
-        } else {
-            self.journal.set(register, place, value);
-        }
-        true
-    }
-
-    /// Writes a slot.
-    #[inline]
-    fn write_slot(&mut self, node_is_new: bool, at: usize, slot: Slot) {
-        if !node_is_new {
-            self.journal.slots.push((at as u32, self.slots[at]));
-        }
-        self.slots[at] = slot;
-    }
-
-    /// A node with empty slots.
-    fn new_node(
-        &mut self,
-        program: &Program<S>,
-        state: &mut State<S>,
-        function: crate::code::FunctionId,
-        parent: NodeId,
-        site: u32,
-        path: u128,
-    ) -> NodeId {
-        let count = state.nodes.len();
-        let created = state.new_node(program, function, parent, site, path);
-        let node = &mut state.nodes[created.0 as usize];
-        node.created = self.now;
-        // A new iteration has an exit code that no iteration ends with.
-        node.pc = u32::MAX;
-        if created.0 as usize == count {
-            let f = program.function(function);
-            if f.mode == Mode::Loop {
-                node.slots = self.loops.len() as u32;
-                self.loops.push(Vec::new());
-            } else {
-                node.slots = self.slots.len() as u32;
-                make_room(&mut self.slots, f.sites.len(), || state.ceiling.saturating_sub(state.bytes()));
-                self.slots.resize(self.slots.len() + f.sites.len(), Slot::EMPTY);
-            }
-            state.charged += (f.sites.len() + 1) * size_of::<Slot>();
-        }
-        state.charged += size_of::<NodeId>() + MOVING;
-        self.journal.more().created.push(created);
-        self.note(Step::Created(created));
-        created
-    }
-
-    /// Bytes of what is kept, without values and the journal.
-    fn own_bytes(&self) -> usize {
-        self.slots.len() * size_of::<Slot>()
-            + self.choices.len() * size_of::<ChoiceAt>()
-            + self.loops.iter().map(|l| size_of_val(l) + l.capacity() * size_of::<NodeId>()).sum::<usize>()
-            + self.emits.len() * (size_of::<Option<Primitive>>() + 16)
-            + self.readers.iter().map(Readers::bytes).sum::<usize>()
-            + self.marks.len() * size_of::<u32>()
-            + self.memos.bytes()
-    }
-
-    /// Releases a node, its slots empty.
-    fn release(&mut self, program: &Program<S>, state: &mut State<S>, id: NodeId) {
-        let node = state.nodes[id.0 as usize];
-        let f = program.function(node.function);
-        if f.mode == Mode::Loop {
-            self.loops[node.slots as usize].clear();
-        } else {
-            let at = node.slots as usize;
-            self.slots[at..at + f.sites.len()].fill(Slot::EMPTY);
-        }
-        state.release(program, id);
-    }
-
-    /// A held choice comes into the trace (1) or leaves it (-1).
-    fn count_held(&mut self, number: u32, change: i32) {
-        let met = &mut self.met[number as usize];
-        self.unmet -= usize::from(*met == 0);
-        *met += change;
-        self.unmet += usize::from(*met == 0);
-    }
-
-    /// The outcome of a run that came to its end with these choices: without all of the held ones it is impossible.
-    fn with_all_held(&self, change: Change) -> Change {
-        if change == Change::Done && self.unmet > 0 { Change::Impossible } else { change }
-    }
-
-    /// Whether the node is above a changed choice, in a run that starts at the root.
-    #[inline(always)]
-    fn is_marked(&self, node: NodeId) -> bool {
-        self.marking && self.marks.get(node.0 as usize).is_some_and(|mark| *mark == self.now)
-    }
-}
+use crate::value::{Census, Value};
+use niwaki_math::Scalar;
 
 impl<S: Scalar> Keep<S> for Kept<S> {
     const KEEPS: bool = true;

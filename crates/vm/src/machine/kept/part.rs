@@ -7,9 +7,9 @@
 //! needs nothing else. Its result is what it gives back: the value of a call, or how the iterations ended and what they
 //! carry.
 
-use super::super::held::Numbers;
+use super::super::numbers::Numbers;
 use super::super::state::{NodeId, State, Status};
-use super::Trace;
+use super::trace::Trace;
 use crate::code::{Mode, Program, SiteKind};
 use crate::value::Value;
 use niwaki_geom::Primitive;

@@ -2,7 +2,7 @@
 
 use super::super::state::NodeId;
 use super::part::Part;
-use super::{ChoiceAt, Kept, Trace};
+use super::trace::{ChoiceAt, Kept, Trace};
 use crate::code::{Mode, Program, SiteKind};
 use niwaki_geom::Primitive;
 use niwaki_math::Scalar;

@@ -5,34 +5,17 @@
 
 use super::super::Machine;
 use super::super::keep::Onward;
+use super::super::outcome::After;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
-use super::super::suspend::After;
+use super::entry::Entry;
 use super::loops::{Carried, Next};
-use super::{Active, Kept, Step};
+use super::strategy::Step;
+use super::trace::{Active, Kept};
 use crate::code::{Function, Mode, Site, SiteId, exit};
 use crate::fault::Fault;
 use crate::value::same;
 use niwaki_math::Scalar;
-
-/// Where an activation is entered, depending on which inputs have changed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Entry {
-    /// Nothing: it need not be entered.
-    Unchanged,
-    /// One input, of which this is the slice.
-    One(u32),
-    /// More than one.
-    Whole,
-}
-
-impl Entry {
-    /// An input has changed whose slice begins there.
-    #[inline(always)]
-    pub fn add(&mut self, slice: u32) {
-        *self = if *self == Entry::Unchanged { Entry::One(slice) } else { Entry::Whole };
-    }
-}
 
 impl<S: Scalar> Kept<S> {
     /// The instruction at which it is entered.

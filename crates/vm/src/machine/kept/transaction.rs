@@ -3,25 +3,17 @@
 use super::super::answers::{Answers, At};
 use super::super::stack::RunFault;
 use super::super::state::NodeId;
+use super::super::workspace::Here;
 use super::super::{Machine, Stop};
 use super::questions::log_density;
-use super::{ChoiceAt, Kept, Slot, Step, Strategy, Totals, Trace};
+use super::slot::Slot;
+use super::strategy::{Change, Step, Strategy, Totals};
+use super::trace::{ChoiceAt, Kept, Trace};
 use crate::code::Program;
 use crate::fault::Fault;
 use crate::value::{Value, same};
 use niwaki_geom::Primitive;
 use niwaki_math::{Dist, Scalar, Total, grid};
-
-/// The outcome of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Change {
-    /// It ran to its end.
-    Done,
-    /// Nothing changed: the new value is the old one.
-    Same,
-    /// The score became minus infinity. The run stopped there and must be rolled back.
-    Impossible,
-}
 
 /// A new value for a choice.
 #[derive(Clone, Debug)]
@@ -318,7 +310,7 @@ impl<S: Scalar> Machine<'_, S> {
         let (proposed, log) = match proposal {
             Ok(pair) => pair,
             Err(fault) => {
-                self.here = super::super::Here {
+                self.here = Here {
                     node,
                     function: state.nodes[node.0 as usize].function,
                     pc: site.next as usize - 1,
@@ -444,7 +436,7 @@ impl<S: Scalar> Machine<'_, S> {
 
 impl<S: Scalar> Kept<S> {
     /// Marks a node and those above it: a run from the root must enter them. Above a memoised call are all its readers.
-    pub(super) fn mark_above(&mut self, state: &super::State<S>, node: NodeId) {
+    pub(super) fn mark_above(&mut self, state: &super::super::state::State<S>, node: NodeId) {
         self.marking = true;
         if self.marks.len() < state.nodes.len() {
             self.marks.resize(state.nodes.len(), 0);

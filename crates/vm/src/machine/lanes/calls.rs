@@ -7,8 +7,9 @@ use crate::code::{Args, FunctionId, Loop, Mode, Site, SiteId, SiteKind, exit};
 use crate::machine::address::{iteration_key, join};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
+use crate::machine::outcome::After;
 use crate::machine::state::{FutureId, Node, NodeId};
-use crate::machine::suspend::{After, defaults};
+use crate::machine::suspend::defaults;
 use crate::value::{Value, index, iter_get, iter_len, ops};
 
 impl Run<'_, '_> {

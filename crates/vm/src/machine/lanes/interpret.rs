@@ -8,10 +8,12 @@ use crate::builtins;
 use crate::code::{Args, Binary, Function, FunctionId, Mode, Op, Operand, exit};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
+use crate::machine::operate;
+use crate::machine::outcome::After;
+use crate::machine::outcome::Stop;
 use crate::machine::registers::Registers;
 use crate::machine::state::{FutureId, NodeId};
-use crate::machine::suspend::After;
-use crate::machine::{Machine, PureCall, Stop, operate};
+use crate::machine::workspace::{Machine, PureCall};
 use crate::value::{Value, iter_get, iter_len, ops};
 
 /// Lanes that run: where they are, with the registers of pure functions.

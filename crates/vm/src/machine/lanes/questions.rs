@@ -9,8 +9,8 @@ use crate::machine::Stop;
 use crate::machine::answers::{Answer, At, Factor};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
+use crate::machine::outcome::After;
 use crate::machine::question::{LOGGED, as_dist, as_real, log_density};
-use crate::machine::suspend::After;
 use crate::value::{Dist, Family, Value, index, ops};
 
 /// The distributions of a choice, one for each lane.

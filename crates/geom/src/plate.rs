@@ -3,12 +3,11 @@
 //! So a drawing can also be exported, printed or shown as a relief. Drawings themselves never look at the plate.
 
 use crate::bounds::Aabb;
-use crate::coarse::ring;
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
-use crate::shape::{Placement, Solid};
+use crate::ring::ring;
+use crate::solid::{Placement, Round, Solid};
 use crate::vector::{Vec3, vec3};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// Half of a plate's thickness, as a share of the smallest half width of its shape.
@@ -17,15 +16,6 @@ const THICK: f64 = 0.1;
 pub(crate) const COARSE: usize = 16;
 /// Sides of a whole turn of the fine mesh.
 pub(crate) const FINE: usize = 64;
-
-/// A round end of a stroke.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-pub struct Round {
-    /// Middle, scene units.
-    pub center: Vec3,
-    /// Greater than zero.
-    pub radius: f64,
-}
 
 fn half_thickness(solid: &Solid) -> f64 {
     THICK
@@ -131,9 +121,9 @@ pub(crate) fn plate(solid: &Solid, sides: usize) -> Result<TriMesh, GeomError> {
 mod tests {
     //! A flat shape is a closed plate as large as its outline, and lies in its plane.
     use super::*;
+    use crate::look::Look;
     use crate::shape::Shape;
     use crate::vector::Mat3;
-    use crate::words::Look;
     use std::f64::consts::PI;
 
     fn volume(mesh: &TriMesh) -> f64 {

@@ -4,9 +4,11 @@
 //! values), another path is the same density at other points, and paths are kept. Where the choices change, the point
 //! is refused: a gradient cannot move to other choices.
 
-use crate::compiled::{Compiled, WARM};
+pub mod compiled;
+
 use crate::record::{HostCall, Recorded, Run, Scope, blame, record};
 use crate::scalar::Var;
+use compiled::{Compiled, WARM};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;

@@ -5,7 +5,8 @@
 //! that met anything, since most of a page is backdrop.
 
 use super::light::TILE;
-use super::trace::{Pixel, Stage};
+use super::pixel::Pixel;
+use super::trace::Stage;
 use rayon::prelude::*;
 
 /// Share of the samples that every pixel takes, as a divisor.
@@ -173,7 +174,7 @@ fn contrast(dark: f32, bright: f32) -> bool {
 #[cfg(test)]
 mod tests {
     //! Claim: a picture in which most pixels take a quarter of the samples is as good as one in which all take all.
-    use crate::render::{Shot, Surface, render};
+    use crate::{Shot, Surface, render};
 
     /// A grey post on a red slab, both turned.
     fn scene() -> Vec<Surface> {

@@ -5,31 +5,10 @@
 //! plane (a cross-bilateral filter: Eisemann & Durand 2004, Petschnigg et al. 2004).
 
 use super::light::TILE;
+use super::pixel::{Grain, Pixel};
 use super::plate::Plate;
-use super::trace::Pixel;
 use super::v3::V3;
 use rayon::prelude::*;
-
-/// The surface of one pixel and its sampled light.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Grain {
-    /// Mean normal (unit), or zero where there is no surface.
-    pub normal: V3,
-    /// Mean position.
-    pub point: V3,
-    /// Width of the pixel on the surface, scene units.
-    pub footprint: f32,
-    /// Samples that met the surface.
-    pub count: f32,
-    /// Mean sky light that is blocked.
-    pub blocked: V3,
-    /// Samples behind `blocked`.
-    pub sky_weight: f32,
-    /// Share of the sun that is seen.
-    pub sun: f32,
-    /// Samples behind `sun`.
-    pub sun_weight: f32,
-}
 
 /// Half-width of the neighbourhood, pixels.
 const REACH: usize = TILE - 1;
@@ -139,8 +118,8 @@ fn tent(d: usize) -> f32 {
 mod tests {
     //! Claim: light does not leak across a crease, and noise on one plane goes down.
     use super::*;
-    use crate::render::plate::Row;
-    use crate::render::v3::v3;
+    use crate::plate::Row;
+    use crate::v3::v3;
 
     #[test]
     fn stops_at_a_crease() {

@@ -3,11 +3,13 @@
 //! The backdrop is a colour in the finished picture, not light: a white page stays exactly white, and the floor only
 //! darkens it. So the filmic curve applies to the parts only.
 
+use super::pixel::Pixel;
 use super::plate::Plate;
+use super::shot::{Backdrop, Shot};
 use super::smooth::smooth;
-use super::trace::{Pixel, Stage};
+use super::tone;
+use super::trace::Stage;
 use super::v3::{V3, v3};
-use super::{Backdrop, Shot, tone};
 use rayon::prelude::*;
 
 /// Darkest shadow on the floor, as a share of its light.

@@ -1,0 +1,64 @@
+//! Triangles with normals, built piece by piece.
+
+use crate::vector::Vec3;
+
+/// Sides of everything round.
+pub const ROUND: usize = 48;
+/// Segments of a rounded edge for each quarter turn.
+pub const ARC: usize = 6;
+/// Triangles with a unit normal at every vertex.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FineMesh {
+    /// Scene units.
+    pub vertices: Vec<Vec3>,
+    /// As many as vertices.
+    pub normals: Vec<Vec3>,
+    /// Counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl FineMesh {
+    /// Adds a vertex and returns its number.
+    pub(super) fn point(&mut self, position: Vec3, normal: Vec3) -> u32 {
+        self.vertices.push(position);
+        self.normals.push(normal);
+        (self.vertices.len() - 1) as u32
+    }
+
+    /// Adds a triangle unless two of its corners coincide.
+    pub(super) fn face(&mut self, [a, b, c]: [u32; 3]) {
+        let [p, q, r] = [a, b, c].map(|i| self.vertices[i as usize]);
+        if p != q && q != r && r != p {
+            self.faces.push([a, b, c]);
+        }
+    }
+
+    /// Adds the quadrilateral `a b c d`, counter-clockwise.
+    pub(super) fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
+        self.face([a, b, c]);
+        self.face([a, c, d]);
+    }
+
+    /// Removes the vertices of no triangle: a row that has shrunk to a point leaves some.
+    pub(super) fn without_unused(self) -> FineMesh {
+        let mut used = vec![false; self.vertices.len()];
+        for &corner in self.faces.iter().flatten() {
+            used[corner as usize] = true;
+        }
+        if used.iter().all(|&one| one) {
+            return self;
+        }
+        let mut kept = FineMesh::default();
+        let mut numbers = Vec::with_capacity(used.len());
+        for ((&place, &normal), &is_used) in self.vertices.iter().zip(&self.normals).zip(&used) {
+            numbers.push(if is_used { kept.point(place, normal) } else { 0 });
+        }
+        kept.faces = self.faces.iter().map(|face| face.map(|corner| numbers[corner as usize])).collect();
+        kept
+    }
+}
+
+/// `v` as a unit vector; `or` when it has no direction.
+pub(super) fn unit_or(v: Vec3, or: Vec3) -> Vec3 {
+    v.unit().unwrap_or(or)
+}

@@ -1,0 +1,66 @@
+//! The look of a shape: what is given beside its measures, and what pictures show of it.
+
+use crate::error::{GeomError, bad_shape as bad};
+use crate::vector::Mat3;
+
+/// The arguments of every shape besides its measures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Look {
+    /// Turn about the centre, after the shape was aligned with its axis.
+    pub rotation: Option<Mat3>,
+    /// Rounding of edges in pictures.
+    pub bevel: Option<f64>,
+    /// Linear colour in `[0, 1]`.
+    pub color: Option<[f32; 3]>,
+    /// From 0 (paint, wood, stone) to 1 (metal).
+    pub metalness: Option<f32>,
+    /// From 0 (a mirror) to 1 (chalk).
+    pub roughness: Option<f32>,
+}
+
+/// What pictures show beside the form.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Paint {
+    pub bevel: Option<f64>,
+    /// NaN for none.
+    pub color: [f32; 3],
+    /// Metalness and roughness; NaN for none.
+    pub finish: [f32; 2],
+}
+
+impl Paint {
+    pub const NONE: Paint = Paint { bevel: None, color: [f32::NAN; 3], finish: [f32::NAN; 2] };
+
+    /// Of a look; none where it gives nothing.
+    ///
+    /// # Errors
+    /// `bad-shape` for a look that is out of range.
+    #[inline]
+    pub fn of(look: &Look) -> Result<Option<Box<Paint>>, GeomError> {
+        let Look { bevel, color, metalness, roughness, .. } = *look;
+        if let Some(b) = bevel.filter(|b| !(*b >= 0.0 && b.is_finite())) {
+            return bad(format!("the bevel is {b}, expected zero or more"));
+        }
+        if let Some(c) = color.filter(|c| !c.iter().all(|c| c.is_finite())) {
+            return bad(format!("the color is {c:?}, expected three finite numbers"));
+        }
+        for (name, given) in [("metalness", metalness), ("roughness", roughness)] {
+            if let Some(share) = given.filter(|share| !(0.0..=1.0).contains(share)) {
+                return bad(format!("the {name} is {share}, expected a number from 0 to 1"));
+            }
+        }
+        let is_painted = bevel.is_some() || color.is_some() || metalness.is_some() || roughness.is_some();
+        Ok(is_painted.then(|| {
+            let finish = [metalness, roughness].map(|share| share.unwrap_or(f32::NAN));
+            Box::new(Paint { bevel, color: color.unwrap_or([f32::NAN; 3]), finish })
+        }))
+    }
+}
+
+impl PartialEq for Paint {
+    fn eq(&self, other: &Paint) -> bool {
+        let same_color = self.color == other.color || (self.color[0].is_nan() && other.color[0].is_nan());
+        let bits = |p: &Paint| (p.bevel.map(f64::to_bits), p.finish.map(f32::to_bits));
+        same_color && bits(self) == bits(other)
+    }
+}

@@ -1,0 +1,27 @@
+//! Who reads an element of a collection.
+
+use super::super::ids::NodeId;
+
+/// A read of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reader {
+    pub node: NodeId,
+    pub site: u16,
+    /// Its slot: `held` is the list of readers that contains it, `mark` its place there.
+    pub slot: u32,
+}
+
+/// The readers of one element.
+#[derive(Debug, Default)]
+pub(crate) struct Readers {
+    /// The register that holds the element.
+    pub register: u32,
+    pub all: Vec<Reader>,
+}
+
+impl Readers {
+    /// Its bytes.
+    pub fn bytes(&self) -> usize {
+        size_of::<Readers>() + self.all.capacity() * size_of::<Reader>()
+    }
+}
