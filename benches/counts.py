@@ -79,7 +79,7 @@ def write_models() -> None:
 
 def build() -> Path:
     """Builds the program that repeats a path."""
-    command = ["cargo", "build", "--release", "--locked", "-p", "niwaki-search", "--example", "counts"]
+    command = ["cargo", "build", "--release", "--locked", "--workspace", "--example", "counts"]
     subprocess.run(command, cwd=ROOT, check=True)
     return ROOT / "target" / "release" / "examples" / "counts"
 

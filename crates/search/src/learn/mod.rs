@@ -6,19 +6,11 @@
 //! * [`rehearse`]: how a guide learns what a paused run will still gain; `ridge`: its line.
 
 pub mod climb;
-#[cfg(test)]
-mod climbing;
 pub mod credit;
 mod drawings;
-#[cfg(test)]
-#[allow(dead_code, reason = "some judges are for populations alone")]
-#[path = "../../../particles/src/tests/judges.rs"]
-mod judges;
 pub mod lessons;
 pub mod rehearse;
 mod ridge;
 pub mod survey;
-#[cfg(test)]
-mod taught;
 #[cfg(test)]
 mod tests;

@@ -3,10 +3,10 @@
 //!
 //! Limits are those of the parent module; about 150 quantities are looked at.
 
-use super::climb::Case;
 use super::judges::*;
-use super::rehearse::{Rehearsal, Rehearsed, rehearse};
-use super::tests::{blank, limbs, trained};
+use super::{blank, limbs, trained};
+use crate::learn::climb::Case;
+use crate::learn::rehearse::{Rehearsal, Rehearsed, rehearse};
 use niwaki_chain::kernel::Kernel;
 use niwaki_geom::{Drawing, Page, match_drawing};
 use niwaki_math::Dist;

@@ -2,6 +2,12 @@
 //! for particles that share their past, that became copies of others, and whose futures ran in any order. In a chain a guide
 //! reads the same variables, lists of cells included.
 
+mod climbing;
+#[allow(dead_code, reason = "some judges are for populations alone")]
+#[path = "../../../../particles/src/tests/judges.rs"]
+mod judges;
+mod taught;
+
 use super::lessons::{Example, Making, follow, survey, train};
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::walk::state::State;

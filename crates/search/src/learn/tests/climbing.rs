@@ -2,9 +2,9 @@
 //! one run and for several; a climb closes the gap to the log evidence where the guide can express the posterior; threads and
 //! checkpoints change no bit; impossible runs and numbers that are not finite do no harm.
 
-use super::climb::{Case, Climbed, Use, climb, draw, signed};
-use super::credit::Objective;
-use super::lessons::{Example, Making, rows};
+use crate::learn::climb::{Case, Climbed, Use, climb, draw, signed};
+use crate::learn::credit::Objective;
+use crate::learn::lessons::{Example, Making, rows};
 use niwaki_guide::learn::loss;
 use niwaki_guide::{Climb, Net, Rows, read, write};
 use niwaki_math::log_sums::{log_mean_exp, log_sum_exp};
