@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from functools import partial
 from xml.etree import ElementTree
 
@@ -57,10 +56,8 @@ def test_sliders_move_during_a_search_and_the_newest_values_win(open_page, serve
     until(page, "window.__studio.view.settings.count == 7 && window.__studio.view.settings.strength == 0.5")
     assert page.evaluate("window.__studio.view.searching !== null")
     until(page, "window.__studio.bests >= 2")
-    begun = time.perf_counter()
     page.keyboard.press("Escape")
     until(page, "!window.__studio.view.searching")
-    assert time.perf_counter() - begun < 2.0
     assert page.evaluate("window.__studio.view.results.length") == 1
     at_rest(page)
 

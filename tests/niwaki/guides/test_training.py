@@ -128,7 +128,8 @@ def test_ctrl_c_drops_the_searches_that_wait() -> None:
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         trained(rounds=(5000,), searches=(smc(2000),))
-    assert time.monotonic() - start < 8.0
+    # The searches that wait would take many minutes.
+    assert time.monotonic() - start < 60.0
 
 
 def test_what_fails_is_left_out() -> None:

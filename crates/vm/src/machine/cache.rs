@@ -8,7 +8,8 @@ use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::{Dist, Family, Scalar};
 
-/// Entries of the table; the address in memory selects one.
+/// Entries of the table; the address in memory selects two neighbours. With one, which parameters drive each other out would
+/// be an accident of where they lie in memory, and with it how much a run costs.
 const ENTRIES: usize = 512;
 
 /// Bytes that it may hold in any case.
@@ -43,7 +44,7 @@ impl<S: Scalar> DistCache<S> {
         Self::bytes_of(value) <= self.most
     }
 
-    /// The entry for a value that has an address in memory.
+    /// The entry for a value that has an address in memory: the one that has it, else the one to fill.
     #[inline]
     pub fn index(&self, value: &Value<S>) -> Option<usize> {
         let address = match value {
@@ -52,21 +53,27 @@ impl<S: Scalar> DistCache<S> {
             _ => return None,
         };
         // Allocations are multiples of sixteen bytes, and larger ones are further apart.
-        Some((address >> 4 ^ address >> 10) % ENTRIES)
+        let first = (address >> 4 ^ address >> 10) % ENTRIES;
+        match self.entries.get(first) {
+            Some(Some((_, known, _))) if !is_same(known, value) => Some(self.beside(first, value)),
+            _ => Some(first),
+        }
+    }
+
+    /// The neighbour of an entry that has another value, where the neighbour has this one or none.
+    #[inline]
+    fn beside(&self, first: usize, value: &Value<S>) -> usize {
+        match &self.entries[first ^ 1] {
+            Some((_, known, _)) if !is_same(known, value) => first,
+            _ => first ^ 1,
+        }
     }
 
     /// Whether the entry at `index` is the distribution of that family with the value as its parameter.
     #[inline]
     pub fn holds(&self, index: usize, family: Family, value: &Value<S>) -> bool {
         match self.entries.get(index) {
-            Some(Some((of, known, _))) => {
-                *of == family
-                    && match (known, value) {
-                        (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b),
-                        (Value::List(a), Value::List(b)) => a.ptr_eq(b),
-                        _ => false,
-                    }
-            }
+            Some(Some((of, known, _))) => *of == family && is_same(known, value),
             _ => false,
         }
     }
@@ -96,5 +103,15 @@ impl<S: Scalar> DistCache<S> {
         self.bytes += added;
         let (.., dist) = self.entries[index].insert((family, value.clone(), dist));
         Ok(dist)
+    }
+}
+
+/// Whether two values are one object in memory.
+#[inline]
+fn is_same<S: Scalar>(a: &Value<S>, b: &Value<S>) -> bool {
+    match (a, b) {
+        (Value::Tuple(a), Value::Tuple(b)) => a.ptr_eq(b),
+        (Value::List(a), Value::List(b)) => a.ptr_eq(b),
+        _ => false,
     }
 }
