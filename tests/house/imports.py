@@ -1,7 +1,7 @@
 """Imports between the files of each crate and of the package: circles, and a map of the folders.
 
     python tests/house/imports.py          all circles, and what tests/house/circles.toml no longer allows
-    python tests/house/imports.py --write  write the map again, docs/ideas/imports.md
+    python tests/house/imports.py --write  write the map again, docs/ideas/imports.md, and the drawing of the crates
 
 A circle is a set of files of which each imports each, perhaps through others: whoever changes a part has to know the
 whole. Folders are looked at in the same way, each with the files that are directly in it: `x/mod.rs` is of folder `x`.
@@ -15,11 +15,13 @@ import tomllib
 from functools import cache
 from pathlib import Path, PurePosixPath
 
+from import_drawing import svg
 from python_imports import Package
 from rust_imports import Graph, Workspace
 
 ROOT = Path(__file__).resolve().parents[2]
 MAP = ROOT / "docs" / "ideas" / "imports.md"
+DRAWING = ROOT / "docs" / "pictures" / "crates.svg"
 EXCEPTIONS = ROOT / "tests" / "house" / "circles.toml"
 #: Files of a circle that a reader still keeps in mind.
 LIMIT = 7
@@ -205,6 +207,24 @@ def drawn() -> str:
     return "\n".join(lines) + "\n"
 
 
+def drawing() -> str:
+    """The crates with their imports, as a picture."""
+    graph = imports()
+    crates = [each for each in rooms(graph) if each != PACKAGE]
+    edges = {
+        _short(crate): {
+            _short(room(target)) for file in graph if room(file) == crate for target in graph[file]
+        }
+        - {_short(crate)}
+        for crate in crates
+    }
+    inside = {
+        _short(crate): sorted(_below(node, crate) for node in folders(graph) if room(node) == crate)
+        for crate in crates
+    }
+    return svg(edges, {name: [each for each in names if each != "lib"] for name, names in inside.items()})
+
+
 def _short(crate: str) -> str:
     return PurePosixPath(crate).name
 
@@ -225,6 +245,7 @@ def _list(names: list[str]) -> str:
 if __name__ == "__main__":
     if "--write" in sys.argv:
         MAP.write_text(drawn(), encoding="utf-8")
+        DRAWING.write_text(drawing(), encoding="utf-8")
     print(report())
     for fault in (wrong := faults(imports(), exceptions())):
         print(fault, file=sys.stderr)

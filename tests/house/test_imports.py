@@ -23,6 +23,7 @@ def test_circles_are_small_and_within_a_folder_but_for_those_that_are_listed():
 
 def test_the_map_of_imports_is_as_the_files_are():
     assert imports.MAP.read_text() == imports.drawn(), "out of date: make imports"
+    assert imports.DRAWING.read_text() == imports.drawing(), "out of date: make imports"
 
 
 def ring(folder: str, size: int) -> imports.Graph:
