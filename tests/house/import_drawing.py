@@ -1,4 +1,4 @@
-"""A drawing of the crates: each stands above those that it imports, with its folders; lines that follow from others are left out."""
+"""A drawing of the crates: each stands above those that it imports; lines that follow from others are left out."""
 
 from __future__ import annotations
 
