@@ -173,7 +173,10 @@ class Trial:
 
 
 def trials(
-    place: Path, attempt: Callable[[Path], object], prepare: Callable[[Path], object] = lambda folder: None
+    place: Path,
+    attempt: Callable[[Path], object],
+    prepare: Callable[[Path], object] = lambda folder: None,
+    stride: int = 1,
 ) -> Iterator[Trial]:
     """Each kind of fault at each call of an attempt.
 
@@ -185,22 +188,29 @@ def trials(
         What is tried, in a folder of its own.
     prepare
         What is done to that folder before, without faults.
+    stride
+        The distance between trials that are made; the last is made always.
     """
     usual = _folder(place / "usual", prepare)
     with injected(usual) as counted:
         attempt(usual)
     assert counted.made, "the attempt makes no call about a file in its folder"
-    for fault in KINDS:
-        for at, call in enumerate(counted.made):
-            if fault == "short" and call != "write":
-                continue
-            folder, error = _folder(place / f"{fault}-{at}", prepare), None
-            with injected(folder, fault, at):
-                try:
-                    attempt(folder)
-                except Exception as found:
-                    error = found
-            yield Trial(fault, at, call, folder, error)
+    every = [
+        (fault, at, call)
+        for fault in KINDS
+        for at, call in enumerate(counted.made)
+        if fault != "short" or call == "write"
+    ]
+    for number, (fault, at, call) in enumerate(every, 1):
+        if number % stride and number < len(every):
+            continue
+        folder, error = _folder(place / f"{fault}-{at}", prepare), None
+        with injected(folder, fault, at):
+            try:
+                attempt(folder)
+            except Exception as found:
+                error = found
+        yield Trial(fault, at, call, folder, error)
 
 
 def _folder(place: Path, prepare: Callable[[Path], object]) -> Path:

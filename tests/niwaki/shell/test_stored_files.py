@@ -231,15 +231,22 @@ def grown(folder: Path, *words: str) -> None:
     assert done.exit_code == 0, done.output
 
 
+#: The suite makes one trial of so many; `make soak` makes all.
+STRIDE = 7
+
+
 @pytest.mark.parametrize("former", [False, True])
-def test_a_folder_of_results_is_whole_after_each_fault_of_the_disk(former: bool, tmp_path: Path) -> None:
+@pytest.mark.parametrize("stride", [STRIDE, pytest.param(1, marks=pytest.mark.soak)])
+def test_a_folder_of_results_is_whole_after_each_fault_of_the_disk(
+    stride: int, former: bool, tmp_path: Path
+) -> None:
     wanted: dict[int, bytes] = {}
     for seed in (1, 2):
         grown(tmp_path / str(seed), "--seed", str(seed))
         wanted[seed] = (tmp_path / str(seed) / "out" / "best.glb").read_bytes()
     (tmp_path / "tried").mkdir()
     before = (lambda folder: grown(folder, "--seed", "2")) if former else (lambda folder: None)
-    for trial in trials(tmp_path / "tried", lambda folder: grown(folder, "--force"), before):
+    for trial in trials(tmp_path / "tried", lambda folder: grown(folder, "--force"), before, stride):
         assert trial.error is None or isinstance(trial.error, FileError), trial
         run, best = (trial.folder / "out" / name for name in ("run.json", "best.glb"))
         seed = json.loads(run.read_text())["search"]["seed"] if run.exists() else None
