@@ -101,6 +101,10 @@ impl<S: Scalar> DistCache<S> {
             self.bytes = 0;
         }
         self.bytes += added;
+        // What was looked up before the last one makes room, and not the last one.
+        if let Some(before) = self.entries[index].take().filter(|(_, known, _)| !is_same(known, value)) {
+            self.entries[index ^ 1] = Some(before);
+        }
         let (.., dist) = self.entries[index].insert((family, value.clone(), dist));
         Ok(dist)
     }
