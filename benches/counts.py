@@ -7,9 +7,9 @@ step, a shape into the sketches, a choice by a guide, a search by `grow`. The ex
 path on one thread; two counts with different repeats give the price of a unit, because starting and
 compiling cancel. Machine code of models is off (`NIWAKI_JIT=0`), because a thread of its own writes it.
 
-A count that differs from `counts.json` by more than 2 % (4 % where memory decides) ends this with 1. A change that means
-to change a count writes the table again (`--write`), and its commit says why. Needs Debian's valgrind; without it
-nothing is counted.
+A count that differs from `counts.json` by more than 2 % (4 % where memory decides) ends this with 1. A change that
+means to change a count writes the table again (`--write`), and its commit says why. Needs Debian's valgrind; without
+it nothing is counted.
 """
 
 import argparse
