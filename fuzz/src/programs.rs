@@ -8,6 +8,7 @@ use niwaki_geom::{Aabb, Rule, no_overshoot, no_self_intersection, vec3};
 use niwaki_particles::{Moment, Rejuvenation, smc};
 use niwaki_run::Task;
 use niwaki_run::forward::forward;
+use niwaki_run::order::Order;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::machine::Limits;
 use niwaki_vm::passes::compile;
@@ -86,11 +87,7 @@ pub fn run(plain: &Task, compiled: &Task, head: &[u8]) {
     }
     let moves =
         || Rejuvenation { kernel: kernel.clone(), moves: 1, at: Moment::Resampled, final_chains: None };
-    let order = if head[3] & 1 == 1 {
-        niwaki_particles::Order::DepthFirst
-    } else {
-        niwaki_particles::Order::Stochastic
-    };
+    let order = if head[3] & 1 == 1 { Order::DepthFirst } else { Order::Stochastic };
     let settings = niwaki_particles::Settings {
         // As many as run in lanes, or fewer.
         particles: if head[3] & 4 == 4 { 20 } else { 4 },

@@ -4,7 +4,7 @@
 //! counts proposals, so it may stop in the middle of a cycle and go on there.
 
 use crate::leaf::Proposer;
-pub use niwaki_run::select::Selection;
+use niwaki_run::select::Selection;
 
 /// A Markov kernel.
 #[derive(Clone, Debug)]

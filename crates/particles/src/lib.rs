@@ -56,10 +56,7 @@ mod tests;
 
 pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
-pub use many::side_by_side;
-pub use many::{AT_ONCE, Share, Watch, population_seed, populations, united, within};
-pub use niwaki_run::order::{Order, Policy};
-pub use niwaki_run::resampling::Resampling;
+pub use many::{AT_ONCE, Share, Watch, population_seed, populations, side_by_side, united, within};
 pub use pimh::pimh;
 pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
 pub use settings::{Anneal, Settings, Weights, When};

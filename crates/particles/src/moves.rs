@@ -8,7 +8,7 @@ use niwaki_chain::block::Block;
 use niwaki_chain::leaf::{Leaf, Target};
 use niwaki_chain::walk::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
 use niwaki_chain::walk::counts::Count;
-pub use niwaki_chain::walk::proposal::Move;
+use niwaki_chain::walk::proposal::Move;
 use niwaki_chain::walk::state::State as ChainState;
 use niwaki_chain::walk::streams::below;
 use niwaki_chain::{Chain, Settings as ChainSettings};

@@ -7,7 +7,7 @@
 //! log p(x) - log q(x)        summed over the choices of a run
 //! ```
 //!
-//! [`Prior`] draws from `p` itself, [`Known`] uses given values, [`ByProposal`](niwaki_propose::proposal::ByProposal) draws from a
+//! [`Prior`] draws from `p` itself, [`Known`] uses given values, `ByProposal` (in `niwaki-propose`) draws from a
 //! user's proposal or a guide; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
 
 use crate::record::log_density;

@@ -3,7 +3,7 @@
 //! Triangle against box by separating axes (Akenine-Moeller 2001): the box's three normals, the triangle's, and the
 //! nine products of edges, in grid coordinates where the cell is a unit cube.
 //!
-//! How a flat part was cut into triangles makes no difference, even where they lie over one another ([`crate::folds`]).
+//! How a flat part was cut into triangles makes no difference, even where they lie over one another (`folds`).
 
 use super::cells::CellBox;
 use super::grid::{Grid, TOUCH};

@@ -1,12 +1,14 @@
 //! Programs whose answer is known, and z-scores of what a search says of them. Also the tests of look-ahead that is learned include
 //! this file, in the crate that trains guides; so it names its crate from outside.
 
-use niwaki_particles::{Ancestors, Order, Resampling, Result, Settings, particle_gibbs, smc};
+use niwaki_particles::{Ancestors, Result, Settings, particle_gibbs, smc};
 use niwaki_run::Task;
 use niwaki_run::enumeration::enumerate;
 use niwaki_run::forward::forward;
 use niwaki_run::log::Entry;
+use niwaki_run::order::Order;
 use niwaki_run::rejection::rejection;
+use niwaki_run::resampling::Resampling;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::repr;

@@ -11,6 +11,8 @@ use crate::population::Population;
 use crate::*;
 use niwaki_propose::particle::Particle;
 use niwaki_run::enumeration::enumerate;
+use niwaki_run::order::{Order, Policy};
+use niwaki_run::resampling::Resampling;
 use niwaki_run::task::Task;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::value::repr;

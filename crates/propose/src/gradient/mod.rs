@@ -1,10 +1,8 @@
 //! Gradients of a task: its log density over the continuous choices of one run.
 //!
-//! * [`follow`]: that density as a target of chains, with the reasons for which it refuses a point;
+//! * [`follow`]: why that density refused a point;
 //! * `hosted`: the host functions of a recorded run; `nested`: an inference inside of it, by enumeration;
-//! * [`positions`]: where its shapes are, with their derivatives;
-//! * [`explore`]: chains of a task, each from its own possible run;
-//! * [`approximate`]: normals near a task's distribution.
+//! * [`positions`]: where its shapes are, with their derivatives.
 
 pub mod follow;
 mod hosted;

@@ -19,7 +19,7 @@
 //! A root, because log scores fall off with the square of a distance (of similarities from 1, say): a line in distances
 //! is fitted as well to runs that match nearly as to those that miss by far. The line is held within what its lessons had.
 //!
-//! The copies draw nothing, so the forecast is a function of the run. [`rehearse`](niwaki_search::learn::rehearse) fits the line.
+//! The copies draw nothing, so the forecast is a function of the run ([`foresight`](crate::foresight)). `niwaki-search` fits the line.
 
 use serde::{Deserialize, Serialize};
 

@@ -7,13 +7,10 @@
 //!
 //! - [`form`]: a guide as plain data;
 //! - [`bound`]: a guide for one program, as a drawer of choices;
-//! - [`survey`]: what the traces of a model show, from which the form of its guide follows;
-//! - [`lessons`]: traces as rows, by the code that draws; training;
-//! - [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: how much each run counts;
-//! - [`ahead`]: a guide as a forecast of what a paused run will still gain; [`rehearse`]: how it learns that; `ridge`: its line;
-//! - `images`: what the dissertation's architecture sees, whole images; `drawings`: how it learns.
+//! - [`ahead`]: the line of a guide that says what a paused run will still gain;
+//! - [`images`]: what the dissertation's architecture sees, whole images.
 //!
-//! The networks and their training are in `niwaki-guide`, the windows in `niwaki-geom`.
+//! The networks are in `niwaki-guide`, the windows in `niwaki-geom`; training on the runs of a model is in `niwaki-search`.
 
 pub mod ahead;
 pub mod bound;

@@ -38,7 +38,7 @@ pub struct Function<S: Scalar = f64> {
     pub defaults: Vec<Operand>,
     /// Captured values, placed in the registers after the parameters.
     pub captures: u16,
-    /// Registers of a node (of a loop node for an iteration's captures: see [`Loop`]).
+    /// Registers of a node (of a loop node for an iteration's captures: see [`Loop`](super::Loop)).
     pub node_registers: u16,
     /// Scratch registers.
     pub scratch_registers: u16,
