@@ -151,8 +151,8 @@ def grow(
         search it is one population, too: of 50 particles with tempered resampling, when left out.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
-        `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,
-        `match_volume(target, voxel, sigma)`.
+        `no_self_intersection(rule)`, which is left out for drawings and where they have it, and, where there is a
+        target, `match_volume(target, voxel, sigma)`.
     method
         Another search than by those settings.
     voxel, sigma
@@ -226,7 +226,7 @@ def asked(
         )
     product = Score() if score is None else score
     drawn = product.window is not None
-    if not drawn:
+    if not drawn and not any(one.function == no_self_intersection.__name__ for one in product.asks):
         product = no_self_intersection(rule) * product
     if target is not None:
         product *= match_volume(target, voxel, sigma)

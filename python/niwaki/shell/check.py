@@ -13,6 +13,7 @@ from niwaki import lang, shell
 from niwaki.errors import InputError, ModelError
 from niwaki.shell import arguments, controls, trying
 from niwaki.shell.app import ModelName, app
+from niwaki.targets.sketches import Score
 
 
 @app.command()
@@ -66,11 +67,10 @@ def check(
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
     if other is not None:
-        aim = controls.Controls(target).aim(found)
-        if aim is None:
+        score = Score.of_asks(controls.asked({"target": target}, found))
+        if score.target is None:
             raise InputError("no-target", name=found.reference)
-        voxel = found.entry.voxel if found.entry is not None and target is None else None
-        print(trying.tried(found, shell.references.find(other), aim, voxel))
+        print(trying.tried(found, shell.references.find(other), score))
         return
     if target is not None:
         reason = "it is what both versions are grown into"

@@ -29,53 +29,29 @@ from niwaki.shell import (
     settings,
     writing,
 )
-from niwaki.shell.app import Folder, Megabytes, app, counted
+from niwaki.shell.app import Folder, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
+from niwaki.targets.asks import DRAWN
 
 
 @app.command()
-@settings.with_settings(
-    *settings.METHODS.values(),
-    power="16, with absolute weights 1",
-    particles="the model's own, or 300; of improve a third",
-)
+@settings.with_settings
 def grow(
     context: typer.Context,
     model: resuming.Model = None,
     values: arguments.Arguments = None,
     preset: arguments.Preset = None,
-    target: controls.TargetFile = None,
-    avoid: controls.AvoidFiles = None,
-    floor: controls.Floor = None,
-    within: controls.Within = None,
-    match_image: controls.ImageFile = None,
-    match_shadow: controls.ShadowFile = None,
-    camera: controls.CameraFile = None,
-    weight_image: controls.WeightFile = None,
-    weight: controls.Weight = None,
-    light: controls.Light = None,
-    receiver: controls.ReceiverFile = None,
-    window: controls.Window = None,
-    pixels: controls.Pixels = None,
-    voxel: controls.Voxel = None,
-    sigma: controls.Sigma = None,
-    rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
-    method: settings.MethodName = None,
-    guide: settings.GuideFile = None,
-    polish: settings.Polish = None,
-    polish_kernel: settings.PolishKernel = None,
+    *,
+    wish: controls.Wish,
+    how: asking.How,
     origin: held.From = None,
     number: held.OfRun = None,
     lock: held.Lock = None,
     reroll: held.Reroll = None,
-    runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
-    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
-    max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
-    max_memory: Megabytes = 1024,
     resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,
@@ -95,7 +71,14 @@ def grow(
         ),
     ] = True,
     quick: pictures.Quick = False,
-    **given: Any,
+    given: Annotated[
+        dict[str, Any],
+        settings.of_methods(
+            *settings.METHODS.values(),
+            power="16, with absolute weights 1",
+            particles="the model's own, or 300; of improve a third",
+        ),
+    ],
 ) -> None:
     """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
     clock = Clock()
@@ -112,43 +95,13 @@ def grow(
         own_values = arguments.read(found.model, values, preset)
         found.model.program()
     onto = held.Origin.of_flags(origin, number, lock, reroll)
-    style = None if found.entry is None else found.entry.draws
-    chosen = controls.Controls(
-        target,
-        tuple(avoid or ()),
-        floor,
-        within,
-        match_image,
-        camera,
-        match_shadow,
-        weight_image,
-        weight,
-        light,
-        receiver,
-        window,
-        pixels,
-        style is not None,
-    )
-    wish = asking.Asked(
-        chosen,
-        voxel,
-        sigma,
-        rule,
-        method,
-        guide,
-        polish,
-        polish_kernel,
-        runs,
-        seed,
-        max_steps,
-        max_memory,
-        given,
-    )
-    style = style or ("ink" if chosen.is_drawing else None)
+    asks = controls.asked(wish, found)
+    is_drawn = any(sketch in DRAWN for sketch, _ in asks)
+    style = found.style or ("ink" if is_drawn else None)
     files = writing.Files.of_flags(formats, scale, fuse, frames, size, style)
     with clock.part("target"):
-        asked = wish.search(found, own_values, None if onto is None else onto.held)
-    most = runs if given.get("diverse") is None else given["diverse"]
+        asked = asking.searched(found, asks, how, given, own_values, None if onto is None else onto.held)
+    most = how.runs if given["diverse"] is None else given["diverse"]
     picking.exported(export, most)
     writes = output is not None or not as_json
     # Before the search: that a folder cannot be written to must not be the news at its end.
@@ -164,7 +117,7 @@ def grow(
         try:
             with clock.part("search"):
                 if onto is not None and rerolls:
-                    result = onto.rerolled(asked, given.get("particles"), threads)
+                    result = onto.rerolled(asked, given["particles"], threads)
                 else:
                     with progress_line(found.reference) as progress, resuming.told(kept, "grow"):
                         result = asked.run(threads=threads, progress=progress, checkpoint=kept)

@@ -35,6 +35,7 @@ INTERRUPTED = "interrupted; go on with the same command and --resume"
 
 
 @group.command()
+@settings.with_settings
 def train(
     model: ModelName,
     places: Annotated[
@@ -80,9 +81,8 @@ def train(
             help="Then teach it to look ahead, by so many searches, such as 2000.",
         ),
     ] = None,
-    window: controls.Window = None,
-    pixels: controls.Pixels = None,
-    voxel: controls.Voxel = None,
+    *,
+    asked: Annotated[dict[str, Any], controls.flags("window", "pixels", "voxel")],
     seed: Annotated[
         int | None, typer.Option(help="Default: a new one, which the guide's report keeps.")
     ] = None,
@@ -102,7 +102,7 @@ def train(
         place.unlink()
         print(f"warning: {place}, of a training that did not end, is replaced", file=sys.stderr)
     seed = search.fresh(begun_seed(seed, place))
-    goals = _goals(found, places, window, pixels, voxel, mirror)
+    goals = _goals(found, places, controls.read(asked), mirror)
     began = time.perf_counter()
     with _shown(found.reference) as progress, _told(place):
         guide = nw.train_guide(
@@ -174,29 +174,25 @@ class _Goals:
 def _goals(
     found: shell.references.ModelReference,
     places: str,
-    window: str | None,
-    pixels: int | None,
-    voxel: float | None,
+    asked: dict[str, Any],
     mirror: bool,
 ) -> _Goals:
     """The targets of a folder or a collection; each eighth judges."""
-    draws = window is not None or (found.entry is not None and found.entry.window is not None)
-    if draws:
-        page = controls.Controls(match_image=places, window=window, draws=True).page(found)
-        drawings = _drawings(places, pixels or controls.PIXELS)
+    page = asked["window"] or (None if found.entry is None else found.entry.window)
+    if page is not None:
+        drawings = _drawings(places, asked["pixels"] or targets.drawings.SIDE)
         learned = [one for i, one in enumerate(drawings) if i % guides.EVERY]
         if mirror:
             learned += [one.mirrored() for one in learned]
-        follows = controls.follows(found.model)
         return _Goals(
             learned,
             drawings[:: guides.EVERY],
             lambda one: one.score(page),
-            (lambda one: one.place(page)) if follows else None,
+            (lambda one: one.place(page)) if found.follows else None,
         )
     files = _files(places, targets.reading.FORMATS)
     meshes = [nw.Target.load(file) for file in files]
-    size = voxel if voxel is not None or found.entry is None else found.entry.voxel
+    size = asked["voxel"] if asked["voxel"] is not None or found.entry is None else found.entry.voxel
     return _Goals(
         [one for i, one in enumerate(meshes) if i % guides.EVERY],
         meshes[:: guides.EVERY],

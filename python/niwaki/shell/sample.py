@@ -25,12 +25,13 @@ from niwaki.shell.progress import sampling_line
 
 
 @app.command()
-@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
+@settings.with_settings
 def sample(
     context: typer.Context,
     model: resuming.Model = None,
     values: arguments.Arguments = None,
     preset: arguments.Preset = None,
+    *,
     target: Annotated[
         str | None,
         typer.Option(
@@ -54,7 +55,10 @@ def sample(
         bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
     ] = True,
     quick: pictures.Quick = False,
-    **given: Any,
+    given: Annotated[
+        dict[str, Any],
+        settings.of_methods(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()"),
+    ],
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
     if resume is not None:

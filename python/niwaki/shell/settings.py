@@ -8,8 +8,8 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields, replace
-from functools import cache
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache, wraps
 from typing import Annotated, Any, get_type_hints
 
 import typer
@@ -68,28 +68,55 @@ _FUNCTIONS = ("proposal",)
 _PLAIN = (int, float, str, bool)
 
 
-def with_settings(
-    *methods: type[Method], **usual: str
-) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command an option for each setting of these methods, in place of its `**settings`.
+@dataclass(frozen=True)
+class Flags:
+    """Flags that a parameter of a command gathers, by name: `given: Annotated[dict[str, Any], Flags(...)]`."""
 
-    A flag that was not given is None. `usual` has the command's own defaults, where they differ from the method's.
+    parameters: tuple[inspect.Parameter, ...]
+
+
+def of_methods(*methods: type[Method], **usual: str) -> Flags:
+    """A flag for each setting of these methods; one that was not given is None.
+
+    `usual` has the command's own defaults, where they differ from the method's.
     """
+    return Flags(tuple(_option(name, methods, usual.get(name)) for name in _names(methods)))
 
-    def decorated(command: Callable[..., None]) -> Callable[..., None]:
-        hints = get_type_hints(command, include_extras=True)
-        own = [
-            one for one in inspect.signature(command).parameters.values() if one.kind is not one.VAR_KEYWORD
-        ]
-        plain = [one.replace(annotation=hints[one.name]) for one in own]
-        taken = {one.name for one in plain}
-        more = [_option(name, methods, usual.get(name)) for name in _names(methods) if name not in taken]
-        keyword = [one.replace(kind=one.KEYWORD_ONLY) for one in more]
-        command.__signature__ = inspect.Signature([*plain, *keyword])  # type: ignore[attr-defined]
-        command.__annotations__ = {one.name: one.annotation for one in (*plain, *keyword)}
-        return command
 
-    return decorated
+def with_settings(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the flags of its parameters that are groups: `Flags`, or dataclasses whose fields are flags.
+
+    A flag of `Flags` that an earlier parameter has is left out.
+    """
+    hints = get_type_hints(command, include_extras=True)
+    flat: dict[str, inspect.Parameter] = {}
+    groups: dict[str, tuple[Any, list[str]]] = {}
+    for own in inspect.signature(command).parameters.values():
+        hint = hints[own.name]
+        gathered = next((one for one in getattr(hint, "__metadata__", ()) if isinstance(one, Flags)), None)
+        if gathered is not None:
+            more = [one for one in gathered.parameters if one.name not in flat]
+            groups[own.name] = dict, [one.name for one in more]
+        elif is_dataclass(hint):
+            kinds = get_type_hints(hint, include_extras=True)
+            more = [
+                own.replace(name=one.name, default=one.default, annotation=kinds[one.name])
+                for one in fields(hint)
+            ]
+            groups[own.name] = hint, [one.name for one in more]
+        else:
+            more = [own.replace(annotation=hint)]
+        flat |= {one.name: one.replace(kind=one.KEYWORD_ONLY) for one in more}
+
+    @wraps(command)
+    def gathering(**given: Any) -> None:
+        for name, (make, names) in groups.items():
+            given[name] = make(**{one: given.pop(one) for one in names})
+        command(**given)
+
+    gathering.__signature__ = inspect.Signature([*flat.values()])  # type: ignore[attr-defined]
+    gathering.__annotations__ = {one.name: one.annotation for one in flat.values()}
+    return gathering
 
 
 def _names(methods: tuple[type[Method], ...]) -> list[str]:

@@ -15,7 +15,7 @@ from niwaki.draw.limits import PIXEL
 from niwaki.errors import InputError
 from niwaki.errors.memory import check_room
 from niwaki.methods import Forward
-from niwaki.shell import arguments, controls
+from niwaki.shell import arguments
 from niwaki.shell.app import ModelName, app, counted
 from niwaki.shell.clock import Clock
 
@@ -66,14 +66,7 @@ def show(
 
 def _begin(found: shell.references.ModelReference) -> dict[str, Any]:
     """Where a model of the gallery begins that follows a drawing: where its own drawing does."""
-    entry = found.entry
-    if entry is None or entry.drawing_name is None or entry.window is None:
-        return {}
-    if not controls.follows(found.model):
-        return {}
-    drawing = controls.Controls(draws=True).drawing(found)
-    assert drawing is not None
-    return dict(zip(("x", "y", "ahead"), drawing.place(entry.window), strict=True))
+    return {} if found.entry is None or found.entry.drawing_name is None else found.start(found.entry.asks)
 
 
 def _runs(model: nw.Model[..., Any], given: dict[str, Any], count: int, seed: int) -> nw.Result:

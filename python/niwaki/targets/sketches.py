@@ -9,7 +9,7 @@ Log scores add. Sketches are evaluated in order: cheap ones that may forbid a sc
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import isfinite, sqrt
@@ -28,12 +28,16 @@ from niwaki.targets.target import Receiver, Target
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
+    from niwaki.targets.drawing import Drawing
     from niwaki.targets.images import Image
 
     Place = str | PathLike[str]
     CameraLike = Camera | Place | Mapping[str, Any]
 
 RULES = ("solid", "surface")
+
+#: A sketch by name, with what it is given.
+Ask = tuple[str, dict[str, Any]]
 
 #: Low and high corner of a part of the plane, (x, y) each, scene units.
 Window = tuple[tuple[float, float], tuple[float, float]]
@@ -146,12 +150,19 @@ class Score:
     @classmethod
     def of_data(cls, data: Sequence[Mapping[str, Any]], read: Any) -> Score:
         """The sketches of their data; `read.table` reads what one is given."""
-        score = cls()
         for number, one in enumerate(data):
-            make = SKETCHES.get(one["sketch"])
-            if make is None:
+            if one["sketch"] not in SKETCHES:
                 raise Unfit(f"$[{number}].sketch", f"one of {', '.join(SKETCHES)}", shown(one["sketch"]))
-            score *= make(**read.table(one["given"], f"[{number}].given"))
+        return cls.of_asks(
+            (one["sketch"], read.table(one["given"], f"[{number}].given")) for number, one in enumerate(data)
+        )
+
+    @classmethod
+    def of_asks(cls, asks: Iterable[Ask]) -> Score:
+        """The product of sketches, each with what it is given."""
+        score = cls()
+        for sketch, given in asks:
+            score *= SKETCHES[sketch](**given)
         return score
 
     def __mul__(self, other: Score) -> Score:
@@ -267,7 +278,7 @@ def match_shadow(
     """
     on, greys = _wish(image, weight_image)
     check_positive("sigma", sigma)
-    floor = receiver if isinstance(receiver, Receiver) else Receiver.load(receiver)
+    floor = Receiver.of(receiver)
     direction = _direction("light", light)
     seen_by = floor.camera(direction, on.shape[1] / on.shape[0]) if camera is None else Camera.of(camera)
     with picture_errors(floor.name):
@@ -293,7 +304,7 @@ def match_shadow(
 
 
 def match_drawing(
-    image: Image,
+    image: Image | Drawing,
     window: Sequence[Sequence[float]],
     *,
     pixels: int | None = None,
@@ -307,15 +318,18 @@ def match_drawing(
     Parameters
     ----------
     image
-        A file, a Pillow image or an array of greys; what is not white is ink.
+        A file, a Pillow image or an array of greys; what is not white is ink. Or a `Drawing`.
     window
-        Low and high corner of the part of the plane that the image shows, (x, y) each.
+        Low and high corner of the part of the plane that the image shows, (x, y) each; of a `Drawing` it is made wider
+        or higher, so that pixels are square.
     pixels
         Of the longer side: a larger image is made smaller first. As it is when left out.
     sigma
         Standard deviation of the similarity: smaller is stricter.
     """
     shown = check_window(window)
+    if isinstance(image, targets.drawing.Drawing):
+        shown, image = image.window(shown), image.greys
     greys = targets.images.ink(image, None if pixels is None else check_count("pixels", pixels))
     check_positive("sigma", sigma)
     drawing = _engine.Drawing(greys, *shown)
@@ -417,19 +431,20 @@ def overshoot(
     return _score("overshoot", given, given)
 
 
-#: The functions that make sketches, by name.
+#: The functions that make sketches, by name, in the order in which they are evaluated where `niwaki.targets.asks` asks
+#: for several: those that may forbid a scene come first.
 SKETCHES: dict[str, Callable[..., Score]] = {
     make.__name__: make
     for make in (
         no_self_intersection,
-        match_volume,
-        match_image,
-        match_shadow,
         match_drawing,
         fill_drawing,
-        avoid,
         floor,
+        avoid,
+        match_image,
+        match_shadow,
         overshoot,
+        match_volume,
     )
 }
 
