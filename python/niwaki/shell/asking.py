@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 import typer
 
-from niwaki import Search, gallery, search
+from niwaki import Search, gallery, search, targets
 from niwaki.errors import InputError
 from niwaki.shell import settings
 from niwaki.shell.app import Megabytes
 from niwaki.shell.references import ModelReference
-from niwaki.targets.sketches import Ask, Score
+from niwaki.targets.sketches import Ask
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def searched(
         Choices that are held.
     """
     onward = settings.polish(how.polish, how.polish_kernel)
-    score = Score.of_asks(asks)
+    score = targets.asks.score(asks)
     suits: dict[str, Any] = (
         {"particles": gallery.PARTICLES} if found.entry is None else dict(found.entry.usual)
     )

@@ -9,11 +9,10 @@ from typing import Annotated
 
 import typer
 
-from niwaki import lang, shell
+from niwaki import lang, shell, targets
 from niwaki.errors import InputError, ModelError
 from niwaki.shell import arguments, controls, trying
 from niwaki.shell.app import ModelName, app
-from niwaki.targets.sketches import Score
 
 
 @app.command()
@@ -67,7 +66,7 @@ def check(
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
     if other is not None:
-        score = Score.of_asks(controls.asked({"target": target}, found))
+        score = targets.asks.score(controls.asked({"target": target}, found))
         if score.target is None:
             raise InputError("no-target", name=found.reference)
         print(trying.tried(found, shell.references.find(other), score))

@@ -77,7 +77,7 @@ class Drawing:
 
     def score(self, window: Window, **settings: Any) -> Score:
         """How well a scene draws it; `settings` are those of `match_drawing`."""
-        return match_drawing(self, window, **settings)
+        return match_drawing(self.greys, self.window(window), **settings)
 
     def mirrored(self) -> Drawing:
         """The same, with left and right exchanged."""

@@ -9,7 +9,7 @@ Log scores add. Sketches are evaluated in order: cheap ones that may forbid a sc
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import isfinite, sqrt
@@ -28,7 +28,6 @@ from niwaki.targets.target import Receiver, Target
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
-    from niwaki.targets.drawing import Drawing
     from niwaki.targets.images import Image
 
     Place = str | PathLike[str]
@@ -150,19 +149,12 @@ class Score:
     @classmethod
     def of_data(cls, data: Sequence[Mapping[str, Any]], read: Any) -> Score:
         """The sketches of their data; `read.table` reads what one is given."""
-        for number, one in enumerate(data):
-            if one["sketch"] not in SKETCHES:
-                raise Unfit(f"$[{number}].sketch", f"one of {', '.join(SKETCHES)}", shown(one["sketch"]))
-        return cls.of_asks(
-            (one["sketch"], read.table(one["given"], f"[{number}].given")) for number, one in enumerate(data)
-        )
-
-    @classmethod
-    def of_asks(cls, asks: Iterable[Ask]) -> Score:
-        """The product of sketches, each with what it is given."""
         score = cls()
-        for sketch, given in asks:
-            score *= SKETCHES[sketch](**given)
+        for number, one in enumerate(data):
+            make = SKETCHES.get(one["sketch"])
+            if make is None:
+                raise Unfit(f"$[{number}].sketch", f"one of {', '.join(SKETCHES)}", shown(one["sketch"]))
+            score *= make(**read.table(one["given"], f"[{number}].given"))
         return score
 
     def __mul__(self, other: Score) -> Score:
@@ -304,7 +296,7 @@ def match_shadow(
 
 
 def match_drawing(
-    image: Image | Drawing,
+    image: Image,
     window: Sequence[Sequence[float]],
     *,
     pixels: int | None = None,
@@ -318,18 +310,15 @@ def match_drawing(
     Parameters
     ----------
     image
-        A file, a Pillow image or an array of greys; what is not white is ink. Or a `Drawing`.
+        A file, a Pillow image or an array of greys; what is not white is ink.
     window
-        Low and high corner of the part of the plane that the image shows, (x, y) each; of a `Drawing` it is made wider
-        or higher, so that pixels are square.
+        Low and high corner of the part of the plane that the image shows, (x, y) each.
     pixels
         Of the longer side: a larger image is made smaller first. As it is when left out.
     sigma
         Standard deviation of the similarity: smaller is stricter.
     """
     shown = check_window(window)
-    if isinstance(image, targets.drawing.Drawing):
-        shown, image = image.window(shown), image.greys
     greys = targets.images.ink(image, None if pixels is None else check_count("pixels", pixels))
     check_positive("sigma", sigma)
     drawing = _engine.Drawing(greys, *shown)

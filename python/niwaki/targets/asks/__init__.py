@@ -1,7 +1,7 @@
 """What a person can ask of a scene, by name: flags of the shell, keys of a batch, fields of a form.
 
 An option asks for a sketch, whose first parameter it is, or is the parameter of that name of the sketches that are
-asked for. What is asked is one value, a list of sketches with what each is given: `Score.of_asks` makes their score,
+asked for. What is asked is one value, a list of sketches with what each is given: `score` makes the product of them,
 and `Score.data` writes it.
 
 >>> asked({"floor": 0.0, "target": "gallery:ship", "sigma": 0.01})
@@ -20,7 +20,7 @@ from typing import Any
 from niwaki.errors import InputError
 from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
-from niwaki.targets.sketches import SKETCHES, Ask, Window
+from niwaki.targets.sketches import SKETCHES, Ask, Score, Window
 
 #: Sketches of what is drawn in the plane, where parts of a scene may cross.
 DRAWN = ("match_drawing", "fill_drawing")
@@ -190,6 +190,17 @@ def asked(
             own.setdefault("window", page)
     order = list(SKETCHES)
     return sorted(chosen, key=lambda one: order.index(one[0]))
+
+
+def score(asks: Iterable[Ask]) -> Score:
+    """The score of what is asked."""
+    product = Score()
+    for sketch, own in asks:
+        if sketch == "match_drawing":
+            product *= own["image"].score(**{key: value for key, value in own.items() if key != "image"})
+        else:
+            product *= SKETCHES[sketch](**own)
+    return product
 
 
 def start(asks: Iterable[Ask]) -> dict[str, Any]:
