@@ -31,7 +31,9 @@ def _file(flag: str, text: str) -> Any:
     return typer.Option(flag, metavar="FILE", help=text)
 
 
-TargetFile = Annotated[str | None, _file("--target", "A mesh to fill (OBJ, STL, PLY, GLB).")]
+TargetFile = Annotated[
+    str | None, _file("--target", "A mesh to fill: OBJ, STL, PLY, GLB, or `gallery:` and a name.")
+]
 AvoidFiles = Annotated[list[str] | None, _file("--avoid", "A mesh to avoid; may be repeated.")]
 Floor = Annotated[float | None, typer.Option("--floor", metavar="Y", help="A height to stay above.")]
 Within = Annotated[
@@ -50,12 +52,12 @@ Window = Annotated[
     typer.Option(
         "--window",
         metavar="X,Y,X,Y",
-        help="Low and high corner of what a drawing shows; default: the model's.",
+        help="Low and high corner of what a drawing shows. Default: the model's.",
     ),
 ]
 Pixels = Annotated[
     int | None,
-    typer.Option("--pixels", help="Longer side of a drawing when it is compared; default: 50."),
+    typer.Option("--pixels", metavar="N", help="Longer side of a drawing when it is compared. Default: 50."),
 ]
 ShadowFile = Annotated[str | None, _file("--match-shadow", "A shadow to cast; needs --light and --receiver.")]
 CameraFile = Annotated[
@@ -63,7 +65,8 @@ CameraFile = Annotated[
 ]
 WeightFile = Annotated[str | None, _file("--weight-image", "An image, white where a pixel counts more.")]
 Weight = Annotated[
-    float | None, typer.Option("--weight", help="How much more a white pixel counts; default: 10.")
+    float | None,
+    typer.Option("--weight", metavar="NUMBER", help="How much more a white pixel counts. Default: 10."),
 ]
 Light = Annotated[
     str | None, typer.Option("--light", metavar="X,Y,Z", help="The direction in which the light travels.")
@@ -71,12 +74,14 @@ Light = Annotated[
 ReceiverFile = Annotated[str | None, _file("--receiver", "A mesh that the shadow falls on.")]
 Voxel = Annotated[
     float | None,
-    typer.Option("--voxel", metavar="SIZE", help="Cell size; default: depends on the model or target."),
+    typer.Option("--voxel", metavar="SIZE", help="Cell size. Default: depends on the model or target."),
 ]
 Sigma = Annotated[
     float | None,
     typer.Option(
-        "--sigma", help="Strictness of the match; smaller is stricter; default: 0.02, drawings 0.014."
+        "--sigma",
+        metavar="NUMBER",
+        help="Strictness of the match; smaller is stricter. Default: 0.02, drawings 0.014.",
     ),
 ]
 

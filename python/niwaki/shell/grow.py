@@ -29,7 +29,7 @@ from niwaki.shell import (
     settings,
     writing,
 )
-from niwaki.shell.app import Folder, Megabytes, app, counted
+from niwaki.shell.app import Json, Megabytes, Runs, Seed, Threads, app, counted
 from niwaki.shell.clock import Clock
 from niwaki.shell.progress import progress_line
 
@@ -60,7 +60,9 @@ def grow(
     pixels: controls.Pixels = None,
     voxel: controls.Voxel = None,
     sigma: controls.Sigma = None,
-    rule: Annotated[str, typer.Option(help="Which parts count as intersecting: solid or surface.")] = "solid",
+    rule: Annotated[
+        str, typer.Option("--rule", metavar="solid|surface", help="Which parts count as intersecting.")
+    ] = "solid",
     method: settings.MethodName = None,
     guide: settings.GuideFile = None,
     polish: settings.Polish = None,
@@ -69,15 +71,15 @@ def grow(
     number: held.OfRun = None,
     lock: held.Lock = None,
     reroll: held.Reroll = None,
-    runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1,
-    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
-    threads: Annotated[
-        int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
-    ] = None,
-    max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
+    runs: Runs = 1,
+    seed: Seed = None,
+    threads: Threads = None,
+    max_steps: Annotated[
+        int, typer.Option("--max-steps", metavar="N", help="Most calls and loop steps of one run.")
+    ] = 20_000_000,
     max_memory: Megabytes = 1024,
     resume: resuming.Resume = None,
-    output: Folder = None,
+    output: folders.Output = None,
     force: folders.Force = False,
     formats: writing.Formats = None,
     scale: writing.Scale = None,
@@ -85,15 +87,8 @@ def grow(
     frames: writing.Frames = None,
     size: writing.Size = None,
     export: picking.Export = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
-    ] = False,
-    picture: Annotated[
-        bool,
-        typer.Option(
-            "--picture/--no-picture", help="Draw best.png, sheet.png and the pictures that were matched."
-        ),
-    ] = True,
+    as_json: Json = False,
+    picture: pictures.Wanted = True,
     quick: pictures.Quick = False,
     **given: Any,
 ) -> None:
@@ -111,6 +106,7 @@ def grow(
         found = shell.references.find(resuming.required(context, model))
         own_values = arguments.read(found.model, values, preset)
         found.model.program()
+    alone = folders.one_file(output, writing.ALONE, force, format=formats, export=export)
     onto = held.Origin.of_flags(origin, number, lock, reroll)
     style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
@@ -145,12 +141,12 @@ def grow(
         given,
     )
     style = style or ("ink" if chosen.is_drawing else None)
-    files = writing.Files.of_flags(formats, scale, fuse, frames, size, style)
+    files = writing.Files.of_flags(formats, scale, fuse, frames, size, style, alone)
     with clock.part("target"):
         asked = wish.search(found, own_values, None if onto is None else onto.held)
     most = runs if given.get("diverse") is None else given["diverse"]
     picking.exported(export, most)
-    writes = output is not None or not as_json
+    writes = alone is None and (output is not None or not as_json)
     # Before the search: that a folder cannot be written to must not be the news at its end.
     wanted = Wanted(files, picture, quick, export, None if onto is None else onto.data())
     with folders.own_folder(output, force) if writes else nullcontext() as folder:
@@ -173,7 +169,7 @@ def grow(
                 if said := pictures.impossible(asked, folder, quick):
                     print(said, file=sys.stderr)
             raise
-        _end(result, found, folder, wanted, as_json, kept, clock)
+        _end(result, found, folder, wanted, as_json, kept, clock, alone)
 
 
 @dataclass(frozen=True)
@@ -214,18 +210,25 @@ def _end(
     as_json: bool,
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
+    alone: Path | None = None,
 ) -> None:
-    """Write the files, where there is a folder for them, and say what was found."""
-    if folder is not None:
+    """Write the files, where there is a folder for them, or the one `alone`, and say what was found."""
+    place = alone or folder
+    if place is not None:
         data = shell.run_files.written(result, found)
         if wanted.origin is not None:
             data["origin"] = wanted.origin
-        with resuming.ended(result, checkpoint):
-            _write(folder, result, data, wanted, clock)
+        if alone is not None:
+            with clock.part("files"):
+                drawn = pictures.Pictures(quick=wanted.quick)
+                shell.results.write_one(alone, data, result.best, wanted.files, drawn)
+        else:
+            with resuming.ended(result, checkpoint):
+                _write(place, result, data, wanted, clock)
     if as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
-    elif folder is not None:
-        _summary(result, folder, clock)
+    elif place is not None:
+        _summary(result, place, clock)
     if result.interrupted:
         if folder is not None:
             print(resuming.interrupted(folder, "grow"), file=sys.stderr if as_json else sys.stdout)
@@ -260,12 +263,12 @@ def _write(
                 files.write(sample, folder, number)
 
 
-def _summary(result: nw.Result, folder: Path, clock: Clock) -> None:
+def _summary(result: nw.Result, place: Path, clock: Clock) -> None:
     if isinstance(result.info, results.info.ImproveInfo) and len({sample.seed for sample in result}) == 1:
         print(result.info)
     if losses := str(getattr(result.info, "losses", "")):
         print(losses)
     for number, sample in enumerate(result, 1):
         print(f"{results.caption(sample, number)}   {counted(sample.primitives, 'primitive')}")
-    print(f"best: #{result.samples.index(result.best) + 1}; files in {folder}")
+    print(f"best: #{result.samples.index(result.best) + 1}; {folders.said(place)}")
     print(clock)

@@ -39,7 +39,8 @@ Reroll = Annotated[
     ),
 ]
 OfRun = Annotated[
-    int | None, typer.Option("--run", metavar="N", help="With --from: its result #N; default: the best.")
+    int | None,
+    typer.Option("--run", metavar="N", help="Which result, #N, with --from. Default: the best."),
 ]
 
 #: Particles of each part that is grown again.

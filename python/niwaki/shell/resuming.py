@@ -32,13 +32,15 @@ Resume = Annotated[
     Path | None,
     typer.Option(
         "--resume",
-        metavar="DIR",
-        help="Go on with the search in this folder that was stopped or killed; in place of MODEL and its flags.",
+        metavar="PATH",
+        help="Go on with what was stopped or killed: the search in this folder, in place of MODEL and its flags.",
     ),
 ]
 Model = Annotated[
     str | None,
-    typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.", show_default=False),
+    typer.Argument(
+        metavar="MODEL", help="A gallery name, or file.py:function; the file is run.", show_default=False
+    ),
 ]
 
 
