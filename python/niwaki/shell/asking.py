@@ -11,7 +11,7 @@ import typer
 from niwaki import Search, gallery, search, targets
 from niwaki.errors import InputError
 from niwaki.shell import settings
-from niwaki.shell.app import Megabytes
+from niwaki.shell.app import Megabytes, Runs, Seed
 from niwaki.shell.references import ModelReference
 from niwaki.targets.sketches import Ask
 
@@ -24,9 +24,11 @@ class How:
     guide: settings.GuideFile = None
     polish: settings.Polish = None
     polish_kernel: settings.PolishKernel = None
-    runs: Annotated[int, typer.Option(help="How many results, with seeds SEED, SEED + 1, ...")] = 1
-    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None
-    max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000
+    runs: Runs = 1
+    seed: Seed = None
+    max_steps: Annotated[
+        int, typer.Option("--max-steps", metavar="N", help="Most calls and loop steps of one run.")
+    ] = 20_000_000
     max_memory: Megabytes = 1024
 
 

@@ -28,7 +28,7 @@ def check(
     ] = None,
     target: Annotated[
         str | None,
-        typer.Option("--target", metavar="FILE", help="With --try: the mesh to fill; default: the model's."),
+        typer.Option("--target", metavar="FILE", help="A mesh to fill, with --try. Default: the model's."),
     ] = None,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""

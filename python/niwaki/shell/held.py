@@ -39,8 +39,20 @@ Reroll = Annotated[
     ),
 ]
 OfRun = Annotated[
-    int | None, typer.Option("--run", metavar="N", help="With --from: its result #N; default: the best.")
+    int | None,
+    typer.Option("--run", metavar="N", help="Which result, #N, with --from. Default: the best."),
 ]
+
+
+@dataclass(frozen=True)
+class Flags:
+    """The flags, as they are typed."""
+
+    origin: From = None
+    number: OfRun = None
+    lock: Lock = None
+    reroll: Reroll = None
+
 
 #: Particles of each part that is grown again.
 PARTICLES = 200
@@ -65,10 +77,9 @@ class Origin:
     reroll: tuple[str, ...]
 
     @classmethod
-    def of_flags(
-        cls, path: Path | None, number: int | None, lock: list[str] | None, reroll: list[str] | None
-    ) -> Origin | None:
+    def of_flags(cls, flags: Flags) -> Origin | None:
         """The origin that the flags name; None without one."""
+        path, number, lock, reroll = flags.origin, flags.number, flags.lock, flags.reroll
         for flag, given in (("--lock", lock), ("--reroll", reroll), ("--run", number is not None)):
             if given and path is None:
                 raise InputError("lock-without-run", flag=flag)

@@ -33,7 +33,7 @@ MethodName = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help=f"{', '.join(METHODS)}. Default: improve, or smc where a setting is given that improve lacks, or -n.",
+        help=f"{', '.join(METHODS)}. Default: improve, or smc with --particles or a setting that improve lacks.",
     ),
 ]
 Polish = Annotated[
@@ -60,10 +60,14 @@ GuideFile = Annotated[
     ),
 ]
 
-#: Short names.
-_SHORT = {"particles": "-n"}
 #: Settings that hold a function, which cannot be typed.
 _FUNCTIONS = ("proposal",)
+#: What stands for a value in the help, where its type does not say it.
+_METAVARS = {
+    **dict.fromkeys(("particles", "powers", "anneal"), "LIST"),
+    **dict.fromkeys(("kernel", "rejuvenate"), "KERNEL"),
+    "seconds": "SECONDS",
+}
 #: Kinds of values that are typed as they are; everything else is typed as text and read by `_read`.
 _PLAIN = (int, float, str, bool)
 
@@ -137,8 +141,11 @@ def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> 
     shown = shown or ("" if default is None or typed is bool else str(default))
     usual = f" Default: {shown}." if shown else ""
     flag = f"--{name.replace('_', '-')}"
-    names = [f"{flag}/--no-{name.replace('_', '-')}"] if typed is bool else [*_short(name), flag]
-    option = typer.Option(*names, help=f"{whose}{described(owners[0]).get(name, '')}{usual}")
+    if typed is bool:
+        flag += f"/--no-{name.replace('_', '-')}"
+    metavar = _METAVARS.get(name, {int: "N", float: "NUMBER", str: "NAME"}.get(typed))
+    text = f"{whose}{described(owners[0]).get(name, '')}{usual}"
+    option = typer.Option(flag, metavar=metavar, help=text)
     annotation = Annotated[typed | None, option]  # type: ignore[valid-type]
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
@@ -160,10 +167,6 @@ def _typed(name: str, methods: tuple[Any, ...]) -> Any:
 @cache
 def _hints(method: Any) -> dict[str, Any]:
     return get_type_hints(method)
-
-
-def _short(name: str) -> list[str]:
-    return [_SHORT[name]] if name in _SHORT else []
 
 
 @cache
@@ -217,7 +220,7 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
             flag = f"--{key.replace('_', '-')}"
             raise InputError("flag-alone", flag=flag, other=other, reason=reason)
     if "seconds" in options and chosen is Smc:
-        for key, flag in (("particles", "-n"), ("populations", "--populations")):
+        for key, flag in (("particles", "--particles"), ("populations", "--populations")):
             if key in options:
                 raise InputError(
                     "flags-exclude",

@@ -75,7 +75,7 @@ def data(folder: str = "out") -> dict[str, Any]:
     return dict(json.loads(Path(folder, "run.json").read_text()))
 
 
-@pytest.mark.parametrize("output", ["sheet.txt", "sheet", "no/such/folder/sheet.png", "."])
+@pytest.mark.parametrize("output", ["sheet.txt", "v1.2", "garden.py/sheet.png", "garden.py"])
 def test_show_looks_at_the_name_of_its_picture_before_it_runs(place: Path, output: str) -> None:
     done = run("show", "garden.py:tower", "-n", "4", "--seed", "1", "-o", output)
     assert done.exit_code != 0 and "#1" not in done.stdout
@@ -134,7 +134,7 @@ def test_no_folder_is_replaced_without_a_word(place: Path) -> None:
     grown("--seed", "2")
     assert Path("out/run.json").read_bytes() == first and Path("out-2/run.json").exists()
     refused = run(*GROW, "-o", "out")
-    assert isinstance(refused.exception, NiwakiError) and "folder-has-results" in str(refused.exception)
+    assert isinstance(refused.exception, NiwakiError) and "already-there" in str(refused.exception)
     assert Path("out/run.json").read_bytes() == first
     grown("--seed", "2", "-o", "out", "--force")
     assert Path("out/run.json").read_bytes() != first
@@ -202,7 +202,16 @@ def test_one_result_has_no_sheet_and_an_image_is_seen_from_its_camera(place: Pat
     image.save("wide.png")
     camera = {"kind": "orthographic", "position": [0, 2, 20], "look_at": [0, 2, 0], "height": 5.0}
     Path("cam.json").write_text(json.dumps(camera))
-    words = ["grow", "garden.py:tower", "--match-image", "wide.png", "--camera", "cam.json", "-n", "20"]
+    words = [
+        "grow",
+        "garden.py:tower",
+        "--match-image",
+        "wide.png",
+        "--camera",
+        "cam.json",
+        "--particles",
+        "20",
+    ]
     assert run(*words, "--seed", "1", "-o", "a", "--quick").exit_code == 0
     assert not Path("a/sheet.png").exists()
     assert run(*words, "--seed", "1", "-o", "b", "--quick", "--runs", "2").exit_code == 0

@@ -72,7 +72,7 @@ TASKS: list[str | tuple[str, str, str]] = [
     "grow bridge.py --target pillar.obj --seed 1 --quick -o bridge",
     "grow spaceship --seed 1 --quick -o ship",
     "grow spceship",
-    "color bug -n 1 --seed 1 --size 64 -o colours",
+    "color bug -n 1 --seed 1 --side 64 -o colours",
 ]  # fmt: skip
 
 

@@ -121,7 +121,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         rules,
         settings.count,
         method=default_method(max(1, round(settings.count * settings.effort))),
-        weight=_weight(question),
+        strictness=_weight(question),
         seed=job.seed,
         progress=progress,
     )
