@@ -41,9 +41,9 @@ class Asked:
     given: Mapping[str, Any] = field(default_factory=dict)
 
     def search(
-        self, found: ModelReference, arguments: Mapping[str, Any], lock: Mapping[str, Any] | None = None
+        self, found: ModelReference, arguments: Mapping[str, Any], hold: Mapping[str, Any] | None = None
     ) -> Search:
-        """The search of a model with these arguments; `lock` holds choices."""
+        """The search of a model with these arguments; `hold` holds choices."""
         onward = settings.polish(self.polish, self.polish_kernel)
         aim = self.chosen.aim(found)
         score = self.chosen.score(found, self.voxel, self.sigma)
@@ -72,7 +72,7 @@ class Asked:
             method=settings.guided(settings.method(method, given, suits), own, given),
             polish=onward,
             seed=self.seed,
-            lock=lock,
+            hold=hold,
             voxel=voxel,
             sigma=0.02 if self.sigma is None else self.sigma,
             rule=self.rule,

@@ -69,7 +69,7 @@ def grow(
     polish_kernel: settings.PolishKernel = None,
     origin: held.From = None,
     number: held.OfRun = None,
-    lock: held.Lock = None,
+    hold: held.Hold = None,
     reroll: held.Reroll = None,
     runs: Runs = 1,
     seed: Seed = None,
@@ -107,7 +107,8 @@ def grow(
         own_values = arguments.read(found.model, values, preset)
         found.model.program()
     alone = folders.one_file(output, writing.ALONE, force, format=formats, export=export)
-    onto = held.Origin.of_flags(origin, number, lock, reroll)
+    patterns, values_held = held.read(hold, reroll)
+    onto = held.Origin.of_flags(origin, number, patterns, reroll)
     style = None if found.entry is None else found.entry.draws
     chosen = controls.Controls(
         target,
@@ -143,7 +144,7 @@ def grow(
     style = style or ("ink" if chosen.is_drawing else None)
     files = writing.Files.of_flags(formats, scale, fuse, frames, size, style, alone)
     with clock.part("target"):
-        asked = wish.search(found, own_values, None if onto is None else onto.held)
+        asked = wish.search(found, own_values, {**values_held, **(onto.held if onto else {})} or None)
     most = runs if given.get("diverse") is None else given["diverse"]
     picking.exported(export, most)
     writes = alone is None and (output is not None or not as_json)
