@@ -72,7 +72,7 @@ def test_a_pinned_region_keeps_its_colour_in_twenty_colourings(served, connected
     assert described(connected)["colors"]["door"] == "#102030"
     rules = connected.ask("export", key=connected.view["picked"], format="toml")
     written = tomllib.loads(fetch(served, f"/file/{rules['hash']}").decode())
-    assert written["pinned"] == {**held, "door": "#102030"}
+    assert written["held"] == {**held, "door": "#102030"}
     assert Rules.of(written) == Rules.of({**tomllib.loads((OWN / "house.toml").read_text()), **written})
     connected.ask("free")
 

@@ -285,7 +285,7 @@ def _tables(question: Question) -> dict[str, Any]:
             tables.setdefault("muted", {}).update(dict.fromkeys(one.regions, one.most))
         else:
             tables.setdefault(one.kind, []).append(list(one.regions))
-    return {**tables, "pinned": dict(question.hold)}
+    return {**tables, "held": dict(question.hold)}
 
 
 def _rules(question: Question) -> Rules:
