@@ -98,7 +98,7 @@ def arguments(drawing: Drawing, rules: Rules, strictness: float = 100.0) -> tupl
         other = rule.most if rule.kind == "muted" else number[rule.second]
         by_kind[rule.kind].append((number[rule.first], other))
     background = number[rules.background] if rules.background is not None else drawing.background
-    pinned = [lab.parts(rules.pinned[name]) if name in rules.pinned else None for name in drawing.names]
+    held = [lab.parts(rules.held[name]) if name in rules.held else None for name in drawing.names]
     return (
         drawing.areas.tolist(),
         drawing.pairs,
@@ -108,13 +108,13 @@ def arguments(drawing: Drawing, rules: Rules, strictness: float = 100.0) -> tupl
         by_kind["same-hue"],
         by_kind["muted"],
         -1 if background is None else background,
-        pinned,
+        held,
         strictness,
     )
 
 
 #: Which argument of the model has the colours that do not change.
-PINNED = 8
+HELD = 8
 
 
 def default_method(count: int) -> Method:
@@ -181,8 +181,8 @@ def color(
     if not is_number(strictness) or not 0 < strictness < float("inf"):
         raise bad("strictness", strictness, "a number above 0", "100")
     given = arguments(drawing, rules, strictness)
-    if all(name in rules.pinned for name in drawing.names):
-        raise FileError("rules-pin-all", rules.place, count=len(drawing.names))
+    if all(name in rules.held for name in drawing.names):
+        raise FileError("rules-hold-all", rules.place, count=len(drawing.names))
     result = run(
         coloring,
         method or default_method(count),
@@ -234,7 +234,7 @@ def painted(drawing: Drawing, rules: Rules, colors: Mapping[str, str], strictnes
     '`background` is 0 units lighter than `leaf`: 15 too little'
     """
     given = list(arguments(drawing, rules, strictness))
-    given[PINNED] = [lab.parts(colors[name]) for name in drawing.names]
+    given[HELD] = [lab.parts(colors[name]) for name in drawing.names]
     sample = run(coloring, *given, choices={}).best
     return Coloring(drawing, rules, dict(colors), sample, tuple(given))
 

@@ -38,7 +38,7 @@ def searched(
     how: How,
     given: Mapping[str, Any],
     arguments: Mapping[str, Any],
-    lock: Mapping[str, Any] | None = None,
+    hold: Mapping[str, Any] | None = None,
 ) -> Search:
     """The search of a model.
 
@@ -52,7 +52,7 @@ def searched(
         How to search, and the settings of the method; None for those that were not given.
     arguments
         Of the model.
-    lock
+    hold
         Choices that are held.
     """
     onward = settings.polish(how.polish, how.polish_kernel)
@@ -75,7 +75,7 @@ def searched(
         method=settings.guided(settings.method(name, dict(given), suits), own, given),
         polish=onward,
         seed=how.seed,
-        lock=lock,
+        hold=hold,
         runs=how.runs,
         max_steps=how.max_steps,
         max_memory=how.max_memory << 20,

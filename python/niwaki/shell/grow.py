@@ -69,12 +69,15 @@ def grow(
         found, arguments = resuming.model_of(context, what)
         found.model.program()
     alone = out.alone(writing.ALONE, **flags.of_folders)
-    onto = held.Origin.of_flags(origin)
+    patterns, values = held.read(origin)
+    onto = held.Origin.of_flags(origin, patterns)
     asks = controls.asked(wish, found)
     style = found.style or ("ink" if any(sketch in DRAWN for sketch, _ in asks) else None)
     files = writing.Files.of_flags(flags, style, alone)
     with clock.part("target"):
-        search = asking.searched(found, asks, how, given, arguments, None if onto is None else onto.held)
+        search = asking.searched(
+            found, asks, how, given, arguments, {**values, **(onto.held if onto else {})} or None
+        )
     picking.exported(flags.export, how.runs if given["diverse"] is None else given["diverse"])
     wanted = Wanted(files, drawn, flags.export, None if onto is None else onto.data())
     # Before the search: that a folder cannot be written to must not be the news at its end.

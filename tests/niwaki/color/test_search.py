@@ -1,4 +1,4 @@
-"""Colourings keep rules and pinned colours, differ, are the same for a seed, and are written to files."""
+"""Colourings keep rules and held colours, differ, are the same for a seed, and are written to files."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def small(tmp_path):
     )
     (tmp_path / "rules.toml").write_text(
         'lightness = [["wall", "roof"]]\nsame-chroma = [["roof", "door"]]\nsame-hue = [["wall", "sky"]]\n'
-        'lighter = [["sky", "door"]]\n[muted]\nall = 60\nsky = 20\n[pinned]\nwall = "#e8d9b0"\n',
+        'lighter = [["sky", "door"]]\n[muted]\nall = 60\nsky = 20\n[held]\nwall = "#e8d9b0"\n',
         encoding="utf-8",
     )
     return place

@@ -149,13 +149,19 @@ def choices(folder: str, number: int = 0) -> dict[str, Any]:
     return {one["address"]: one["value"] for one in data(folder)["runs"][number]["choices"]}
 
 
-def test_a_lock_holds_and_a_reroll_keeps_the_rest(place: Path) -> None:
+def test_what_is_held_stays_and_a_reroll_keeps_the_rest(place: Path) -> None:
     grown("--runs", "2", "-o", "a")
     before = choices("a", 1)
-    grown("--from", "a/run.json", "--run", "2", "--lock", "hat", "-o", "b", "--seed", "5")
+    grown("--from", "a/run.json", "--run", "2", "--hold", "hat", "-o", "b", "--seed", "5")
     hat = [one for one in before if one.startswith("hat/")]
     assert hat and all(choices("b")[one] == before[one] for one in hat)
     assert choices("b") != before
+    (size,) = [one for one in before if one == "hat/side"]
+    grown("--hold", f"{size}=0.5", "-o", "e")
+    assert choices("e")[size] == 0.5
+    grown("--hold", f"{size}=0.5", "--from", "a/run.json", "--run", "2", "--hold", "arm/size", "-o", "f")
+    assert choices("f")[size] == 0.5
+    assert isinstance(run(*GROW, "--hold", f"{size}=wide").exception, NiwakiError)
     grown("--from", "a/run.json", "--run", "2", "--reroll", "hat", "-o", "c", "--seed", "5", "--runs", "2")
     after = choices("c")
     assert all(after[one] != before[one] for one in hat)
@@ -243,10 +249,10 @@ def test_messages(place: Path, golden: Any) -> None:
         "a preset that is not there": [*GROW, "--preset", "none.toml"],
         "runs that are never possible": ["show", "garden.py:never", "--seed", "1"],
         "a folder with results": [*GROW, "-o", "a"],
-        "a lock without a result": [*GROW, "--lock", "hat"],
+        "a hold without a result": [*GROW, "--hold", "hat"],
         "a result and nothing to keep": [*GROW, "--from", "a/run.json"],
-        "a lock and a reroll": [*GROW, "--from", "a/run.json", "--lock", "hat", "--reroll", "arm"],
-        "a lock of nothing": [*GROW, "--from", "a/run.json", "--lock", "hut"],
+        "a hold and a reroll": [*GROW, "--from", "a/run.json", "--hold", "hat", "--reroll", "arm"],
+        "a hold of nothing": [*GROW, "--from", "a/run.json", "--hold", "hut"],
         "a reroll of nothing": [*GROW, "--from", "a/run.json", "--reroll", "hut", "-o", "c"],
         "a result that is not there": ["replay", "a/run.json", "--run", "2", "-o", "b"],
         "an export of what is not there": [*GROW, "--runs", "3", "--export", "1,4", "-o", "b"],

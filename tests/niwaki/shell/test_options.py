@@ -53,7 +53,7 @@ FLAGS = {
     "--bytecode": ("--bytecode", None, "Print the bytecode."),
     "--from": ("--from", "RUN.JSON", "A result to go on from"),
     "--run": ("--run", "N", "Which result, #N"),
-    "--lock": ("--lock", "PATTERN", "Keep what this matches"),
+    "--hold": ("--hold", "PATTERN|ADDRESS=VALUE", "Keep what this matches"),
     "--reroll": ("--reroll", "PATTERN", "Grow the parts that this matches again"),
     # What a scene should be like.
     "--target": ("--target", "FILE", "A mesh to fill"),

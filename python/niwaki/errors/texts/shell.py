@@ -30,12 +30,12 @@ SHELL = (
         cure="niwaki grow, of the same model",
     ),
     Message(
-        "lock-without-run",
-        "`{flag}` needs `--from`",
-        why="what is locked or grown again is a part of a result that is there",
-        help="add `--from out/run.json`, the file of that result; `--run 3` takes its #3",
-        example="niwaki grow spaceship --lock 'wings*'",
-        cure="niwaki grow spaceship --from out/run.json --lock 'wings*'",
+        "hold-without-run",
+        "`{flag}` needs {other}",
+        why="what is held or grown again is a part of a result that is there",
+        help="give {cure}",
+        example="niwaki grow spaceship --hold 'wings*'",
+        cure="niwaki grow spaceship --from out/run.json --hold 'wings*'",
     ),
     Message(
         "nothing-fits",
