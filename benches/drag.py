@@ -79,7 +79,7 @@ def row(name: str, sample: Any, counts: str, drags: int) -> str:
         held = [one for one in names if rng.random() < 0.25]
         along = view if counts == "pointer" else None
         begun = time.perf_counter()
-        drag = Dragging(sample.search, sample, part.address, grab=middle, along=along, lock=held)
+        drag = Dragging(sample.search, sample, part.address, grab=middle, along=along, hold=held)
         drag.move(middle + aim)
         first.append(time.perf_counter() - begun)
         answer = drag.to(middle + aim)

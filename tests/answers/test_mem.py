@@ -266,7 +266,7 @@ def test_a_call_has_an_address_of_its_own() -> None:
 
 def test_a_call_can_be_held() -> None:
     held = {"is_red(2)/bernoulli": True}
-    found = nw.run(urn, nw.enumerate_all(), lock=held).distribution()
+    found = nw.run(urn, nw.enumerate_all(), hold=held).distribution()
     # The second ball is asked for, and red: 1 of 9 pairs is (2, 2), 4 have one 2 and another ball that must be red.
     assert found[True] == pytest.approx(1 / (1 + 4 * RED), abs=1e-9)
 

@@ -1,4 +1,4 @@
-"""What the studio promises, tried in a browser: searches, pins, undo, files, large meshes, the keyboard alone."""
+"""What the studio promises, tried in a browser: searches, held parts, undo, files, large meshes, the keyboard alone."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from niwaki.shell import run_files
 from studio_page import at_rest, camera, choose, click_part, grow, timed, until, visible
 
 #: The fields of the view that undo takes back.
-DOCUMENT = ("model", "arguments", "ask", "settings", "results", "picked", "pins", "stars")
+DOCUMENT = ("model", "arguments", "ask", "settings", "results", "picked", "held", "stars")
 
 
 @pytest.fixture
@@ -92,9 +92,9 @@ def test_pinned_choices_are_equal_after_searches(open_page, served):
     address = visible(page, "wings")
     click_part(page, address)
     until(page, f"window.__studio.selection.part == {json.dumps(address)}")
-    page.keyboard.press("p")
-    until(page, "window.__studio.view.pins.length == 1")
-    held = page.evaluate("window.__studio.view.pins[0].choices")
+    page.keyboard.press("h")
+    until(page, "window.__studio.view.held.length == 1")
+    held = page.evaluate("window.__studio.view.held[0].choices")
     seed = page.locator("input[placeholder='another each time']")
     for number in range(5):
         seed.fill(str(100 + number))
@@ -105,7 +105,7 @@ def test_pinned_choices_are_equal_after_searches(open_page, served):
         data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
         found = {one["address"]: one["value"] for one in data["runs"][key.get("number", 0)]["choices"]}
         assert {one: found[one] for one in held} == held
-    page.keyboard.press("p")
+    page.keyboard.press("h")
     effort(page, 0)
 
 
@@ -123,28 +123,28 @@ def test_a_pin_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_pag
     press = "key => dispatchEvent(new KeyboardEvent('keydown', key))"
     seen = page.evaluate(
         f"() => {{ const press = {press}; press({{key: 'p'}}); press({{key: 'z', ctrlKey: true}});"
-        " return new Promise(done => setTimeout(() => done(document.querySelectorAll('.pins li').length))); }"
+        " return new Promise(done => setTimeout(() => done(document.querySelectorAll('.held li').length))); }"
     )
     assert seen == 1
-    # The undo takes the pin back, not the step before it.
+    # The undo takes the hold back, not the step before it.
     until(page, f"window.__studio.view.redo == 1 && window.__studio.view.undo == {steps}")
-    until(page, "document.querySelectorAll('.pins li').length == 0")
-    assert page.evaluate("window.__studio.view.pins") == []
+    until(page, "document.querySelectorAll('.held li').length == 0")
+    assert page.evaluate("window.__studio.view.held") == []
     first = page.evaluate("window.__studio.view.picked.run")
     page.evaluate(f"() => {{ const press = {press}; press({{key: 'p'}}); press({{key: 'Enter'}}); }}")
     until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {first}")
-    held = page.evaluate("window.__studio.view.pins[0].choices")
+    held = page.evaluate("window.__studio.view.held[0].choices")
     data = run_files.load(
         served.folder / "runs" / f"{page.evaluate('window.__studio.view.picked')['run']}.json"
     )
     found = {one["address"]: one["value"] for one in data["runs"][0]["choices"]}
     assert {one: found[one] for one in held} == held
-    page.keyboard.press("p")
-    until(page, "window.__studio.view.pins.length == 0")
-    # A pin that is refused is taken back.
-    page.evaluate("window.__studio.pin('nothing/like/this')")
+    page.keyboard.press("h")
+    until(page, "window.__studio.view.held.length == 0")
+    # A hold that is refused is taken back.
+    page.evaluate("window.__studio.hold('nothing/like/this')")
     page.locator(".notice", has_text="nothing/like/this").first.wait_for()
-    until(page, "document.querySelectorAll('.pins li').length == 0")
+    until(page, "document.querySelectorAll('.held li').length == 0")
     effort(page, 0)
 
 
@@ -344,10 +344,10 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     tab_to("one.classList.contains('call')")
     page.keyboard.press("Enter")
     until(page, "window.__studio.selection.level")
-    page.keyboard.press("p")
-    until(page, "window.__studio.view.pins.length == 1")
+    page.keyboard.press("h")
+    until(page, "window.__studio.view.held.length == 1")
     page.keyboard.press("Control+z")
-    until(page, "window.__studio.view.pins.length == 0")
+    until(page, "window.__studio.view.held.length == 0")
 
 
 def test_the_five_places_have_names_for_a_screen_reader(open_page, served):

@@ -69,11 +69,11 @@ def test_shape_by_hand(open_page, served):
         page.keyboard.press("Control+z")
         until(page, f"window.__studio.view.picked.run == {first}")
     at_rest(page)
-    with timed("pin"):
-        page.keyboard.press("p")
-        until(page, "document.querySelector('.pins li')")
-    until(page, "window.__studio.view.pins.length == 1")
-    held = page.evaluate("window.__studio.view.pins[0].choices")
+    with timed("hold"):
+        page.keyboard.press("h")
+        until(page, "document.querySelector('.held li')")
+    until(page, "window.__studio.view.held.length == 1")
+    held = page.evaluate("window.__studio.view.held[0].choices")
     page.get_by_role("button", name="Grow the rest").click()
     until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {first}")
     at_rest(page)
@@ -81,9 +81,9 @@ def test_shape_by_hand(open_page, served):
     found = {one["address"]: one["value"] for one in page.evaluate("window.__studio.described.choices")}
     assert {name: found[name] for name in held} == held
     assert (camera(page) == before).all()
-    picture(page, "pinned")
+    picture(page, "held")
     page.get_by_role("button", name=f"Free {call}").click()
-    until(page, "window.__studio.view.pins.length == 0")
+    until(page, "window.__studio.view.held.length == 0")
 
 
 def test_a_slider_of_a_choice(open_page, served):

@@ -36,8 +36,8 @@ def test_a_pinned_region_keeps_its_colour_the_rest_changes_and_rules_say_how_far
     colored(page)
     click_region(page, "roof")
     until(page, "window.__studio.selection.level == 'roof'")
-    page.get_by_role("button", name="Pin roof", exact=True).click()
-    until(page, "window.__studio.view.pins.length == 1")
+    page.get_by_role("button", name="Hold roof", exact=True).click()
+    until(page, "window.__studio.view.held.length == 1")
     before = colors(page)
     picture(page, "coloring")
     page.get_by_role("button", name="Colour the rest").click()
@@ -53,7 +53,7 @@ def test_a_pinned_region_keeps_its_colour_the_rest_changes_and_rules_say_how_far
     page.get_by_text(f"all {len(kept)} hold").wait_for()
     # A colour against the rules: they say by how much.
     page.get_by_label("Colour of wall", exact=True).fill("#2040ff")
-    until(page, "window.__studio.view.pins.some(one => one.part == 'wall')")
+    until(page, "window.__studio.view.held.some(one => one.part == 'wall')")
     until(page, "window.__studio.palette?.colors.wall == '#2040ff'")
     missed = [one for one in page.evaluate("window.__studio.palette.kept") if not one["holds"]]
     assert any({"wall", "wall-shade"} == {one["first"], one["second"]} for one in missed)
@@ -61,7 +61,7 @@ def test_a_pinned_region_keeps_its_colour_the_rest_changes_and_rules_say_how_far
     picture(page, "rules")
     for _ in range(2):
         page.keyboard.press("Control+z")
-    until(page, "window.__studio.view.pins.length == 1 && window.__studio.palette?.colors.wall != '#2040ff'")
+    until(page, "window.__studio.view.held.length == 1 && window.__studio.palette?.colors.wall != '#2040ff'")
 
 
 def test_a_rule_is_added_by_clicking_regions_and_a_result_is_exported(open_page, served):
@@ -145,11 +145,11 @@ def test_colouring_in_the_dark_by_the_keyboard_alone(open_page, served):
     page.keyboard.press("ArrowRight")
     until(page, f"window.__studio.view.picked.number != {first}")
     colored(page)
-    # A region by its name, pinned, and the rest coloured again.
+    # A region by its name, held, and the rest coloured again.
     page.get_by_role("button", name="roof", exact=True).press("Enter")
     until(page, "window.__studio.selection.level == 'roof'")
-    page.keyboard.press("p")
-    until(page, "window.__studio.view.pins.length == 1")
+    page.keyboard.press("h")
+    until(page, "window.__studio.view.held.length == 1")
     before = colors(page)["roof"]
     page.get_by_label("The drawing.").focus()
     run = page.evaluate("window.__studio.view.picked.run")
@@ -159,8 +159,8 @@ def test_colouring_in_the_dark_by_the_keyboard_alone(open_page, served):
     assert colors(page)["roof"] == before
     assert nameless(page) == 0 and contrasts(page) == []
     picture(page, "coloring-dark")
-    page.keyboard.press("p")
-    until(page, "window.__studio.view.pins.length == 0")
+    page.keyboard.press("h")
+    until(page, "window.__studio.view.held.length == 0")
 
 
 def test_structures_in_the_dark_by_the_keyboard_alone(open_page, served):

@@ -1,6 +1,6 @@
-"""Searches that are recorded: every method and kernel, plain, with a choice locked, guided and resumed; the gallery.
+"""Searches that are recorded: every method and kernel, plain, with a choice held, guided and resumed; the gallery.
 
-A name is that of the method, of its setting, and then of the variant: `smc tempered, locked`. Counts limit them all.
+A name is that of the method, of its setting, and then of the variant: `smc tempered, held`. Counts limit them all.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Subject:
         """Search it."""
         return nw.run(self.model, *self.args, method=method, score=self.score(), seed=SEED, **more)
 
-    def lock(self) -> dict[str, Any]:
+    def hold(self) -> dict[str, Any]:
         """The first choice of some run, held."""
         free = nw.run(self.model, *self.args, seed=SEED).held()
         return dict([next(iter(free.items()))])
@@ -88,9 +88,9 @@ TREE = Subject(gnarly_tree.gnarly_tree, (), tree_score, partial(shipped, gnarly_
 
 
 def variants(name: str, subject: Subject, method: Method) -> Iterator[tuple[str, Search]]:
-    """A search, the same with a choice locked, and broken off."""
+    """A search, the same with a choice held, and broken off."""
     yield name, partial(subject.run, method)
-    yield f"{name}, locked", lambda: subject.run(method, lock=subject.lock())
+    yield f"{name}, held", lambda: subject.run(method, hold=subject.hold())
     yield f"{name}{RESUMED}", partial(gone_on, partial(subject.run, method))
 
 
@@ -210,8 +210,8 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     yield from guided("smc path", PATH, partial(nw.smc, 40, resampling="tempered"))
     yield "smc look_ahead", lambda: PATH.run(nw.smc(40, guide=taught(), look_ahead=0.2))
     yield (
-        "smc look_ahead, locked",
-        lambda: PATH.run(nw.smc(40, guide=taught(), look_ahead=0.2), lock=PATH.lock()),
+        "smc look_ahead, held",
+        lambda: PATH.run(nw.smc(40, guide=taught(), look_ahead=0.2), hold=PATH.hold()),
     )
     for name, more in SWEPT.items():
         for method in (nw.particle_gibbs, nw.pimh):
@@ -238,7 +238,7 @@ def of_methods() -> Iterator[tuple[str, Search]]:
         "mh tree", TREE, nw.mh(200, kernel=kernels.mixture(kernels.prior(), kernels.regrow(4)), keep=20)
     )
     yield "mh guided", lambda: PATH.run(nw.mh(200, kernel=kernels.guided(taught()), keep=20))
-    yield "mh guided, locked", lambda: PATH.run(nw.mh(200, kernel=kernels.guided(taught())), lock=PATH.lock())
+    yield "mh guided, held", lambda: PATH.run(nw.mh(200, kernel=kernels.guided(taught())), hold=PATH.hold())
     yield "mh regrow, guided", lambda: PATH.run(nw.mh(60, kernel=kernels.regrow(5, guide=taught()), keep=20))
     yield "ais, guided", lambda: PATH.run(nw.ais(10, 4, kernels.guided(taught()), moves=2))
     for metric in nw.methods.METRICS:
@@ -275,7 +275,7 @@ def of_the_rest() -> Iterator[tuple[str, Search]]:
     for name, method in {**HONOURED, "enumerate_all": nw.enumerate_all(), "smc": nw.smc(20)}.items():
         yield f"infer {name}", lambda method=method: nw.run(inside(method), nw.forward(10), seed=SEED)
     yield "infer in a chain", lambda: nw.run(inside(nw.enumerate_all()), nw.mh(100), seed=SEED)
-    yield "run of given choices", lambda: MIXTURE.run(nw.forward(), choices=MIXTURE.lock())
+    yield "run of given choices", lambda: MIXTURE.run(nw.forward(), choices=MIXTURE.hold())
     yield (
         "chain from given choices",
         lambda: MIXTURE.run(nw.mh(200), choices=MIXTURE.run(nw.forward()).best.choices),

@@ -23,7 +23,7 @@ from typer.testing import CliRunner
 TREE = ["grow", "gnarly-tree", "--seed", "1", "--quick"]
 DRAWN = ["grow", "vines", "--match-image", "scribbles/008", "--seed", "1", "--no-picture"]
 CHAINS = ["gmm", "points=10", "--steps", "600", "--chains", "2", "--seed", "1", "--quick"]
-TRAINED = ["guide", "train", "lightning", "--targets", "pages", "--rounds", "4,2", "--seed", "1"]
+TRAINED = ["guide", "train", "lightning", "--targets", "pages", "--searches", "4,2", "--seed", "1"]
 
 SPEC = """
 model = "simple-ship"
@@ -41,28 +41,46 @@ CALLS: dict[str, Sequence[Sequence[str]]] = {
     "models": [["models"]],
     "show": [["show", "spaceship", "-n", "2", "--seed", "1", "--quick"]],
     "grow improve": [[*TREE, "--rounds", "3"]],
-    "grow smc": [[*TREE, "-n", "30", "--runs", "2", "--resampling", "tempered", "--format", "glb,obj,ply"]],
-    "grow ais": [
-        [*TREE, "--method", "ais", "-n", "5", "--powers", "0.1,1", "--moves", "2", "--kernel", "drift(0.2)"]
+    "grow smc": [
+        [*TREE, "--particles", "30", "--runs", "2", "--resampling", "tempered", "--format", "glb,obj,ply"]
     ],
-    "grow particle-gibbs": [[*TREE, "--method", "particle-gibbs", "-n", "10", "--sweeps", "3"]],
-    "grow pimh": [[*TREE, "--method", "pimh", "-n", "10", "--sweeps", "3"]],
-    "grow polish": [[*TREE, "-n", "20", "--polish", "50", "--polish-kernel", "mixture(prior(), drift(0.1))"]],
+    "grow ais": [
+        [
+            *TREE,
+            "--method",
+            "ais",
+            "--particles",
+            "5",
+            "--powers",
+            "0.1,1",
+            "--moves",
+            "2",
+            "--kernel",
+            "drift(0.2)",
+        ]
+    ],
+    "grow particle-gibbs": [[*TREE, "--method", "particle-gibbs", "--particles", "10", "--sweeps", "3"]],
+    "grow pimh": [[*TREE, "--method", "pimh", "--particles", "10", "--sweeps", "3"]],
+    "grow polish": [
+        [*TREE, "--particles", "20", "--polish", "50", "--polish-kernel", "mixture(prior(), drift(0.1))"]
+    ],
     "grow diverse": [[*TREE, "--diverse", "2", "--rounds", "1", "--export", "all"]],
-    "grow guide": [[*TREE, "--guide", "shipped", "-n", "20"]],
-    "grow drawing": [[*DRAWN, "-n", "20", "--format", "svg,gif", "--size", "60x60", "--frames", "3"]],
-    "grow circuit": [["grow", "circuit", "-n", "10", "--seed", "1", "--quick"]],
+    "grow guide": [[*TREE, "--guide", "shipped", "--particles", "20"]],
+    "grow drawing": [
+        [*DRAWN, "--particles", "20", "--format", "svg,gif", "--size", "60x60", "--frames", "3"]
+    ],
+    "grow circuit": [["grow", "circuit", "--particles", "10", "--seed", "1", "--quick"]],
     "grow from": [
-        [*TREE, "-n", "20", "-o", "first"],
+        [*TREE, "--particles", "20", "-o", "first"],
         [*TREE, "--from", "first/run.json", "--reroll", "branch/branch", "--rounds", "2"],
     ],
-    "grow json": [[*TREE, "-n", "10", "--json"]],
+    "grow json": [[*TREE, "--particles", "10", "--json"]],
     "batch": [
         ["batch", "run", "ships.toml", "--processes", "1"],
-        "batch export ships --csv --sheet --glb --best 3 --choices".split(),
+        "batch export ships --format csv,png,glb -n 3 --choices".split(),
     ],
     "replay": [
-        [*TREE, "-n", "10", "--no-picture", "-o", "first"],
+        [*TREE, "--particles", "10", "--no-picture", "-o", "first"],
         [
             "replay",
             "first/run.json",
@@ -80,11 +98,11 @@ CALLS: dict[str, Sequence[Sequence[str]]] = {
     "sample target": [
         ["sample", "spaceship", "--target", "gallery:ship", "--steps", "300", "--seed", "1", "--quick"]
     ],
-    "color": [["color", "robot", "-n", "2", "--size", "64", "--measure", "128", "--seed", "1"]],
-    "letters": [["letters", "Hi", "--seed", "1", "-n", "10", "--tries", "2", "--width", "160"]],
-    "guide train": [[*TRAINED, "--out", "lines.guide"]],
-    "guide show": [[*TRAINED, "--out", "lines.guide"], ["guide", "show", "lines.guide"]],
-    "explain": [["explain", "hmm", "--choice", "n[21]/state"]],
+    "color": [["color", "robot", "-n", "2", "--side", "64", "--pixels", "128", "--seed", "1"]],
+    "letters": [["letters", "Hi", "--seed", "1", "--particles", "10", "--searches", "2", "--width", "160"]],
+    "guide train": [[*TRAINED, "-o", "lines.guide"]],
+    "guide show": [[*TRAINED, "-o", "lines.guide"], ["guide", "show", "lines.guide"]],
+    "explain": [["explain", "hmm", "--choice", "n[21]/state", "--seed", "0"]],
     "doctor": [["doctor"]],
 }
 

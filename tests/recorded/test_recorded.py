@@ -29,7 +29,7 @@ METHODS = [one for one in vars(methods).values() if inspect.isclass(one) and iss
     TABLE["machine"] != _engine.fingerprint(), reason="the table is of machines with other bits"
 )
 def test_searches_give_the_same_bits() -> None:
-    names = [name for name, _ in of_methods() if not name.endswith((", locked", ", guided", RESUMED))]
+    names = [name for name, _ in of_methods() if not name.endswith((", held", ", guided", RESUMED))]
     now = recorded.hashes(names)
     assert len(now) > 80 and not recorded.differences(now, TABLE["searches"])
 
@@ -44,7 +44,7 @@ def test_the_table_has_each_search_and_no_other() -> None:
 def test_every_method_is_recorded_in_all_ways(method: type[Method]) -> None:
     own = [name for name in recorded.rows() if name.split(",")[0].split()[0] == method.NAME]
     assert any("," not in name for name in own)
-    wanted = [", locked", RESUMED] + [", guided"] * ("guide" in inspect.signature(method).parameters)
+    wanted = [", held", RESUMED] + [", guided"] * ("guide" in inspect.signature(method).parameters)
     assert all(any(name.endswith(one) for name in own) for one in wanted), (own, wanted)
 
 

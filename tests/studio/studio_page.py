@@ -37,7 +37,7 @@ LIMITS = {
     "gallery": 3.0,
     "part": 0.1,
     "part, large": 0.5,
-    "pin": 0.1,
+    "hold": 0.1,
     "re-roll": 0.5,
     "undo": 0.1,
     "drag": 0.2,
@@ -63,7 +63,7 @@ JOURNEYS = {
     "shape by hand": {
         "part": "click a part: its name, its choices",
         "part, large": "the same beside a target of 1.3 million triangles",
-        "pin": "pin it",
+        "hold": "hold it",
         "re-roll": "grow it again",
         "undo": "undo",
     },

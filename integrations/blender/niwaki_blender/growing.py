@@ -182,16 +182,16 @@ class Growing:
         """The job of a stored search, with the choices that hold its parts."""
         source = self._folder / "stored.json"
         source.write_text(stored.run)
-        lock: dict[str, Any] | None = None
+        hold: dict[str, Any] | None = None
         if stored.held is not None:
-            lock = {}
+            hold = {}
             if stored.held:
                 answer = await self._do(
                     Hold(source=str(source), number=stored.number, parts=list(stored.held))
                 )
-                for pin in answer.pins:
-                    lock |= pin.choices
-        return GrowAgain(source=str(source), run=0, file="", seed=stored.seed, lock=lock, count=stored.count)
+                for part in answer.held:
+                    hold |= part.choices
+        return GrowAgain(source=str(source), run=0, file="", seed=stored.seed, hold=hold, count=stored.count)
 
     async def _do(self, job: Any) -> Answer:
         answer = await self._worker.do(job, self._report)

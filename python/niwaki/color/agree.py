@@ -1,6 +1,6 @@
 """Whether rules can hold together, and, where they cannot, which ones contradict one another.
 
-Every rule about lightness bounds a difference of two lightnesses, and black, white and pinned colours bound them from
+Every rule about lightness bounds a difference of two lightnesses, and black, white and held colours bound them from
 the ground: `L(a) - L(b) <= c`. Such bounds can be met together unless some cycle of them adds up to less than 0
 (Bellman 1958); that cycle is the list of rules to show. With each bound loosened by `slack`, the least slack for which
 no such cycle is left measures how near all rules can come to holding.
@@ -17,7 +17,7 @@ from niwaki.color.rule import LEAST, STEP, Rule
 
 #: The least difference of a rule about lightness, in units, for its order to be visible.
 LEFT = 0.1
-#: Pinned shades of one colour may differ by this much in a and b.
+#: Held shades of one colour may differ by this much in a and b.
 CHROMA_APART = 15.0
 GROUND = ""
 
@@ -26,7 +26,7 @@ class Rules(Protocol):
     """Rules, and the colours that do not change, `#rrggbb` by region."""
 
     @property
-    def pinned(self) -> dict[str, str]:
+    def held(self) -> dict[str, str]:
         """The colours by region."""
         ...
 
@@ -76,11 +76,11 @@ def contradiction(rules: Rules) -> list[str]:
 
 
 def _bounds(rules: Rules) -> Iterator[_Bound]:
-    seen = {name for rule in rules for name in (rule.first, rule.second) if name} | set(rules.pinned)
+    seen = {name for rule in rules for name in (rule.first, rule.second) if name} | set(rules.held)
     for name in sorted(seen):
-        if name in rules.pinned:
-            light = of_hex(rules.pinned[name])[0]
-            why = f"`{name}` is pinned to {rules.pinned[name]} (lightness {light:.0f})"
+        if name in rules.held:
+            light = of_hex(rules.held[name])[0]
+            why = f"`{name}` is held at {rules.held[name]} (lightness {light:.0f})"
             yield _Bound(name, GROUND, light, 0.0, why)
             yield _Bound(GROUND, name, -light, 0.0, why)
         else:
@@ -120,10 +120,10 @@ def _cycle(bounds: list[_Bound], slack: float | None) -> list[str]:
 
 
 def _chroma(rules: Rules) -> list[str]:
-    """A pinned colour that is tied as a shade to another pinned one, or to a muted region, and is not like it."""
+    """A held colour that is tied as a shade to another held one, or to a muted region, and is not like it."""
     muted = {rule.first: rule for rule in rules if rule.kind == "muted"}
     ties = [rule for rule in rules if rule.kind == "same-chroma"]
-    for start in rules.pinned:
+    for start in rules.held:
         reached: dict[str, tuple[str, ...]] = {start: ()}  # the rules that lead from `start` to each region
         todo = [start]
         while todo:
@@ -133,14 +133,14 @@ def _chroma(rules: Rules) -> list[str]:
                     if a == here and b not in reached:
                         reached[b] = (*reached[a], str(rule))
                         todo.append(b)
-        _, a1, b1 = of_hex(rules.pinned[start])
+        _, a1, b1 = of_hex(rules.held[start])
         for other, path in reached.items():
             if other in muted and (a1 * a1 + b1 * b1) ** 0.5 > muted[other].most + CHROMA_APART:
-                return [*path, str(muted[other]), f"`{start}` is pinned to {rules.pinned[start]}"]
-            if other == start or other not in rules.pinned:
+                return [*path, str(muted[other]), f"`{start}` is held at {rules.held[start]}"]
+            if other == start or other not in rules.held:
                 continue
-            _, a2, b2 = of_hex(rules.pinned[other])
+            _, a2, b2 = of_hex(rules.held[other])
             if ((a1 - a2) ** 2 + (b1 - b2) ** 2) ** 0.5 > CHROMA_APART:
-                pins = [f"`{name}` is pinned to {rules.pinned[name]}" for name in (start, other)]
-                return [*path, *pins]
+                both = [f"`{name}` is held at {rules.held[name]}" for name in (start, other)]
+                return [*path, *both]
     return []

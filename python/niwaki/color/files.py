@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
 
@@ -53,30 +53,35 @@ def table(colorings: Sequence[Coloring]) -> list[list[str]]:
     return rows
 
 
-def write(colorings: Sequence[Coloring], folder: str | PathLike[str], size: int = 1024) -> list[Path]:
-    """Write colourings to a folder that is there.
+def contents(colorings: Sequence[Coloring], size: int = 1024) -> dict[str, Callable[[], bytes]]:
+    """The bytes of the files of colourings, by name: functions that give them. The first of each kind shows most.
 
-    `01.png` and, for a drawing that is an SVG, `01.svg`, and so on; `sheet.png`; `colors.json`, the colours by file and
+    `sheet.png`; `01.png` and, for a drawing that is an SVG, `01.svg`, and so on; `colors.json`, the colours by file and
     region; `residuals.csv`, a row for each rule.
+    """
+    colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
+    made: dict[str, Callable[[], bytes]] = {"sheet.png": lambda: _png(sheet(colorings))}
+    for name, one in zip(colors, colorings, strict=True):
+        made[f"{name}.png"] = lambda one=one: _png(one.image(size))  # type: ignore[misc]
+        if (artwork := one.drawing.artwork) is not None:
+            made[f"{name}.svg"] = artwork.painted(one.colors).encode
+    made["colors.json"] = json_text(colors, "the colours").encode
+    rows = io.StringIO()
+    csv.writer(rows).writerows(table(colorings))
+    made["residuals.csv"] = rows.getvalue().encode
+    return made
+
+
+def write(colorings: Sequence[Coloring], folder: str | PathLike[str], size: int = 1024) -> list[Path]:
+    """Write the `contents` to a folder that is there.
 
     Returns
     -------
     list of Path
         What was written.
     """
-    folder, written = Path(folder), []
-    for k, one in enumerate(colorings):
-        written.append(write_whole(folder / f"{k + 1:02}.png", _png(one.image(size))))
-        if one.drawing.artwork is not None:
-            painted = one.drawing.artwork.painted(one.colors)
-            written.append(write_whole(folder / f"{k + 1:02}.svg", painted.encode()))
-    written.append(write_whole(folder / "sheet.png", _png(sheet(colorings))))
-    colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
-    written.append(write_whole(folder / "colors.json", json_text(colors, "the colours").encode()))
-    rows = io.StringIO()
-    csv.writer(rows).writerows(table(colorings))
-    written.append(write_whole(folder / "residuals.csv", rows.getvalue().encode()))
-    return written
+    made = contents(colorings, size)
+    return [write_whole(Path(folder, name), content()) for name, content in made.items()]
 
 
 def _png(image: Image.Image) -> bytes:

@@ -10,7 +10,7 @@ same-hue = [["roof", "door"]]                 # strong or pale, but of one hue
 all = 60                                      # what has no number of its own
 sky = 30
 
-[pinned]
+[held]
 ink = "#1a1a2e"                               # a colour that is not to change
 """
 
@@ -54,14 +54,14 @@ class Rules:
         How far from grey a region may be, CIELAB units; `all` for those without their own number.
     background : str or None
         The region that the others lie on; None for the one that holds the picture's edge.
-    pinned : dict of str to str
+    held : dict of str to str
         Colours that do not change, `#rrggbb` by region.
     place : path or None
         Where they were read from, for messages.
 
     Examples
     --------
-    >>> rules = Rules(lightness=[["wall", "shade", "ink"]], pinned={"ink": "#1a1a2e"})
+    >>> rules = Rules(lightness=[["wall", "shade", "ink"]], held={"ink": "#1a1a2e"})
     >>> [str(rule) for rule in rules][1]
     '`shade` is 15 units lighter than `ink`'
     """
@@ -72,7 +72,7 @@ class Rules:
     same_hue: Sequence[Sequence[str]] = ()
     muted: dict[str, float] = field(default_factory=dict)
     background: str | None = None
-    pinned: dict[str, str] = field(default_factory=dict)
+    held: dict[str, str] = field(default_factory=dict)
     place: str | Path | None = None
 
     @classmethod
@@ -85,10 +85,14 @@ class Rules:
     @classmethod
     def of(cls, data: dict[str, Any], place: str | Path | None = None) -> Rules:
         """Rules from the tables of a TOML file."""
+        # The table `held` was `pinned` in the first files.
+        data = {
+            "held" if key == "pinned" and "held" not in data else key: value for key, value in data.items()
+        }
         chained = [value for value in data.values() if isinstance(value, list)]
         named = sum(len(chain) for value in chained for chain in value if isinstance(chain, list))
         check("rule-regions", named, place)
-        known = [*CHAINS, "background", "muted", "pinned"]
+        known = [*CHAINS, "background", "muted", "held"]
         for key, value in data.items():
             if key not in known:
                 near = get_close_matches(key, known, n=1)
@@ -102,7 +106,7 @@ class Rules:
                     "rules-unclear", place, reason=f"`{key}` is not a list of chains of two regions or more"
                 )
         background = data.get("background")
-        muted, pinned = data.get("muted", {}), data.get("pinned", {})
+        muted, held = data.get("muted", {}), data.get("held", {})
         if background is not None and not isinstance(background, str):
             raise FileError("rules-unclear", place, reason="`background` is not the name of one region")
         if not isinstance(muted, dict):
@@ -114,17 +118,17 @@ class Rules:
                     place,
                     reason=f"`{name:.80}` is muted to {shown(most)}, not to a number from 0 to 200",
                 )
-        if not isinstance(pinned, dict):
-            raise FileError("rules-unclear", place, reason="`pinned` is not a table of colours by region")
-        for name, value in pinned.items():
+        if not isinstance(held, dict):
+            raise FileError("rules-unclear", place, reason="`held` is not a table of colours by region")
+        for name, value in held.items():
             if not isinstance(value, str) or not re.fullmatch(r"#[0-9a-fA-F]{6}", value):
                 raise FileError(
                     "rules-unclear",
                     place,
-                    reason=f"`{name:.80}` is pinned to {shown(value)}, not to a `#rrggbb`",
+                    reason=f"`{name:.80}` is held at {shown(value)}, not to a `#rrggbb`",
                 )
         chains = {field_: data.get(key, []) for key, field_ in CHAINS.items()}
-        return cls(**chains, muted=muted, background=background, pinned=pinned, place=place)
+        return cls(**chains, muted=muted, background=background, held=held, place=place)
 
     def __iter__(self) -> Iterator[Rule]:
         """The rules one by one: one for each neighbouring pair of each chain, those of single regions last."""
@@ -143,7 +147,7 @@ class Rules:
             if chains := getattr(self, name):
                 rows = "".join(f"  {_quoted(list(chain))},\n" for chain in chains)
                 lines.append(f"{key} = [\n{rows}]")
-        for key in ("muted", "pinned"):
+        for key in ("muted", "held"):
             if table := getattr(self, key):
                 lines.append(f"\n[{key}]")
                 lines += [f"{_quoted(name)} = {_quoted(value)}" for name, value in table.items()]
@@ -154,7 +158,7 @@ class Rules:
         yield from self
         if "all" in self.muted:
             for name in names:
-                if name not in self.muted and name not in self.pinned:
+                if name not in self.muted and name not in self.held:
                     yield Rule("muted", name, most=self.muted["all"])
 
     def check(self, names: Sequence[str]) -> None:
@@ -167,7 +171,7 @@ class Rules:
         """
         used = [one for rule in self for one in (rule.first, rule.second) if one]
         used += [self.background] if self.background is not None else []
-        for name in [*used, *self.pinned]:
+        for name in [*used, *self.held]:
             if name not in names:
                 near = get_close_matches(name, names, n=1)
                 reason = f"did you mean `{near[0]}`?" if near else f"it has {', '.join(names)}"

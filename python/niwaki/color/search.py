@@ -83,7 +83,7 @@ class Coloring:
         return kept(self.rules.on(self.drawing.names), self.residuals)
 
 
-def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[Any, ...]:
+def arguments(drawing: Drawing, rules: Rules, strictness: float = 100.0) -> tuple[Any, ...]:
     """What `coloring` takes, for these rules on this drawing; refuses rules that do not fit.
 
     Raises
@@ -98,7 +98,7 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
         other = rule.most if rule.kind == "muted" else number[rule.second]
         by_kind[rule.kind].append((number[rule.first], other))
     background = number[rules.background] if rules.background is not None else drawing.background
-    pinned = [lab.parts(rules.pinned[name]) if name in rules.pinned else None for name in drawing.names]
+    held = [lab.parts(rules.held[name]) if name in rules.held else None for name in drawing.names]
     return (
         drawing.areas.tolist(),
         drawing.pairs,
@@ -108,13 +108,13 @@ def arguments(drawing: Drawing, rules: Rules, weight: float = 100.0) -> tuple[An
         by_kind["same-hue"],
         by_kind["muted"],
         -1 if background is None else background,
-        pinned,
-        weight,
+        held,
+        strictness,
     )
 
 
 #: Which argument of the model has the colours that do not change.
-PINNED = 8
+HELD = 8
 
 
 def default_method(count: int) -> Method:
@@ -129,7 +129,7 @@ def color(
     *,
     method: Method | None = None,
     settle: int = 200,
-    weight: float = 100.0,
+    strictness: float = 100.0,
     seed: int | None = None,
     threads: int | None = None,
     progress: Callable[[Progress], None] | None = None,
@@ -149,7 +149,7 @@ def color(
     settle
         Steps uphill from each of them, until the rules are kept as well as they can be nearby (`niwaki.color.settle`);
         0 for none, where the sampler's own draws are wanted.
-    weight
+    strictness
         What the model's log score is multiplied with: the larger, the stricter.
     seed, threads, progress
         As for `niwaki.run`.
@@ -178,11 +178,11 @@ def color(
         drawing = Drawing.load(drawing)
     if not isinstance(rules, Rules):
         rules = Rules.load(rules)
-    if not is_number(weight) or not 0 < weight < float("inf"):
-        raise bad("weight", weight, "a number above 0", "100")
-    given = arguments(drawing, rules, weight)
-    if all(name in rules.pinned for name in drawing.names):
-        raise FileError("rules-pin-all", rules.place, count=len(drawing.names))
+    if not is_number(strictness) or not 0 < strictness < float("inf"):
+        raise bad("strictness", strictness, "a number above 0", "100")
+    given = arguments(drawing, rules, strictness)
+    if all(name in rules.held for name in drawing.names):
+        raise FileError("rules-hold-all", rules.place, count=len(drawing.names))
     result = run(
         coloring,
         method or default_method(count),
@@ -216,12 +216,12 @@ def color(
     ]
 
 
-def painted(drawing: Drawing, rules: Rules, colors: Mapping[str, str], weight: float = 100.0) -> Coloring:
+def painted(drawing: Drawing, rules: Rules, colors: Mapping[str, str], strictness: float = 100.0) -> Coloring:
     """A colouring in colours that are given: nothing is searched for, and its rules are measured.
 
     Parameters
     ----------
-    drawing, rules, weight
+    drawing, rules, strictness
         As for `color`.
     colors
         `#rrggbb` of every region.
@@ -233,8 +233,8 @@ def painted(drawing: Drawing, rules: Rules, colors: Mapping[str, str], weight: f
     >>> str(grey.kept[0])
     '`background` is 0 units lighter than `leaf`: 15 too little'
     """
-    given = list(arguments(drawing, rules, weight))
-    given[PINNED] = [lab.parts(colors[name]) for name in drawing.names]
+    given = list(arguments(drawing, rules, strictness))
+    given[HELD] = [lab.parts(colors[name]) for name in drawing.names]
     sample = run(coloring, *given, choices={}).best
     return Coloring(drawing, rules, dict(colors), sample, tuple(given))
 

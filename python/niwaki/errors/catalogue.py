@@ -17,7 +17,7 @@ KINDS = (
     (FAULTS, "Reported while a model runs; the message shows the model's own calls, outermost first."),
     (INPUTS, "Reported when a setting or an argument is checked."),
     (FILES, "Reported when a file is read or written."),
-    (CHAINS, "Reported when a Markov chain, or a search with a proposal or a lock, starts or runs."),
+    (CHAINS, "Reported when a Markov chain, or a search with a proposal or held choices, starts or runs."),
     (SETTINGS, "Reported when a setting, a model's name or a run's file is checked."),
     (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be more efficient."),
 )

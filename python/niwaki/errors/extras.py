@@ -14,7 +14,7 @@ EXTRAS = {
     "cluster": "batches on Ray or Dask (`niwaki batch --engine`)",
     "color": "pictures of coloured drawings (`niwaki color`)",
     "notebook": "a viewer in a notebook that can be given other results (`niwaki.view(...).widget()`)",
-    "parquet": "a batch's table as Parquet (`niwaki batch export --parquet`)",
+    "parquet": "a batch's table as Parquet (`niwaki batch export --format parquet`)",
     "print": "one closed solid for a printer (`--format stl`, `--format 3mf`)",
     "stacks": "judging structures of blocks, and their cutting sheets (`niwaki.stacks`)",
     "studio": "the studio, a page in your browser (`niwaki studio`)",

@@ -17,7 +17,7 @@ from typing import Any
 
 import niwaki as nw
 from niwaki import draw, targets
-from niwaki.targets.sketches import Window
+from niwaki.targets.sketches import Ask, Window
 
 #: Modules of this folder that hold no model; they are not imported to find that out.
 NOT_MODELS = ("data", "furnishings")
@@ -78,6 +78,17 @@ class Entry:
             "particles": self.particles,
         }
         return draw.card.card(self.title, {**rows, "drawing": self.drawing_name})
+
+    @property
+    def asks(self) -> list[Ask]:
+        """What is asked of it when nothing else is: its target, its drawing, or its score."""
+        if self.target_name is not None:
+            return [("match_volume", {"target": f"gallery:{self.target_name}", "voxel": self.voxel})]
+        if self.drawing_name is not None:
+            drawing = targets.drawings.find(self.drawing_name)
+            return [("match_drawing", {"image": drawing, "window": self.window})]
+        score = nw.Score() if self.score is None else self.score()
+        return [(one.function, dict(one.given)) for one in score.asks]
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""

@@ -56,9 +56,9 @@ def task(
     sketches: Sequence[_engine.SketchSpec] = (),
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
-    lock: Mapping[str, Any] | None = None,
+    hold: Mapping[str, Any] | None = None,
 ) -> _engine.Task:
-    """A model with its arguments and sketches, ready to be searched; `lock` has the values of held choices."""
+    """A model with its arguments and sketches, ready to be searched; `hold` has the values of held choices."""
     for name, found, least in (("max_steps", max_steps, 1), ("max_memory", max_memory, 1 << 20)):
         if not is_whole(found) or not least <= found <= MOST:
             raise bad(name, found, f"a whole number, at least {least}", f"{least} or more")
@@ -68,14 +68,14 @@ def task(
         ready = _engine.Task(program, given, list(sketches), max_steps, max_memory)
     except (TypeError, OverflowError) as error:
         raise _bad_argument(model, program, given, error) from error
-    if not lock:
+    if not hold:
         return ready
     try:
         with translated(model.name):
-            return ready.holding(dict(lock))
+            return ready.holding(dict(hold))
     except (TypeError, OverflowError) as error:
         expected = "numbers, truth values and lists of numbers, by address"
-        raise bad("lock", dict(lock), expected, '`result.held("wing[1]")`') from error
+        raise bad("hold", dict(hold), expected, '`result.held("wing[1]")`') from error
 
 
 def _bad_argument(

@@ -36,7 +36,7 @@ from niwaki.search.checks import check_threads, fresh
 STYLES = ("vines", "lightning")
 
 #: Searches for each piece of a letter, and particles of each.
-TRIES, PARTICLES = 12, 80
+SEARCHES, PARTICLES = 12, 80
 
 #: Where the lowest ink of a piece is in the plane of the model, as in the drawings that guides have learnt from.
 GROUND = -2.0 + glyphs.EDGE * PIXEL
@@ -168,7 +168,7 @@ def write(
     *,
     seed: int | None = None,
     particles: int = PARTICLES,
-    tries: int = TRIES,
+    searches: int = SEARCHES,
     font: str | PathLike[str] | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -185,8 +185,8 @@ def write(
         Decides everything; fresh when left out.
     particles
         Of each search.
-    tries
-        Searches for each piece of a letter, from several places and in several directions; the best is kept.
+    searches
+        How many for each piece of a letter, from several places and in several directions; the best is kept.
     font
         A TrueType or OpenType file; the package's own when left out.
     threads
@@ -201,7 +201,7 @@ def write(
     """
     seed = fresh(seed)
     at_least_one("particles", particles)
-    at_least_one("tries", tries)
+    at_least_one("searches", searches)
     entry = gallery.entry(style) if style in STYLES else None
     guide = None if entry is None else guides.shipped(entry.model)
     if entry is None or guide is None:
@@ -210,13 +210,13 @@ def write(
     if not written:
         raise bad("text", text, "at least one character that is seen", '"NIWAKI"')
     pieces = [(letter, piece) for letter in written for piece in letter.pieces]
-    check_room("tries", tries, len(pieces) * SEARCH, f"search for {len(pieces)} pieces of letters")
-    seeds = np.random.default_rng(seed).integers(2**63, size=(len(pieces), tries))
+    check_room("searches", searches, len(pieces) * SEARCH, f"search for {len(pieces)} pieces of letters")
+    seeds = np.random.default_rng(seed).integers(2**63, size=(len(pieces), searches))
     method = smc(particles, guide=guide, resampling="tempered")
     jobs = [
         _search(entry.model, piece, method, k, int(own[k]))
         for (_, piece), own in zip(pieces, seeds, strict=True)
-        for k in range(tries)
+        for k in range(searches)
     ]
     found: list[nw.Sample | None] = []
     with closing(best_of(jobs, check_threads(threads) or cpu_count() or 1)) as samples:
@@ -224,7 +224,9 @@ def write(
             found.append(sample)
             if progress is not None:
                 progress(len(found), len(jobs))
-    best = iter([_best(found[k * tries : (k + 1) * tries], letter) for k, (letter, _) in enumerate(pieces)])
+    best = iter(
+        [_best(found[k * searches : (k + 1) * searches], letter) for k, (letter, _) in enumerate(pieces)]
+    )
     return Word(text, style, seed, [Grown(one, [next(best) for _ in one.pieces]) for one in written])
 
 

@@ -31,7 +31,7 @@ class Dragged:
     part : str
         The address of the part that is there.
     holds : dict
-        The choices that place the part there, with their values: a `lock` with which the rest is grown again.
+        The choices that place the part there, with their values: a `hold` with which the rest is grown again.
     """
 
     sample: Sample
@@ -60,8 +60,8 @@ class Dragged:
             With the part there every particle is impossible.
         """
         search = self.sample.search
-        lock = {**(search.lock or {}), **self.holds}
-        own = replace(search, lock=lock, choices=None, seed=search.seed if seed is None else seed)
+        hold = {**search.held, **self.holds}
+        own = replace(search, hold=hold, choices=None, seed=search.seed if seed is None else seed)
         return own.run(threads=threads, progress=progress)
 
 

@@ -7,13 +7,57 @@ the choices of the calls around it, and of the earlier iterations of the loops t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
 
 from niwaki import _engine
 from niwaki.errors import InputError
+from niwaki.errors.settings import bad
 
 #: A component of an address with the number of an iteration.
 _ITERATION = re.compile(r"(.*)\[(\d+)\](.*)")
+
+
+#: What is held, in every search, drag and command: values by address; or addresses and patterns of a run that is there,
+#: one or several, which keep the values that they have in it.
+Hold: TypeAlias = Mapping[str, Any] | str | Iterable[str]
+
+
+def held(hold: Hold, choices: Mapping[str, Any] | None, scene: Iterable[str], name: str) -> Mapping[str, Any]:
+    """The values of what is held, by address.
+
+    Parameters
+    ----------
+    hold
+        What is held.
+    choices
+        The choices of the run that is there; None without one.
+    scene
+        The addresses of its scene's primitives.
+    name
+        The model, for messages.
+
+    Raises
+    ------
+    InputError
+        `no-address`: a pattern matches nothing; `hold-without-run`: there is no run for it; `bad-setting`: it is none.
+    """
+    if isinstance(hold, Mapping) and all(isinstance(address, str) for address in hold):
+        return hold
+    patterns = (hold,) if isinstance(hold, str) else tuple(hold) if isinstance(hold, Iterable) else (None,)
+    if isinstance(hold, Mapping) or not all(isinstance(pattern, str) for pattern in patterns):
+        raise bad(
+            "hold",
+            hold,
+            "values by address, or patterns of a run",
+            '`{"width": 2.0}`, or `result.held("wing[1]")`',
+        )
+    if choices is None:
+        raise InputError(
+            "hold-without-run", flag="hold", other="`choices`", cure='`hold=result.held("wing[1]")`'
+        )
+    taken = chosen(patterns, choices, scene, name) if patterns else set()
+    return {address: value for address, value in choices.items() if address in taken}
 
 
 def chosen(patterns: Sequence[str], choices: Iterable[str], scene: Iterable[str], name: str) -> set[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -117,7 +117,7 @@ class Sample:
         return {choice.path: choice.value for choice in self._trace.choices}
 
     def held(self, *patterns: str) -> dict[str, Any]:
-        """Choices with their values, to hold them in another search by its `lock`.
+        """Choices with their values, to hold them in another search: its `hold`.
 
         Parameters
         ----------
@@ -132,10 +132,12 @@ class Sample:
         InputError
             A pattern matches nothing; with the addresses that are nearest.
         """
-        free = self._free
+        return dict(self._held(patterns)) if patterns else self._free
+
+    def _held(self, hold: parts.Hold) -> Mapping[str, Any]:
+        """What is held, by address, with the values of this run for patterns."""
         scene = [address for address, _ in self._trace.parts]
-        taken = parts.chosen(patterns, free, scene, self.search.model.name) if patterns else set(free)
-        return {address: value for address, value in free.items() if address in taken}
+        return parts.held(hold, self._free, scene, self.search.model.name)
 
     @property
     def _free(self) -> dict[str, Any]:
@@ -185,7 +187,7 @@ class Sample:
         *,
         grab: Sequence[float] | None = None,
         along: Sequence[float] | None = None,
-        lock: Iterable[str] = (),
+        hold: parts.Hold = (),
         answers: int = 4,
         structure: bool = True,
     ) -> Drag:
@@ -202,8 +204,9 @@ class Sample:
             of the part's shape that is nearest to `to`.
         along
             A direction in which distances do not count, such as the one in which a camera looks.
-        lock
-            Patterns of choices and parts that stay as they are, as for `held`; those that the search holds stay, too.
+        hold
+            What stays as it is: as in a search, values of choices by address, which are those of this run; or patterns
+            of choices and parts, as for `held`. What the search holds stays, too.
         answers
             How many at most: they differ in the choices that may change.
         structure
@@ -221,7 +224,7 @@ class Sample:
             The pattern matches no part; a point is not a point.
         """
         return self.search.dragged(
-            self, part, to, grab=grab, along=along, lock=lock, answers=answers, structure=structure
+            self, part, to, grab=grab, along=along, hold=hold, answers=answers, structure=structure
         )
 
     @property

@@ -52,7 +52,7 @@ class SearchLike(Protocol):
         """Values of choices by address, from which it starts."""
 
     @property
-    def lock(self) -> Mapping[str, Any] | None:
+    def held(self) -> dict[str, Any]:
         """Values of held choices by address."""
 
     @property

@@ -21,9 +21,7 @@ def check_values(name: str, given: Any) -> None:
     """An error unless the setting is None, or values by address."""
     is_one = isinstance(given, Mapping) and all(isinstance(address, str) for address in given)
     if given is not None and not is_one:
-        raise bad(
-            name, given, "values of choices by address", '`{"width": 2.0}`, or `result.held("wing[1]")`'
-        )
+        raise bad(name, given, "values of choices by address", '`{"width": 2.0}`, or `result.best.choices`')
 
 
 def check_polish(method: Any) -> None:

@@ -17,6 +17,7 @@ from niwaki.lang.compiled import arguments, task, translated
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
+from niwaki.result.parts import Hold
 from niwaki.result.progress import Watch
 from niwaki.search.checkpoint import Checkpoint, begun_seed
 from niwaki.search.checks import check_seed, fresh
@@ -44,7 +45,7 @@ def run(
     score: Score | None = None,
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
-    lock: Mapping[str, Any] | None = None,
+    hold: Hold | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     threads: int | None = None,
@@ -72,8 +73,8 @@ def run(
         Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
         missing ones are an error where it is not. With `mh`, `hmc`, `nuts`, `vi`, `particle_gibbs` the search starts
         from them.
-    lock
-        Values of choices by address that every run has; see `Search`.
+    hold
+        What every run has: values of choices by address, such as `result.held("wing[1]")` gives; see `Search`.
     max_steps
         Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
         one step for every eight of them, a primitive 256.
@@ -104,7 +105,7 @@ def run(
         method=Forward() if method is None else method,
         seed=fresh(begun_seed(seed, checkpoint)),
         choices=choices,
-        lock=lock,
+        hold=hold,
         max_steps=max_steps,
         max_memory=max_memory,
     )
@@ -125,7 +126,7 @@ def grow(
     polish: Mh | None = None,
     runs: int = 1,
     seed: int | None = None,
-    lock: Mapping[str, Any] | None = None,
+    hold: Hold | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     threads: int | None = None,
@@ -151,8 +152,8 @@ def grow(
         search it is one population, too: of 50 particles with tempered resampling, when left out.
     score
         Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
-        `no_self_intersection(rule)`, which is left out for drawings, and, where there is a target,
-        `match_volume(target, voxel, sigma)`.
+        `no_self_intersection(rule)`, which is left out for drawings and where they have it, and, where there is a
+        target, `match_volume(target, voxel, sigma)`.
     method
         Another search than by those settings.
     voxel, sigma
@@ -164,7 +165,7 @@ def grow(
         (`Result.polish`).
     runs
         How many results, with seeds `seed`, `seed + 1`, ...
-    seed, lock, max_steps, max_memory, threads, progress, checkpoint
+    seed, hold, max_steps, max_memory, threads, progress, checkpoint
         As for `run`. The usual search is written between two rounds.
 
     Returns
@@ -186,7 +187,7 @@ def grow(
         polish=polish,
         runs=runs,
         seed=begun_seed(seed, checkpoint),
-        lock=lock,
+        hold=hold,
         max_steps=max_steps,
         max_memory=max_memory,
         **kwargs,
@@ -206,7 +207,7 @@ def asked(
     polish: Mh | None = None,
     runs: int = 1,
     seed: int | None = None,
-    lock: Mapping[str, Any] | None = None,
+    hold: Hold | None = None,
     max_steps: int = 20_000_000,
     max_memory: int = 1 << 30,
     **kwargs: Any,
@@ -226,7 +227,7 @@ def asked(
         )
     product = Score() if score is None else score
     drawn = product.window is not None
-    if not drawn:
+    if not drawn and not any(one.function == no_self_intersection.__name__ for one in product.asks):
         product = no_self_intersection(rule) * product
     if target is not None:
         product *= match_volume(target, voxel, sigma)
@@ -238,7 +239,7 @@ def asked(
         score=product,
         method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
         seed=fresh(seed),
-        lock=lock,
+        hold=hold,
         runs=runs,
         keep="best",
         polish=polish,

@@ -35,7 +35,7 @@ from niwaki.lang.core import Core
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Guide, Method, Mh
 from niwaki.once import cached_property
-from niwaki.result import Result, Sample
+from niwaki.result import Result, Sample, parts
 from niwaki.result.progress import Watch, watcher
 from niwaki.search import drag, searching
 from niwaki.search.checkpoint import Checkpoint
@@ -84,8 +84,9 @@ class Search:
         Decides every random choice, 0 to 2^64 - 1.
     choices
         Values of choices by address: where chains start, or for any other method the choices of the one run.
-    lock
-        Values of held choices by address: every run has them, and they count as observations do. See `Sample.held`.
+    hold
+        Values of choices by address that every run has: they count as observations do. `Sample.held` gives them.
+        Patterns of choices and parts, too, where `choices` has their values.
     runs
         How many searches, with seeds `seed`, `seed + 1`, ...
     keep
@@ -105,7 +106,7 @@ class Search:
     method: Method = Forward()  # noqa: RUF009
     seed: int = 0
     choices: Mapping[str, Any] | None = None
-    lock: Mapping[str, Any] | None = None
+    hold: parts.Hold | None = None
     runs: int = 1
     keep: str = "all"
     polish: Mh | None = None
@@ -118,7 +119,9 @@ class Search:
         object.__setattr__(self, "args", tuple(self.args))
         check_seed(self.seed)
         check_values("choices", self.choices)
-        check_values("lock", self.lock)
+        if self.hold is not None:
+            # Patterns are resolved once: a search that is derived from this one may have other `choices`.
+            object.__setattr__(self, "hold", self.held)
         for name, kind, suggestion in (
             ("method", Method, "`smc(particles=300)`"),
             ("score", Score, "`no_self_intersection() * match_volume(target)`"),
@@ -138,9 +141,14 @@ class Search:
             )
 
     @cached_property
+    def held(self) -> dict[str, Any]:
+        """The values of what is held, by address."""
+        return dict(parts.held(self.hold or {}, self.choices, (), self.model.name))
+
+    @cached_property
     def task(self) -> _engine.Task:
         """The model with its arguments and sketches, ready to be searched."""
-        return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory, self.lock)
+        return task(self.model, self.args, None, self.score.specs, self.max_steps, self.max_memory, self.held)
 
     def run(
         self,
@@ -223,7 +231,8 @@ class Search:
             "method": self.method.data(function),
             "seed": self.seed,
             "choices": None if self.choices is None else write(dict(self.choices)),
-            "lock": None if self.lock is None else write(dict(self.lock)),
+            # The name that it has had in files since the first.
+            "lock": None if self.hold is None else write(self.held),
             "runs": self.runs,
             "keep": self.keep,
             "polish": None if self.polish is None else self.polish.data(function),
@@ -265,7 +274,7 @@ class Search:
                 method=_read("method", lambda: Method.of_data(data["method"], _function_reader(read))),
                 seed=data["seed"],
                 choices=_read("choices", lambda: _optional(data["choices"], read)),
-                lock=_read("lock", lambda: _optional(data["lock"], read)),
+                hold=_read("lock", lambda: _optional(data["lock"], read)),
                 runs=data["runs"],
                 keep=data["keep"],
                 polish=_read(

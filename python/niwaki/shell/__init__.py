@@ -9,7 +9,7 @@ settings.py   how to search, as flags
 writing.py    which files a result becomes
 pictures.py   which pictures, and drafts
 picking.py    results by their numbers
-held.py       parts of a result that are locked, or grown again
+held.py       parts of a result that are held, or grown again
 clock.py      where the time of a command went
 show.py       `niwaki show`: runs of a model, as a sheet
 grow.py       `niwaki grow`: a search, written to a folder

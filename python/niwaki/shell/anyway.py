@@ -78,7 +78,7 @@ def replayed(data: dict[str, Any], place: int, model: Path | None, path: Path) -
     found = shell.references.find(reference)
     known = tuple(sorted({module for module, _, _ in shell.trust.hosts(data["search"])}))
     before = shell.run_files.searched(data, known, path)
-    search = replace(before, model=found.model, lock=None, choices=None)
+    search = replace(before, model=found.model, hold=None, choices=None)
     given = shell.run_files.choices(data["runs"][place], place, path)
     trace, unfit = _fitting(search, given, search.seed)
     values = {one.path: one.value for one in trace.choices}

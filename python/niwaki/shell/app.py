@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -72,9 +71,17 @@ def niwaki() -> None:
 ModelName = Annotated[
     str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function; the file is run.")
 ]
-Folder = Annotated[
-    Path | None, typer.Option("-o", "--output", metavar="DIR", help="The folder for files; default: out.")
+#: What several commands have is one option, so that it means the same everywhere.
+Runs = Annotated[int, typer.Option("-n", "--runs", metavar="N", help="How many results.")]
+Seed = Annotated[
+    int | None,
+    typer.Option("--seed", metavar="N", help="The random stream. Default: a new one, which is printed."),
 ]
+Threads = Annotated[
+    int | None,
+    typer.Option("--threads", metavar="N", help="Default: all cores. Results do not depend on it."),
+]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON; files are written only with -o.")]
 
 Megabytes = Annotated[
     int,

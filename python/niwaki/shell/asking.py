@@ -2,81 +2,81 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
 
-from niwaki import Search, gallery, search
+import typer
+
+from niwaki import Search, gallery, search, targets
 from niwaki.errors import InputError
-from niwaki.shell import controls, settings
+from niwaki.shell import settings
+from niwaki.shell.app import Megabytes, Runs, Seed
 from niwaki.shell.references import ModelReference
+from niwaki.targets.sketches import Ask
 
 
 @dataclass(frozen=True)
-class Asked:
-    """The flags that decide a search, as they were given; None for those that were not.
+class How:
+    """How to search, beside the settings of the method; None for what was not given."""
 
-    Attributes
+    method: settings.MethodName = None
+    guide: settings.GuideFile = None
+    polish: settings.Polish = None
+    polish_kernel: settings.PolishKernel = None
+    runs: Runs = 1
+    seed: Seed = None
+    max_steps: Annotated[
+        int, typer.Option("--max-steps", metavar="N", help="Most calls and loop steps of one run.")
+    ] = 20_000_000
+    max_memory: Megabytes = 1024
+
+
+def searched(
+    found: ModelReference,
+    asks: Sequence[Ask],
+    how: How,
+    given: Mapping[str, Any],
+    arguments: Mapping[str, Any],
+    hold: Mapping[str, Any] | None = None,
+) -> Search:
+    """The search of a model.
+
+    Parameters
     ----------
-    chosen
-        What the scene should be like.
-    method, guide, polish, polish_kernel
-        How to search.
-    given
-        Settings of the method.
+    found
+        The model.
+    asks
+        What is asked of its scene.
+    how, given
+        How to search, and the settings of the method; None for those that were not given.
+    arguments
+        Of the model.
+    hold
+        Choices that are held.
     """
-
-    chosen: controls.Controls
-    voxel: float | None = None
-    sigma: float | None = None
-    rule: str = "solid"
-    method: str | None = None
-    guide: str | None = None
-    polish: int | None = None
-    polish_kernel: str | None = None
-    runs: int = 1
-    seed: int | None = None
-    max_steps: int = 20_000_000
-    max_memory: int = 1024
-    given: Mapping[str, Any] = field(default_factory=dict)
-
-    def search(
-        self, found: ModelReference, arguments: Mapping[str, Any], lock: Mapping[str, Any] | None = None
-    ) -> Search:
-        """The search of a model with these arguments; `lock` holds choices."""
-        onward = settings.polish(self.polish, self.polish_kernel)
-        aim = self.chosen.aim(found)
-        score = self.chosen.score(found, self.voxel, self.sigma)
-        drawing = self.chosen.drawing(found)
-        start: dict[str, Any] = {}
-        if drawing is not None and controls.follows(found.model):
-            start = dict(zip(("x", "y", "ahead"), drawing.place(self.chosen.page(found)), strict=True))
-        voxel, entry = self.voxel, found.entry
-        if voxel is None and self.chosen.target is None and aim is not None and entry is not None:
-            voxel = entry.voxel
-        suits: dict[str, Any] = {"particles": gallery.PARTICLES} if entry is None else entry.usual
-        if score.window is not None:
-            suits = {**suits, "power": 1.0}
-        sketches = [*(spec.name for spec in score.specs), *(["match_volume"] if aim else [])]
-        method, given = self.method, dict(self.given)
-        own = settings.guide(self.guide, found, sketches, method, given)
-        if own is not None:
-            suits, method = {**suits, **search.GUIDED}, method or "smc"
-        if "(emit " not in found.model.core().text:
-            raise InputError("no-emit", name=found.model.name)
-        return search.asked(
-            found.model,
-            aim,
-            **{**start, **arguments},
-            score=score,
-            method=settings.guided(settings.method(method, given, suits), own, given),
-            polish=onward,
-            seed=self.seed,
-            lock=lock,
-            voxel=voxel,
-            sigma=0.02 if self.sigma is None else self.sigma,
-            rule=self.rule,
-            runs=self.runs,
-            max_steps=self.max_steps,
-            max_memory=self.max_memory << 20,
-        )
+    onward = settings.polish(how.polish, how.polish_kernel)
+    score = targets.asks.score(asks)
+    suits: dict[str, Any] = (
+        {"particles": gallery.PARTICLES} if found.entry is None else dict(found.entry.usual)
+    )
+    if score.window is not None:
+        suits["power"] = 1.0
+    sketches, name = [spec.name for spec in score.specs], how.method
+    own = settings.guide(how.guide, found, sketches, name, dict(given))
+    if own is not None:
+        suits, name = {**suits, **search.GUIDED}, name or "smc"
+    if "(emit " not in found.model.core().text:
+        raise InputError("no-emit", name=found.model.name)
+    return search.asked(
+        found.model,
+        **{**found.start(asks), **arguments},
+        score=score,
+        method=settings.guided(settings.method(name, dict(given), suits), own, given),
+        polish=onward,
+        seed=how.seed,
+        hold=hold,
+        runs=how.runs,
+        max_steps=how.max_steps,
+        max_memory=how.max_memory << 20,
+    )

@@ -15,8 +15,8 @@ from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder
 from niwaki.errors.settings import bad, count
 from niwaki.inputs.modules import run_file
-from niwaki.shell import batch_files, results
-from niwaki.shell.app import app
+from niwaki.shell import batch_files, folders, results, writing
+from niwaki.shell.app import Runs, app
 from niwaki.shell.progress import batch_line, standing
 
 
@@ -40,31 +40,30 @@ app.add_typer(group, name="batch")
 #: How many of the best are drawn and written, when nothing is said.
 BEST = 24
 
+#: What can be written, and the names in a folder.
+FORMATS = {"csv": "results.csv", "parquet": "results.parquet", "png": "sheet.png", "glb": "meshes"}
+
 
 @group.command()
 def run(
     spec: Annotated[
         Path, typer.Argument(metavar="SPEC", help="A TOML file: the model, seeds, and what varies.")
     ],
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="FOLDER", help="Where results are; default: SPEC's name."),
-    ] = None,
+    output: Annotated[str | None, folders.output("a folder with SPEC's name")] = None,
     processes: Annotated[
-        int | None, typer.Option("--processes", help="How many; default: the processors of the machine.")
+        int | None,
+        typer.Option("--processes", metavar="N", help="How many. Default: the processors of the machine."),
     ] = None,
     shard: Annotated[
         str | None, typer.Option("--shard", metavar="I/N", help="Only this part of the batch, such as 3/16.")
     ] = None,
     engine: Annotated[
         str | None,
-        typer.Option(
-            "--engine", metavar="NAME", help="Where searches run: local, ray, dask. Default: local."
-        ),
+        typer.Option("--engine", metavar="local|ray|dask", help="Where searches run. Default: local."),
     ] = None,
-    address: Annotated[
+    cluster: Annotated[
         str | None,
-        typer.Option("--address", help="Of a cluster that runs; default: processes of this machine."),
+        typer.Option("--cluster", metavar="URL", help="One that runs. Default: processes of this machine."),
     ] = None,
     chunk: Annotated[
         float, typer.Option("--chunk", metavar="SECONDS", help="Searches that a worker gets at once.")
@@ -73,20 +72,20 @@ def run(
     """Do the searches of SPEC that its folder does not have; the same command goes on after Ctrl-C or a kill."""
     if engine is not None and engine not in ("local", *clusters.ENGINES):
         raise bad("--engine", engine, f"one of local, {', '.join(clusters.ENGINES)}", "local")
-    if address is not None and engine not in clusters.ENGINES:
+    if cluster is not None and engine not in clusters.ENGINES:
         raise InputError(
             "flag-alone",
-            flag="--address",
+            flag="--cluster",
             other="`--engine ray` or `--engine dask`",
-            reason="it is a cluster's",
+            reason="it is where the engine runs",
         )
     part = plan.shard_of(shard)
     found = batch_files.load(spec)
     asked = found.table.spec(found.seeds)
-    folder = Path(found.name) if output is None else output
-    there = results.present(folder)
-    if there and not batches.is_batch(folder):
-        raise InputError("folder-has-results", path=folder, found=there)
+    folders.one_file(output, (), False)
+    folder = Path(found.name if output is None else output)
+    if not batches.is_batch(folder):
+        folders.taken(results.present(folder), False, "one where a batch is, or nothing")
     store = batches.Store(folder, asked)
     workers = count("--processes", batches.cores() if processes is None else processes, most=100_000)
     last: batches.Standing | None = None
@@ -94,7 +93,7 @@ def run(
         with ExitStack() as stack:
             executor = None
             if engine in clusters.ENGINES:
-                executor = stack.enter_context(clusters.ENGINES[engine](workers, address))
+                executor = stack.enter_context(clusters.ENGINES[engine](workers, cluster))
             show = stack.enter_context(batch_line(found.name))
 
             def watch(now: batches.Standing) -> None:
@@ -122,46 +121,51 @@ def run(
 @group.command("export")
 def export_(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a batch.")],
-    as_csv: Annotated[bool, typer.Option("--csv", help="results.csv: a line for each search.")] = False,
-    as_parquet: Annotated[
-        bool, typer.Option("--parquet", help="results.parquet: the same (the extra parquet).")
-    ] = False,
-    sheet: Annotated[bool, typer.Option("--sheet", help="sheet.png: pictures of the best.")] = False,
-    meshes: Annotated[bool, typer.Option("--glb", help="meshes/: the best as GLB files.")] = False,
-    best: Annotated[
-        int, typer.Option("--best", help="How many of the best are drawn, and written as GLB.")
-    ] = BEST,
+    formats: Annotated[
+        str | None,
+        typer.Option(
+            "--format",
+            metavar="LIST",
+            help=f"Which files, with commas: {', '.join(FORMATS)}; tables of all, a sheet and meshes of the best.",
+        ),
+    ] = None,
+    runs: Runs = BEST,
     choices: Annotated[
         bool, typer.Option("--choices", help="In the table, the choices of each best run, as JSON.")
     ] = False,
-    trust: Annotated[
+    model: Annotated[
         list[Path] | None,
-        typer.Option("--trust", metavar="FILE", help="Run this file: its host functions may be called."),
+        typer.Option(
+            "--model", metavar="FILE", help="The Python file with the model's host functions; it is run."
+        ),
     ] = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="DIR", help="Where to; default: FOLDER.")
-    ] = None,
+    output: Annotated[str | None, folders.output("FOLDER")] = None,
+    force: folders.Force = False,
 ) -> None:
     """Write the results of FOLDER as files, and say how many there are, with a hash of all."""
-    count("--best", best, most=10_000)
+    count("--runs", runs, most=10_000)
+    alone = folders.one_file(output, ("csv", "parquet", "png"), force, format=formats)
+    wanted = alone.suffix if alone else formats
+    chosen = () if wanted is None else writing.listed(wanted, FORMATS)
     store = batches.Store(folder)
     if not store:
         raise InputError("no-batch", path=folder)
-    modules = tuple(Path(place).stem for place in trust or ())
-    for place in trust or ():
+    modules = tuple(Path(place).stem for place in model or ())
+    for place in model or ():
         run_file(place.resolve())
-    there = folder if output is None else ensure_folder(output)
+    there = folder if alone or output is None else ensure_folder(Path(output))
+    places = {one: alone or there / FORMATS[one] for one in chosen}
+    folders.taken([] if alone else places.values(), force)
     written: list[Path] = []
-    if as_csv:
-        written.append(export.write_csv(there / "results.csv", store, modules, choices))
-    if as_parquet:
-        written.append(export.write_parquet(there / "results.parquet", store, modules, choices))
-    if sheet or meshes:
-        found = export.best_of(store, best, modules)
-        if sheet:
-            written.append(export.write_sheet(there / "sheet.png", found))
-        if meshes:
-            written += export.write_meshes(there / "meshes", found)
+    if "csv" in places:
+        written.append(export.write_csv(places["csv"], store, modules, choices))
+    if "parquet" in places:
+        written.append(export.write_parquet(places["parquet"], store, modules, choices))
+    best = export.best_of(store, runs, modules) if {"png", "glb"} & set(places) else []
+    if "png" in places:
+        written.append(export.write_sheet(places["png"], best))
+    if "glb" in places:
+        written += export.write_meshes(places["glb"], best)
     for place in written:
         print(place)
     print(f"{len(store):,} of {len(store.whole):,} searches, hash {store.hash()}")

@@ -26,12 +26,13 @@ from typing import Any, get_type_hints
 
 from msgspec import Struct
 
-from niwaki import batches
+from niwaki import Search, batches
 from niwaki.errors import InputError
 from niwaki.errors.schema import Unfit, fitted, inside, shown
 from niwaki.inputs import text_of
 from niwaki.inputs.texts import toml_of
 from niwaki.shell import arguments, asking, controls, references, settings
+from niwaki.targets import asks
 
 
 class Vary(Struct, frozen=True, forbid_unknown_fields=True):
@@ -52,19 +53,10 @@ class SpecFile(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 #: Flags that name a file, which lies beside the batch's.
-FILES = (
-    "target",
-    "avoid",
-    "match_image",
-    "camera",
-    "match_shadow",
-    "weight_image",
-    "receiver",
-    "guide",
-)
+FILES = (*asks.FILES, "guide")
 
 #: What `niwaki grow` decides for a whole batch.
-_WHOLE = ("chosen", "given", "runs", "seed")
+_WHOLE = ("runs", "seed")
 
 
 @dataclass(frozen=True)
@@ -114,9 +106,10 @@ def load(place: Path) -> Batch:
     found = references.find(_beside(place, read.model))
     searches, labels = [], []
     for flags in _each(varied):
-        asked = _asked(place, _flags({**read.grow, **flags}), found)
+        own_flags = _flags({**read.grow, **flags})
         for own in _each(read.vary.arguments):
-            searches.append(asked.search(found, arguments.fitting(found.model, {**read.arguments, **own})))
+            given = arguments.fitting(found.model, {**read.arguments, **own})
+            searches.append(_searched(place, found, own_flags, given))
             named = {**flags, **own}
             labels.append({name: batches.label(value) for name, value in named.items()})
     return Batch(place.stem, batches.Table(searches, labels), read.seeds)
@@ -156,28 +149,25 @@ def _flags(table: Mapping[str, Any]) -> dict[str, Any]:
 
 def _kinds() -> dict[str, Any]:
     """The type of each flag that decides a search."""
-    found: dict[str, Any] = {}
-    for own in (controls.Controls, asking.Asked):
-        hints = get_type_hints(own)
-        found |= {one.name: hints[one.name] for one in fields(own) if one.name not in (*_WHOLE, "draws")}
-    for name, kind in settings.kinds().items():
-        found.setdefault(name, kind)
-    return found
+    hints = get_type_hints(asking.How)
+    how = {one.name: hints[one.name] for one in fields(asking.How) if one.name not in _WHOLE}
+    return {**settings.kinds(), **{name: controls.kind(name) for name in asks.OPTIONS}, **how}
 
 
-def _asked(place: Path, flags: dict[str, Any], found: references.ModelReference) -> asking.Asked:
-    """The flags as `niwaki grow` has them."""
+def _searched(
+    place: Path, found: references.ModelReference, flags: Mapping[str, Any], given: Mapping[str, Any]
+) -> Search:
+    """The search of flags, as `niwaki grow` has them, and arguments."""
     own = dict(flags)
     for name in FILES:
         value = own.get(name)
         if isinstance(value, str):
             own[name] = _beside(place, value)
         elif value is not None:
-            own[name] = tuple(_beside(place, one) for one in value)
-    draws = found.entry is not None and found.entry.draws is not None
-    chosen = {one.name: own.pop(one.name) for one in fields(controls.Controls) if one.name in own}
-    asked = {one.name: own.pop(one.name) for one in fields(asking.Asked) if one.name in own}
-    return asking.Asked(controls.Controls(**chosen, draws=draws), seed=0, **asked, given=own)
+            own[name] = [_beside(place, one) for one in value]
+    wish = {name: own.pop(name) for name in asks.OPTIONS if name in own}
+    how = asking.How(seed=0, **{one.name: own.pop(one.name) for one in fields(asking.How) if one.name in own})
+    return asking.searched(found, controls.asked(wish, found), how, own, given)
 
 
 def _beside(place: Path, name: str) -> str:

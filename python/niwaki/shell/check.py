@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from niwaki import lang, shell
+from niwaki import lang, shell, targets
 from niwaki.errors import InputError, ModelError
 from niwaki.shell import arguments, controls, trying
 from niwaki.shell.app import ModelName, app
@@ -28,7 +28,7 @@ def check(
     ] = None,
     target: Annotated[
         str | None,
-        typer.Option("--target", metavar="FILE", help="With --try: the mesh to fill; default: the model's."),
+        typer.Option("--target", metavar="FILE", help="A mesh to fill, with --try. Default: the model's."),
     ] = None,
 ) -> None:
     """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
@@ -66,11 +66,10 @@ def check(
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
     if other is not None:
-        aim = controls.Controls(target).aim(found)
-        if aim is None:
+        score = targets.asks.score(controls.asked({"target": target}, found))
+        if score.target is None:
             raise InputError("no-target", name=found.reference)
-        voxel = found.entry.voxel if found.entry is not None and target is None else None
-        print(trying.tried(found, shell.references.find(other), aim, voxel))
+        print(trying.tried(found, shell.references.find(other), score))
         return
     if target is not None:
         reason = "it is what both versions are grown into"

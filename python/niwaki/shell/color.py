@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated
 
@@ -11,9 +12,10 @@ import typer
 from niwaki import color as coloring
 from niwaki import methods, search
 from niwaki.draw.limits import LARGEST
+from niwaki.errors.files import write_whole
 from niwaki.errors.settings import count as whole
 from niwaki.shell import folders
-from niwaki.shell.app import Folder, app, counted
+from niwaki.shell.app import Runs, Seed, Threads, app, counted
 from niwaki.shell.progress import coloring_line
 
 
@@ -30,37 +32,50 @@ def color(
     rules: Annotated[
         str | None, typer.Option("--rules", metavar="FILE", help="Rules for the regions, a TOML file.")
     ] = None,
-    count: Annotated[int, typer.Option("-n", "--count", help="How many colourings.")] = 12,
-    output: Folder = None,
+    runs: Runs = 12,
+    output: folders.Output = None,
     force: folders.Force = False,
-    size: Annotated[int, typer.Option("--size", help="Pixels of the longer side of each PNG.")] = 1024,
-    measure: Annotated[
-        int, typer.Option("--measure", help="Pixels of the longer side at which an SVG is measured.")
+    side: Annotated[
+        int, typer.Option("--side", metavar="N", help="Pixels of the longer side of each PNG.")
+    ] = 1024,
+    pixels: Annotated[
+        int, typer.Option("--pixels", metavar="N", help="Longer side of a drawing when it is measured.")
     ] = 512,
-    weight: Annotated[float, typer.Option("--weight", help="Strictness; larger is stricter.")] = 100.0,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is printed.")] = None,
-    threads: Annotated[
-        int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
-    ] = None,
+    strictness: Annotated[
+        float, typer.Option("--strictness", metavar="NUMBER", help="Of the rules; larger is stricter.")
+    ] = 100.0,
+    seed: Seed = None,
+    threads: Threads = None,
 ) -> None:
     """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
-    methods.at_least_one("--count", count)
-    for flag, value in (("--size", size), ("--measure", measure)):
+    methods.at_least_one("--runs", runs)
+    for flag, value in (("--side", side), ("--pixels", pixels)):
         whole(flag, value, most=LARGEST)
     seed = search.fresh(seed)
-    read = coloring.Drawing.load(drawing, measure)
+    read = coloring.Drawing.load(drawing, pixels)
     asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
     _before(read, asked)
+    kinds = ("png", "json", "csv") if read.artwork is None else ("svg", "png", "json", "csv")
+    alone = folders.one_file(output, kinds, force)
     start = time.perf_counter()
-    with folders.own_folder(output, force) as folder:
+    with folders.own_folder(output, force) if alone is None else nullcontext() as folder:
         with coloring_line(Path(drawing).name) as progress:
             found = coloring.color(
-                read, asked, count, weight=weight, seed=seed, threads=threads, progress=progress
+                read, asked, runs, strictness=strictness, seed=seed, threads=threads, progress=progress
             )
         seconds = time.perf_counter() - start
-        written = coloring.files.write(found, folder, size)
+        if folder is not None:
+            written = coloring.files.write(found, folder, side)
     _summary(found, seconds, seed)
-    print(f"{len(written)} files in {folder}, sheet.png first of all")
+    if alone is None:
+        print(f"{len(written)} files in {folder}, sheet.png first of all")
+        return
+    made = coloring.files.contents(found, side)
+    # Of one colouring the sheet is a picture with a number.
+    first = next(
+        name for name in made if name.endswith(alone.suffix.lower()) and (runs > 1 or name != "sheet.png")
+    )
+    print(write_whole(alone, made[first]()))
 
 
 def _before(drawing: coloring.Drawing, rules: coloring.Rules) -> None:

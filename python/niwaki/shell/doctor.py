@@ -13,7 +13,7 @@ from niwaki.shell.app import app
 
 @app.command()
 def doctor(
-    as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Report versions, the machine and the extras, and try the core; exit 1 when the core does not work."""
     found = checkup.doctor()

@@ -15,12 +15,12 @@ import typer
 import niwaki as nw
 from niwaki import guides, search, shell, targets
 from niwaki.errors import InputError
-from niwaki.errors.files import check_place, ensure_folder
+from niwaki.errors.files import check_place
 from niwaki.guides.report import sentence
 from niwaki.methods import Guide
 from niwaki.search.checkpoint import begun_seed
-from niwaki.shell import controls, settings
-from niwaki.shell.app import ModelName, app
+from niwaki.shell import controls, folders, settings
+from niwaki.shell.app import ModelName, Seed, Threads, app
 from niwaki.shell.progress import said
 
 group = typer.Typer(
@@ -31,10 +31,11 @@ group = typer.Typer(
 app.add_typer(group, name="guide")
 
 #: The last line of a training that was stopped.
-INTERRUPTED = "interrupted; go on with the same command and --resume"
+INTERRUPTED = "interrupted; go on with the same command, and --resume {} in place of -o"
 
 
 @group.command()
+@settings.with_settings
 def train(
     model: ModelName,
     places: Annotated[
@@ -45,11 +46,12 @@ def train(
             help="A folder of drawings or of meshes; or a collection of our drawings, such as scribbles.",
         ),
     ],
-    output: Annotated[Path, typer.Option("-o", "--out", metavar="FILE", help="The guide's file.")],
-    rounds: Annotated[
+    output: Annotated[str | None, folders.output("MODEL.guide")] = None,
+    force: folders.Force = False,
+    searches: Annotated[
         str | None,
         typer.Option(
-            "--rounds", metavar="LIST", help="Searches of each round, with commas. Default: 150,400."
+            "--searches", metavar="LIST", help="How many for each round, with commas. Default: 150,400."
         ),
     ] = None,
     objective: Annotated[
@@ -64,47 +66,52 @@ def train(
         str | None, typer.Option("--start", metavar="FILE", help="A guide to go on with.")
     ] = None,
     resume: Annotated[
-        bool,
+        Path | None,
         typer.Option(
-            "--resume", help="Go on with a training of the same command that was stopped or killed."
+            "--resume",
+            metavar="PATH",
+            help="Go on with what was stopped or killed: the training of this file, in place of -o.",
         ),
-    ] = False,
+    ] = None,
     mirror: Annotated[
         bool, typer.Option("--mirror/--no-mirror", help="Learn from mirrored drawings, too.")
     ] = True,
-    look_ahead: Annotated[
+    searches_ahead: Annotated[
         int | None,
         typer.Option(
-            "--look-ahead",
-            metavar="SEARCHES",
+            "--searches-ahead",
+            metavar="N",
             help="Then teach it to look ahead, by so many searches, such as 2000.",
         ),
     ] = None,
-    window: controls.Window = None,
-    pixels: controls.Pixels = None,
-    voxel: controls.Voxel = None,
-    seed: Annotated[
-        int | None, typer.Option(help="Default: a new one, which the guide's report keeps.")
-    ] = None,
-    threads: Annotated[
-        int | None, typer.Option(help="Default: all cores. The guide does not depend on it.")
-    ] = None,
+    *,
+    asked: Annotated[dict[str, Any], controls.flags("window", "pixels", "voxel")],
+    seed: Seed = None,
+    threads: Threads = None,
 ) -> None:
     """Train a guide for MODEL: rounds of searches, each of which learns from the best runs of the last."""
     found = shell.references.find(model)
-    counts = None if rounds is None else settings.numbers("rounds", rounds, int)
+    counts = None if searches is None else settings.numbers("searches", searches, int)
     training = guides.Training() if objective == "examples" else guides.Training.bound(objective=objective)
-    ensure_folder(output.parent)
-    place = check_place(check_place(output).with_name(f"{output.name}.checkpoint"))
-    if resume and not place.is_file():
+    if resume is not None and (output is not None or force):
+        raise InputError(
+            "flags-exclude",
+            flag="--resume",
+            other="-o" if output is not None else "--force",
+            reason="the training goes on in its own file",
+            cure="give only one of them",
+        )
+    file = resume or folders.own_file(output, f"{found.model.name}.guide", ("guide",), force)
+    place = check_place(file.with_name(f"{file.name}.checkpoint"))
+    if resume is None:
+        folders.taken([place], force)
+        place.unlink(missing_ok=True)
+    elif not place.is_file():
         raise InputError("no-checkpoint", path=place)
-    if not resume and place.exists():
-        place.unlink()
-        print(f"warning: {place}, of a training that did not end, is replaced", file=sys.stderr)
     seed = search.fresh(begun_seed(seed, place))
-    goals = _goals(found, places, window, pixels, voxel, mirror)
+    goals = _goals(found, places, controls.read(asked), mirror)
     began = time.perf_counter()
-    with _shown(found.reference) as progress, _told(place):
+    with _shown(found.reference) as progress, _told(place, file):
         guide = nw.train_guide(
             found.model,
             goals.learned,
@@ -119,7 +126,7 @@ def train(
             progress=progress,
             checkpoint=place,
         )
-    if look_ahead is not None and not guide.report.get("interrupted"):
+    if searches_ahead is not None and not guide.report.get("interrupted"):
         guide = guides.train_look_ahead(
             guide,
             found.model,
@@ -127,28 +134,28 @@ def train(
             goals.score,
             goals.args,
             held_out=goals.held_out,
-            searches=look_ahead,
+            searches=searches_ahead,
             seed=seed,
             threads=threads,
         )
-    guide.save(output)
+    guide.save(file)
     seconds = time.perf_counter() - began
-    print(f"{output}: {guide!r}, {len(guide.data) / 1000:.0f} kB, {seconds:.0f} s, seed {seed}")
+    print(f"{file}: {guide!r}, {len(guide.data) / 1000:.0f} kB, {seconds:.0f} s, seed {seed}")
     if any(one.get("interrupted") for one in (guide.report, guide.report.get("look_ahead", {}))):
-        print(INTERRUPTED)
+        print(INTERRUPTED.format(file))
         raise typer.Exit(130)
     place.unlink(missing_ok=True)
 
 
 @contextmanager
-def _told(checkpoint: Path) -> Iterator[None]:
+def _told(checkpoint: Path, file: Path) -> Iterator[None]:
     """Where Ctrl-C comes before there is a guide, the last line says how to go on."""
     try:
         yield
     except KeyboardInterrupt:
         if not checkpoint.exists():
             raise
-        print(INTERRUPTED, file=sys.stderr)
+        print(INTERRUPTED.format(file), file=sys.stderr)
         raise typer.Exit(130) from None
 
 
@@ -174,29 +181,25 @@ class _Goals:
 def _goals(
     found: shell.references.ModelReference,
     places: str,
-    window: str | None,
-    pixels: int | None,
-    voxel: float | None,
+    asked: dict[str, Any],
     mirror: bool,
 ) -> _Goals:
     """The targets of a folder or a collection; each eighth judges."""
-    draws = window is not None or (found.entry is not None and found.entry.window is not None)
-    if draws:
-        page = controls.Controls(match_image=places, window=window, draws=True).page(found)
-        drawings = _drawings(places, pixels or controls.PIXELS)
+    page = asked["window"] or (None if found.entry is None else found.entry.window)
+    if page is not None:
+        drawings = _drawings(places, asked["pixels"] or targets.drawings.SIDE)
         learned = [one for i, one in enumerate(drawings) if i % guides.EVERY]
         if mirror:
             learned += [one.mirrored() for one in learned]
-        follows = controls.follows(found.model)
         return _Goals(
             learned,
             drawings[:: guides.EVERY],
             lambda one: one.score(page),
-            (lambda one: one.place(page)) if follows else None,
+            (lambda one: one.place(page)) if found.follows else None,
         )
     files = _files(places, targets.reading.FORMATS)
     meshes = [nw.Target.load(file) for file in files]
-    size = voxel if voxel is not None or found.entry is None else found.entry.voxel
+    size = asked["voxel"] if asked["voxel"] is not None or found.entry is None else found.entry.voxel
     return _Goals(
         [one for i, one in enumerate(meshes) if i % guides.EVERY],
         meshes[:: guides.EVERY],

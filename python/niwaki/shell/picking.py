@@ -22,7 +22,7 @@ Export = Annotated[
     ),
 ]
 RunNumber = Annotated[
-    int | None, typer.Option("--run", metavar="N", help="Which of its results, #N; default: the best.")
+    int | None, typer.Option("--run", metavar="N", help="Which result, #N. Default: the best.")
 ]
 
 

@@ -19,6 +19,9 @@ Quick = Annotated[
         "--quick", help="Small pictures with one ray for each pixel, in some hundredths of a second."
     ),
 ]
+Wanted = Annotated[
+    bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
+]
 
 #: A draft: pixels of the best, of a cell of the sheet, and of a panel's height.
 DRAFT, CELL, PANEL = (320, 240), (240, 180), 180
@@ -57,8 +60,8 @@ def impossible(search: nw.Search, folder: Path, quick: bool) -> str:
 class Pictures:
     """Which pictures to draw, and whether as drafts."""
 
-    wanted: bool = True
-    quick: bool = False
+    wanted: Wanted = True
+    quick: Quick = False
 
     def names(self, result: nw.Result, style: str | None) -> list[str]:
         """The names of the files; one result has no sheet."""
@@ -72,7 +75,7 @@ class Pictures:
         names = self.names(result, style)
         if not names:
             return
-        self.best(result.best, folder, style)
+        self.best(result.best, folder / "best.png", style)
         styled: dict[str, Any] = {} if style is None else {"style": style}
         draft: dict[str, Any] = {"samples": 1} if self.quick else {}
         if "sheet.png" in names:
@@ -85,9 +88,9 @@ class Pictures:
             place = folder / f"{view.kind}.png"
             targets.views.save_view(place, result.best.scene, view, **styled, **draft, **high)
 
-    def best(self, sample: nw.Sample, folder: Path, style: str | None) -> Path:
-        """Draw best.png alone."""
+    def best(self, sample: nw.Sample, place: Path, style: str | None) -> Path:
+        """Draw one run."""
         settings: dict[str, Any] = {} if style is None else {"style": style, "size": (800, 800)}
         if self.quick:
             settings |= {"samples": 1, "size": DRAFT if style is None else (DRAFT[1], DRAFT[1])}
-        return sample.save(folder / "best.png", **settings)
+        return sample.save(place, **settings)

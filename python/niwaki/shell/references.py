@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -12,6 +13,8 @@ from niwaki.errors import InputError
 from niwaki.gallery import Entry, entries, entry
 from niwaki.inputs.modules import run_file
 from niwaki.lang.models import Model
+from niwaki.targets import asks
+from niwaki.targets.sketches import Ask
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,26 @@ class ModelReference:
     model: Model[..., Any]
     entry: Entry | None = None
     file_hash: str | None = None
+
+    def asked(self, options: Mapping[str, Any]) -> list[Ask]:
+        """What is asked by options (`niwaki.targets.asks`), or is usual where they match nothing."""
+        if self.entry is None:
+            return asks.asked(options, name=self.reference)
+        return asks.asked(options, self.entry.asks, self.entry.window, self.reference)
+
+    @property
+    def style(self) -> str | None:
+        """The style of its drawings; None for models in space."""
+        return None if self.entry is None else self.entry.draws
+
+    @property
+    def follows(self) -> bool:
+        """Whether the model starts where a drawing does: its parameters are x, y and ahead."""
+        return set(self.model.core().parameters) >= {"x", "y", "ahead"}
+
+    def start(self, asked: Iterable[Ask]) -> dict[str, Any]:
+        """The arguments of a model that follows a drawing; none of another model."""
+        return asks.start(asked) if self.follows else {}
 
 
 def find(reference: str) -> ModelReference:

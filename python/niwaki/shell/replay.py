@@ -9,13 +9,13 @@ import typer
 
 from niwaki import shell
 from niwaki.errors import InputError
-from niwaki.errors.folders import held_folder
 from niwaki.result import Result, Sample
-from niwaki.shell import folders, picking, pictures, writing
-from niwaki.shell.app import Folder, app
+from niwaki.shell import folders, picking, pictures, settings, writing
+from niwaki.shell.app import app
 
 
 @app.command()
+@settings.with_settings
 def replay(
     run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="The file that `niwaki grow` wrote.")],
     number: picking.RunNumber = None,
@@ -29,7 +29,7 @@ def replay(
         bool,
         typer.Option(
             "--trust",
-            help="Run the Python file that RUN.JSON names, where it is unchanged: for models with host functions.",
+            help="Run the Python files that results name, where unchanged: for models with host functions.",
         ),
     ] = False,
     anyway: Annotated[
@@ -39,16 +39,11 @@ def replay(
             help="Run the model's file as it is now: keep the choices that still fit, say which do not, draw new ones.",
         ),
     ] = False,
-    output: Folder = None,
+    *,
+    output: folders.Output = None,
     force: folders.Force = False,
-    formats: writing.Formats = None,
-    scale: writing.Scale = None,
-    fuse: writing.Fuse = None,
-    frames: writing.Frames = None,
-    size: writing.Size = None,
-    export: picking.Export = None,
-    picture: Annotated[bool, typer.Option("--picture/--no-picture", help="Draw best.png.")] = True,
-    quick: pictures.Quick = False,
+    flags: writing.Flags,
+    drawn: pictures.Pictures,
 ) -> None:
     """Write the best result of a search again, byte for byte, in any format.
 
@@ -56,14 +51,14 @@ def replay(
     """
     data = shell.run_files.load(run)
     place, count = picking.place(number, len(data["runs"]), data["best"]), len(data["runs"])
-    drawn = pictures.Pictures(picture, quick)
+    alone = folders.one_file(output, writing.ALONE, force, **flags.of_folders)
 
     def files(sample: Sample) -> writing.Files:
         style = shell.run_files.style(data, sample)
-        return writing.Files.of_flags(formats, scale, fuse, frames, size, style)
+        return writing.Files.of_flags(flags, style, alone)
 
     if anyway:
-        if export is not None:
+        if flags.export is not None:
             reason = "the other results are of the model as it was"
             raise InputError(
                 "flags-exclude",
@@ -76,18 +71,17 @@ def replay(
         print(changed)
         search = changed.sample.search
         data = shell.run_files.written(Result(search, [changed.sample], search.seed), changed.found)
-        with folders.own_folder(output, force) as folder:
-            _write(folder, data, changed.sample, {}, files(changed.sample), drawn)
-        return
-
-    with held_folder(output or Path(folders.USUAL)) as folder:
-        if not force:
-            shell.results.refuse_another(folder, data)
+        sample, others = changed.sample, {}
+    else:
         allowed = shell.trust.trusted(data, model, trust)
         sample = shell.run_files.replayed(data, place, allowed, run)
-        numbers = picking.exported(export, count)
+        numbers = picking.exported(flags.export, count)
         others = {one: shell.run_files.replayed(data, one - 1, allowed, run) for one in numbers}
         data["shown"] = place
+    if alone is not None:
+        print(shell.results.write_one(alone, data, sample, files(sample), drawn))
+        return
+    with folders.own_folder(output, force, lambda folder: shell.results.is_of(folder, data)) as folder:
         _write(folder, data, sample, others, files(sample), drawn)
 
 
@@ -108,5 +102,5 @@ def _write(
         for number, one in others.items():
             found += files.write(one, folder, number)
         if pictured:
-            found.append(drawn.best(sample, folder, files.style))
+            found.append(drawn.best(sample, folder / "best.png", files.style))
         print("\n".join(map(str, found)))

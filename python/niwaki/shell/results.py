@@ -22,9 +22,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from niwaki.errors import FileError, NiwakiError
+from niwaki.errors import NiwakiError
 from niwaki.errors.files import unreadable, unwritable, write_whole, written_beside
-from niwaki.shell import run_files, writing
+from niwaki.result import Sample
+from niwaki.shell import pictures, run_files, writing
 
 RUN = "run.json"
 
@@ -37,13 +38,15 @@ KNOWN = {
 }
 
 #: Files by which a folder of `niwaki color` or `niwaki letters` is known; they have no run.json.
-OTHERS = {"colors.json", "word.png", "word.svg"}
+OTHERS = {"colors.json", "residuals.csv", "word.png", "word.svg"}
 
 #: Those that show one run; the others show the search.
 OF_ONE_RUN = {name for name in KNOWN if name.startswith(("best.", "growth."))}
 
 #: Files of a run by its number: `run-3.glb`, `run-3.png`.
 _NUMBERED = re.compile(rf"run-[1-9][0-9]*\.({'|'.join((*writing.FORMATS, 'png'))})")
+#: Files of a colouring by its number: `01.svg`, `01.png`.
+_COLORED = re.compile(r"[0-9]{2,}\.(svg|png)")
 
 
 def is_known(name: str) -> bool:
@@ -51,13 +54,16 @@ def is_known(name: str) -> bool:
     return name in KNOWN or _NUMBERED.fullmatch(name) is not None
 
 
-def present(folder: Path) -> str:
-    """The names of results that are in a folder, for people; empty where it has none."""
+def present(folder: Path) -> list[Path]:
+    """The results that are in a folder, run.json first."""
     if not os.path.isdir(folder):
-        return ""
-    names = [place.name for place in folder.iterdir() if place.name in {RUN, *OTHERS} or is_known(place.name)]
-    first = sorted(names, key=lambda name: (name != RUN, name))
-    return ", ".join(first[:3]) + (f" and {len(first) - 3} more" if len(first) > 3 else "")
+        return []
+    there = [
+        place
+        for place in folder.iterdir()
+        if place.name in {RUN, *OTHERS} or is_known(place.name) or _COLORED.fullmatch(place.name)
+    ]
+    return sorted(there, key=lambda place: (place.name != RUN, place.name))
 
 
 @contextmanager
@@ -97,17 +103,19 @@ def written(folder: Path, data: dict[str, Any], names: Iterable[str]) -> Iterato
         write_whole(folder / RUN, _json({**data, "files": _hashed(folder, files)}))
 
 
-def refuse_another(folder: Path, data: dict[str, Any]) -> None:
-    """Refuse a folder that has the results of another search.
+def is_of(folder: Path, data: dict[str, Any]) -> bool:
+    """Whether a folder has the results of the search of a run.json."""
+    return _same_search(_former(folder), data)
 
-    Raises
-    ------
-    FileError
-        `folder-of-another-run`.
-    """
-    former = _former(folder)
-    if (folder / RUN).exists() and not _same_search(former, data):
-        raise FileError("folder-of-another-run", folder)
+
+def write_one(
+    place: Path, data: dict[str, Any], sample: Sample, files: writing.Files, drawn: pictures.Pictures
+) -> Path:
+    """Write one file that shows a run, by its suffix: its picture, what becomes run.json, or another format."""
+    kind = place.suffix[1:].lower()
+    if kind == "json":
+        return write_whole(place, _json(data))
+    return drawn.best(sample, place, files.style) if kind == "png" else files.write_one(sample, place)
 
 
 def _json(data: dict[str, Any]) -> bytes:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -20,6 +21,7 @@ from niwaki import Checkpoint, Result, Search, gallery
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted
 from niwaki.search.checkpoint import Stored, understood
+from niwaki.shell import arguments, references
 from niwaki.shell.references import ModelReference
 
 #: The checkpoint's name in the folder.
@@ -32,14 +34,26 @@ Resume = Annotated[
     Path | None,
     typer.Option(
         "--resume",
-        metavar="DIR",
-        help="Go on with the search in this folder that was stopped or killed; in place of MODEL and its flags.",
+        metavar="PATH",
+        help="Go on with what was stopped or killed: the search in this folder, in place of MODEL and its flags.",
     ),
 ]
 Model = Annotated[
     str | None,
-    typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function.", show_default=False),
+    typer.Argument(
+        metavar="MODEL", help="A gallery name, or file.py:function; the file is run.", show_default=False
+    ),
 ]
+
+
+@dataclass(frozen=True)
+class What:
+    """What a command searches: a model with its arguments, or the search that goes on."""
+
+    model: Model = None
+    values: arguments.Arguments = None
+    preset: arguments.Preset = None
+    resume: Resume = None
 
 
 #: The flags about files, as a command has them.
@@ -62,11 +76,12 @@ class Note(Struct):
     search: dict[str, Any]
 
 
-def required(context: typer.Context, model: str | None) -> str:
-    """The model's name, which is there unless a search is resumed."""
-    if model is None:
+def model_of(context: typer.Context, what: What) -> tuple[ModelReference, dict[str, Any]]:
+    """The model, which is named unless a search is resumed, and the arguments that are given."""
+    if what.model is None:
         context.fail("Missing argument 'MODEL'.")
-    return model
+    found = references.find(what.model)
+    return found, arguments.read(found.model, what.values, what.preset)
 
 
 def begun(folder: Path, command: str, found: ModelReference, **flags: Any) -> Checkpoint:

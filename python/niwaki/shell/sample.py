@@ -6,96 +6,85 @@ import csv
 import io
 import json
 import sys
-from contextlib import nullcontext
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 import niwaki as nw
-from niwaki import kernels, shell
+from niwaki import kernels, shell, targets
 from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
 from niwaki.methods import Mh
-from niwaki.shell import arguments, folders, pictures, resuming, settings
-from niwaki.shell.app import Folder, Megabytes, app
+from niwaki.shell import arguments, controls, folders, pictures, resuming, settings, writing
+from niwaki.shell.app import Megabytes, Seed, Threads, app
 from niwaki.shell.progress import sampling_line
+
+#: What can be written alone.
+ALONE = ("csv", "json", "glb", "png")
 
 
 @app.command()
-@settings.with_settings(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()")
+@settings.with_settings
 def sample(
     context: typer.Context,
-    model: resuming.Model = None,
-    values: arguments.Arguments = None,
-    preset: arguments.Preset = None,
-    target: Annotated[
-        str | None,
-        typer.Option(
-            "--target",
-            metavar="FILE",
-            help="A mesh to fill, or `gallery:` and a target's name; without self-intersection.",
-        ),
-    ] = None,
-    voxel: Annotated[float | None, typer.Option(metavar="SIZE", help="Cell size for the target.")] = None,
-    sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
-    seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
-    threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
+    what: resuming.What,
+    wish: Annotated[dict[str, Any], controls.flags("target", "voxel", "sigma")],
+    seed: Seed = None,
+    threads: Threads = None,
     max_memory: Megabytes = 1024,
-    resume: resuming.Resume = None,
-    output: Folder = None,
-    force: folders.Force = False,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the numbers as JSON; files are written only with -o.")
-    ] = False,
-    picture: Annotated[
-        bool, typer.Option("--picture/--no-picture", help="Draw best.png and sheet.png.")
-    ] = True,
-    quick: pictures.Quick = False,
-    **given: Any,
+    *,
+    out: folders.Out,
+    drawn: pictures.Pictures,
+    given: Annotated[
+        dict[str, Any],
+        settings.of_methods(Mh, chains="4", warmup="a fifth of all", keep="100", kernel="prior()"),
+    ],
 ) -> None:
     """Sample MODEL by Markov chains; writes samples.csv and run.json, and best.glb, best.png, sheet.png for scenes."""
-    if resume is not None:
-        search_left, found, drawn, checkpoint = resuming.left(
-            context,
-            resume,
-            "sample",
-            lambda flags: pictures.Pictures(fitted(flags["picture"], bool), fitted(flags["quick"], bool)),
+    if what.resume is not None:
+        search, found, drawn, kept = resuming.left(
+            context, what.resume, "sample", lambda flags: fitted(flags, pictures.Pictures)
         )
-        left = search_left.method
-        proposals = left.steps * left.chains if isinstance(left, Mh) else 0
-        with held_folder(resume) as folder:
-            with sampling_line(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
-                result = search_left.run(threads=threads, progress=progress, checkpoint=checkpoint)
-            _end(result, found, folder, drawn, as_json, checkpoint)
+        with held_folder(what.resume) as folder:
+            result = _searched(search, found, threads, kept)
+            _end(result, found, folder, drawn, out, kept)
         return
-    found = shell.references.find(resuming.required(context, model))
-    own = arguments.read(found.model, values, preset)
-    score = nw.Score()
-    if target is not None:
-        score = nw.no_self_intersection() * nw.match_volume(nw.Target.find(target), voxel, sigma)
+    found, own = resuming.model_of(context, what)
+    asks = found.asked(wish) if wish["target"] is not None else []
     given = settings.typed(given)
     steps = given.get("steps", Mh.steps)
     method = Mh(**{"kernel": kernels.prior(), "chains": 4, "warmup": steps // 5, "keep": 100, **given})
-    proposals = method.steps * method.chains
-    writes = output is not None or not as_json
-    with folders.own_folder(output, force) if writes else nullcontext() as folder:
-        kept = None
+    alone = out.alone(ALONE)
+    with out.folder(alone) as folder:
+        checkpoint: nw.Checkpoint | None = None
         if folder is not None:
-            kept = resuming.begun(folder, "sample", found, picture=picture, quick=quick)
+            checkpoint = resuming.begun(folder, "sample", found, **asdict(drawn))
         search = nw.Search(
             found.model,
             tuple(arguments.bound(found.model, own)),
-            score=score,
+            score=targets.asks.score(asks),
             method=method,
             seed=nw.search.fresh(seed),
             max_memory=max_memory << 20,
         )
-        with sampling_line(found.reference, proposals) as progress, resuming.told(kept, "sample"):
-            result = search.run(threads=threads, progress=progress, checkpoint=kept)
-        _end(result, found, folder, pictures.Pictures(picture, quick), as_json, kept)
+        result = _searched(search, found, threads, checkpoint)
+        _end(result, found, folder, drawn, out, checkpoint, alone)
+
+
+def _searched(
+    search: nw.Search,
+    found: shell.references.ModelReference,
+    threads: int | None,
+    checkpoint: nw.Checkpoint | None,
+) -> nw.Result:
+    """Carry it out, with a line about its progress."""
+    proposals = search.method.steps * search.method.chains if isinstance(search.method, Mh) else 0
+    with sampling_line(found.reference, proposals) as progress, resuming.told(checkpoint, "sample"):
+        return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 def _end(
@@ -103,21 +92,41 @@ def _end(
     found: shell.references.ModelReference,
     folder: Path | None,
     drawn: pictures.Pictures,
-    as_json: bool,
+    out: folders.Out,
     checkpoint: nw.Checkpoint | None,
+    alone: Path | None = None,
 ) -> None:
-    """Write the files, where there is a folder for them, and say what was found."""
-    if folder is not None:
+    """Write the files, where there is a folder for them, or the one `alone`, and say what was found."""
+    if alone is not None:
+        _write_one(alone, result, found, drawn)
+    elif folder is not None:
         with resuming.ended(result, checkpoint):
             _write(folder, result, found, drawn)
-    if as_json:
+    if out.as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(one) for one in result.bests]}))
-    elif folder is not None:
-        _summary(result, folder)
+    elif place := alone or folder:
+        _summary(result, place)
     if result.interrupted:
         if folder is not None:
-            print(resuming.interrupted(folder, "sample"), file=sys.stderr if as_json else sys.stdout)
+            print(resuming.interrupted(folder, "sample"), file=out.stream)
         raise typer.Exit(130)
+
+
+def _write_one(
+    place: Path, result: nw.Result, found: shell.references.ModelReference, drawn: pictures.Pictures
+) -> None:
+    """Write one file, by its suffix: the table, or what shows the best."""
+    if place.suffix.lower() == ".csv":
+        write_whole(place, _table(result).encode())
+        return
+    bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
+    files = writing.Files(style=_style(result))
+    shell.results.write_one(place, shell.run_files.written(bests, found), bests.best, files, drawn)
+
+
+def _style(result: nw.Result) -> str | None:
+    """The style of its pictures: ink, of a drawing."""
+    return None if result.score.window is None else "ink"
 
 
 def _write(
@@ -126,7 +135,7 @@ def _write(
     # The best of each chain is what can be replayed.
     bests = nw.Result(result.search, result.bests, result.seed, interrupted=result.interrupted)
     best = bests.best
-    style = "ink" if result.score.window is not None else None
+    style = _style(result)
     names = ["samples.csv", *(["best.glb", *drawn.names(bests, style)] if best.primitives else [])]
     with shell.results.written(folder, shell.run_files.written(bests, found), names):
         write_whole(folder / "samples.csv", _table(result).encode())
@@ -157,7 +166,7 @@ def _plain(value: Any) -> Any:
     return finite.scalar(value) if isinstance(value, float) else value
 
 
-def _summary(result: nw.Result, folder: Path) -> None:
+def _summary(result: nw.Result, place: Path) -> None:
     print(f"{'site':<40}{'proposals':>12}{'accepted':>10}")
     for name, row in list(result.acceptance.items())[:12]:
         print(f"{name:<40}{row.proposed:>12}{row.rate:>10.2f}")
@@ -169,4 +178,4 @@ def _summary(result: nw.Result, folder: Path) -> None:
         print(f"{'blocks and regenerated calls':<40}{counters['many_proposed']:>12}{share:>10.2f}")
     rate = counters["proposals"] / max(result.cpu_seconds, 1e-9)
     print(f"{counters['proposals']} proposals, {rate:,.0f} a second of processor time; seed {result.seed}")
-    print(f"best: log score {result.best.log_score:.2f}; {len(result)} samples; files in {folder}")
+    print(f"best: log score {result.best.log_score:.2f}; {len(result)} samples; {folders.said(place)}")

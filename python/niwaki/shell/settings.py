@@ -8,8 +8,8 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields, replace
-from functools import cache
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache, wraps
 from typing import Annotated, Any, get_type_hints
 
 import typer
@@ -33,7 +33,7 @@ MethodName = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help=f"{', '.join(METHODS)}. Default: improve, or smc where a setting is given that improve lacks, or -n.",
+        help=f"{', '.join(METHODS)}. Default: improve, or smc with --particles or a setting that improve lacks.",
     ),
 ]
 Polish = Annotated[
@@ -60,36 +60,67 @@ GuideFile = Annotated[
     ),
 ]
 
-#: Short names.
-_SHORT = {"particles": "-n"}
 #: Settings that hold a function, which cannot be typed.
 _FUNCTIONS = ("proposal",)
+#: What stands for a value in the help, where its type does not say it.
+_METAVARS = {
+    **dict.fromkeys(("particles", "powers", "anneal"), "LIST"),
+    **dict.fromkeys(("kernel", "rejuvenate"), "KERNEL"),
+    "seconds": "SECONDS",
+}
 #: Kinds of values that are typed as they are; everything else is typed as text and read by `_read`.
 _PLAIN = (int, float, str, bool)
 
 
-def with_settings(
-    *methods: type[Method], **usual: str
-) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command an option for each setting of these methods, in place of its `**settings`.
+@dataclass(frozen=True)
+class Flags:
+    """Flags that a parameter of a command gathers, by name: `given: Annotated[dict[str, Any], Flags(...)]`."""
 
-    A flag that was not given is None. `usual` has the command's own defaults, where they differ from the method's.
+    parameters: tuple[inspect.Parameter, ...]
+
+
+def of_methods(*methods: type[Method], **usual: str) -> Flags:
+    """A flag for each setting of these methods; one that was not given is None.
+
+    `usual` has the command's own defaults, where they differ from the method's.
     """
+    return Flags(tuple(_option(name, methods, usual.get(name)) for name in _names(methods)))
 
-    def decorated(command: Callable[..., None]) -> Callable[..., None]:
-        hints = get_type_hints(command, include_extras=True)
-        own = [
-            one for one in inspect.signature(command).parameters.values() if one.kind is not one.VAR_KEYWORD
-        ]
-        plain = [one.replace(annotation=hints[one.name]) for one in own]
-        taken = {one.name for one in plain}
-        more = [_option(name, methods, usual.get(name)) for name in _names(methods) if name not in taken]
-        keyword = [one.replace(kind=one.KEYWORD_ONLY) for one in more]
-        command.__signature__ = inspect.Signature([*plain, *keyword])  # type: ignore[attr-defined]
-        command.__annotations__ = {one.name: one.annotation for one in (*plain, *keyword)}
-        return command
 
-    return decorated
+def with_settings(command: Callable[..., None]) -> Callable[..., None]:
+    """Give a command the flags of its parameters that are groups: `Flags`, or dataclasses whose fields are flags.
+
+    A flag of `Flags` that an earlier parameter has is left out.
+    """
+    hints = get_type_hints(command, include_extras=True)
+    flat: dict[str, inspect.Parameter] = {}
+    groups: dict[str, tuple[Any, list[str]]] = {}
+    for own in inspect.signature(command).parameters.values():
+        hint = hints[own.name]
+        gathered = next((one for one in getattr(hint, "__metadata__", ()) if isinstance(one, Flags)), None)
+        if gathered is not None:
+            more = [one for one in gathered.parameters if one.name not in flat]
+            groups[own.name] = dict, [one.name for one in more]
+        elif is_dataclass(hint):
+            kinds = get_type_hints(hint, include_extras=True)
+            more = [
+                own.replace(name=one.name, default=one.default, annotation=kinds[one.name])
+                for one in fields(hint)
+            ]
+            groups[own.name] = hint, [one.name for one in more]
+        else:
+            more = [own.replace(annotation=hint)]
+        flat |= {one.name: one.replace(kind=one.KEYWORD_ONLY) for one in more}
+
+    @wraps(command)
+    def gathering(**given: Any) -> None:
+        for name, (make, names) in groups.items():
+            given[name] = make(**{one: given.pop(one) for one in names})
+        command(**given)
+
+    gathering.__signature__ = inspect.Signature([*flat.values()])  # type: ignore[attr-defined]
+    gathering.__annotations__ = {one.name: one.annotation for one in flat.values()}
+    return gathering
 
 
 def _names(methods: tuple[type[Method], ...]) -> list[str]:
@@ -110,8 +141,11 @@ def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> 
     shown = shown or ("" if default is None or typed is bool else str(default))
     usual = f" Default: {shown}." if shown else ""
     flag = f"--{name.replace('_', '-')}"
-    names = [f"{flag}/--no-{name.replace('_', '-')}"] if typed is bool else [*_short(name), flag]
-    option = typer.Option(*names, help=f"{whose}{described(owners[0]).get(name, '')}{usual}")
+    if typed is bool:
+        flag += f"/--no-{name.replace('_', '-')}"
+    metavar = _METAVARS.get(name, {int: "N", float: "NUMBER", str: "NAME"}.get(typed))
+    text = f"{whose}{described(owners[0]).get(name, '')}{usual}"
+    option = typer.Option(flag, metavar=metavar, help=text)
     annotation = Annotated[typed | None, option]  # type: ignore[valid-type]
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
@@ -133,10 +167,6 @@ def _typed(name: str, methods: tuple[Any, ...]) -> Any:
 @cache
 def _hints(method: Any) -> dict[str, Any]:
     return get_type_hints(method)
-
-
-def _short(name: str) -> list[str]:
-    return [_SHORT[name]] if name in _SHORT else []
 
 
 @cache
@@ -190,7 +220,7 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
             flag = f"--{key.replace('_', '-')}"
             raise InputError("flag-alone", flag=flag, other=other, reason=reason)
     if "seconds" in options and chosen is Smc:
-        for key, flag in (("particles", "-n"), ("populations", "--populations")):
+        for key, flag in (("particles", "--particles"), ("populations", "--populations")):
             if key in options:
                 raise InputError(
                     "flags-exclude",

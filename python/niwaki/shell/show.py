@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
-from pathlib import Path
 from typing import Annotated, Any
-
-import typer
 
 import niwaki as nw
 from niwaki import draw, methods, search, shell
 from niwaki.draw.limits import PIXEL
+from niwaki.draw.picture import IMAGE_FORMATS
 from niwaki.errors import InputError
 from niwaki.errors.memory import check_room
 from niwaki.methods import Forward
-from niwaki.shell import arguments, controls
-from niwaki.shell.app import ModelName, app, counted
+from niwaki.shell import arguments, folders, pictures
+from niwaki.shell.app import ModelName, Runs, Seed, app, counted
 from niwaki.shell.clock import Clock
 
 #: So many runs are tried for each that is shown: the others break a constraint of the model.
@@ -29,25 +27,24 @@ CELL, SAMPLES = (320, 240), 4
 def show(
     model: ModelName,
     values: arguments.Arguments = None,
-    count: Annotated[int, typer.Option("-n", "--count", help="How many runs.")] = 6,
     preset: arguments.Preset = None,
-    seed: Annotated[int | None, typer.Option(help="Default: a fresh one, which is printed.")] = None,
-    output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="FILE", help="The picture: .png, .jpg or .webp.")
-    ] = Path("show.png"),
-    quick: Annotated[bool, typer.Option("--quick", help="One ray for each pixel, and smaller.")] = False,
+    runs: Runs = 6,
+    seed: Seed = None,
+    output: Annotated[str | None, folders.output("show.png")] = None,
+    force: folders.Force = False,
+    quick: pictures.Quick = False,
 ) -> None:
     """Draw runs of MODEL side by side, as they come, with no target: what the model makes."""
     clock = Clock()
     cell = (CELL[0] // 2, CELL[1] // 2) if quick else CELL
-    check_room("--count", methods.at_least_one("--count", count), cell[0] * cell[1] * PIXEL, "picture")
-    draw.picture.check_image(output)
+    check_room("--runs", methods.at_least_one("--runs", runs), cell[0] * cell[1] * PIXEL, "picture")
+    place = folders.own_file(output, "show.png", [one[1:] for one in IMAGE_FORMATS], force)
     with clock.part("compile"):
         found = shell.references.find(model)
         given = {**_begin(found), **arguments.read(found.model, values, preset)}
         found.model.program()
     with clock.part("runs"):
-        result = _runs(found.model, given, count, search.fresh(seed))
+        result = _runs(found.model, given, runs, search.fresh(seed))
     for number, one in enumerate(result, 1):
         made = counted(one.primitives, "primitive") if one.primitives else f"{one.value!r}"
         print(f"#{number}   seed {one.seed}   {made}")
@@ -60,20 +57,13 @@ def show(
         shown = [(number, one) for number, one in enumerate(result, 1) if one.primitives]
         captions = [f"#{number}   seed {one.seed}" for number, one in shown]
         scenes = [one.scene for _, one in shown]
-        draw.picture.save_image(lambda: draw.sheet.sheet(scenes, captions, **sheet), output)
-    print(f"{output}   {clock}")
+        draw.picture.save_image(lambda: draw.sheet.sheet(scenes, captions, **sheet), place)
+    print(f"{place}   {clock}")
 
 
 def _begin(found: shell.references.ModelReference) -> dict[str, Any]:
     """Where a model of the gallery begins that follows a drawing: where its own drawing does."""
-    entry = found.entry
-    if entry is None or entry.drawing_name is None or entry.window is None:
-        return {}
-    if not controls.follows(found.model):
-        return {}
-    drawing = controls.Controls(draws=True).drawing(found)
-    assert drawing is not None
-    return dict(zip(("x", "y", "ahead"), drawing.place(entry.window), strict=True))
+    return {} if found.entry is None or found.entry.drawing_name is None else found.start(found.entry.asks)
 
 
 def _runs(model: nw.Model[..., Any], given: dict[str, Any], count: int, seed: int) -> nw.Result:

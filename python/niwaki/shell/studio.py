@@ -18,14 +18,14 @@ def studio(
         typer.Argument(metavar="[MODEL.PY]...", help="Files of models; the gallery is there, too."),
     ] = None,
     session: Annotated[
-        Path, typer.Option("--session", metavar="DIR", help="Where the session is stored, and goes on.")
+        Path, typer.Option("--session", metavar="FOLDER", help="Where the session is stored, and goes on.")
     ] = Path("studio-session"),
-    port: Annotated[int, typer.Option(help="Default: a free one.")] = 0,
+    port: Annotated[int, typer.Option("--port", metavar="N", help="Default: a free one.")] = 0,
     trust: Annotated[
         bool,
         typer.Option(
             "--trust",
-            help="Run files that the session's results name, where they have not changed, for their host functions.",
+            help="Run the Python files that results name, where unchanged: for models with host functions.",
         ),
     ] = False,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,

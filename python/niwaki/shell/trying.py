@@ -18,9 +18,9 @@ from niwaki.shell.references import ModelReference
 SEARCHES, NEARLY_ALL = 8, 7
 
 
-def tried(first: ModelReference, second: ModelReference, target: nw.Target, voxel: float | None) -> str:
+def tried(first: ModelReference, second: ModelReference, score: nw.Score) -> str:
     """A table of both models' searches, and which is better."""
-    scores: list[list[float]] = []
+    values: list[list[float]] = []
     lines = [f"{SEARCHES} searches of each, with the same seeds"]
     for found in (first, second):
         with said(f"trying {found.reference}", keeps=False) as show:
@@ -29,17 +29,17 @@ def tried(first: ModelReference, second: ModelReference, target: nw.Target, voxe
                 with warnings.catch_warnings():
                     # That a version is no good is what the table says.
                     warnings.simplefilter("ignore", SearchWarning)
-                    results.append(nw.grow(found.model, target, seed=seed, voxel=voxel).to_its_end())
+                    results.append(nw.grow(found.model, score=score, seed=seed).to_its_end())
                 show(f"search {seed + 1} of {SEARCHES}")
         best = [result.best.log_score for result in results]
         seconds = median(result.cpu_seconds for result in results)
-        scores.append(best)
+        values.append(best)
         low, high = min(best), max(best)
         lines.append(
             f"  {found.reference}: median {median(best):.1f} ({low:.1f} to {high:.1f}), {seconds:.2f} s"
         )
-    wins = sum(one > other for one, other in zip(*scores, strict=True))
-    losses = sum(one < other for one, other in zip(*scores, strict=True))
+    wins = sum(one > other for one, other in zip(*values, strict=True))
+    losses = sum(one < other for one, other in zip(*values, strict=True))
     better = first if wins >= NEARLY_ALL else second if losses >= NEARLY_ALL else None
     count = max(wins, losses)
     if better is None:

@@ -7,7 +7,7 @@ the search starts.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -18,31 +18,61 @@ import niwaki as nw
 from niwaki import draw
 from niwaki.errors import InputError, NiwakiError
 from niwaki.errors.schema import Unfit, fitted, shown
+from niwaki.shell import picking
 
 MESHES, SOLIDS, ANIMATIONS = ("glb", "obj", "ply"), ("stl", "3mf"), ("gif", "apng")
 DRAWINGS = ("svg",)
 FORMATS = (*MESHES, *SOLIDS, *ANIMATIONS, *DRAWINGS)
+#: What can be written alone: also a picture, and run.json.
+ALONE = (*FORMATS, "png", "json")
 
 Formats = Annotated[
     str | None,
     typer.Option(
         "--format",
         metavar="LIST",
-        help=f"Which files, with commas: {', '.join(FORMATS)}; default: glb, for drawings svg.",
+        help=f"Which files, with commas: {', '.join(FORMATS)}. Default: glb, for drawings svg.",
     ),
 ]
 Scale = Annotated[
     float | None,
-    typer.Option("--scale", metavar="MM", help="stl, 3mf: millimetres for a scene unit; default: 1000."),
+    typer.Option("--scale", metavar="MM", help="stl, 3mf: millimetres for a scene unit. Default: 1000."),
 ]
 Fuse = Annotated[
     float | None,
     typer.Option("--fuse", metavar="GAP", help="stl, 3mf: close gaps up to twice this, scene units."),
 ]
-Frames = Annotated[int | None, typer.Option("--frames", help="gif, apng: most frames; default: 48.")]
-Size = Annotated[
-    str | None, typer.Option("--size", metavar="WxH", help="gif, apng: pixels; default: 480x360.")
+Frames = Annotated[
+    int | None, typer.Option("--frames", metavar="N", help="gif, apng: most frames. Default: 48.")
 ]
+Size = Annotated[
+    str | None, typer.Option("--size", metavar="WxH", help="gif, apng: pixels. Default: 480x360.")
+]
+
+
+@dataclass(frozen=True)
+class Flags:
+    """The flags about files, as they are typed."""
+
+    formats: Formats = None
+    scale: Scale = None
+    fuse: Fuse = None
+    frames: Frames = None
+    size: Size = None
+    export: picking.Export = None
+
+    @property
+    def of_folders(self) -> dict[str, str | None]:
+        """Those that say which files a folder gets."""
+        return {"format": self.formats, "export": self.export}
+
+
+def listed(text: str, known: Iterable[str]) -> tuple[str, ...]:
+    """The formats of `--format`."""
+    chosen = tuple(dict.fromkeys(part.strip().lower().lstrip(".") for part in text.split(",")))
+    if not set(chosen) <= set(known):
+        raise _refused("--format", repr(text), f"formats among {', '.join(known)}", ",".join([*known][:2]))
+    return chosen
 
 
 @dataclass(frozen=True)
@@ -57,25 +87,17 @@ class Files:
     style: str | None = None
 
     @classmethod
-    def of_flags(
-        cls,
-        formats: str | None,
-        scale: float | None,
-        fuse: float | None,
-        frames: int | None,
-        size: str | None,
-        style: str | None = None,
-    ) -> Files:
+    def of_flags(cls, flags: Flags, style: str | None = None, alone: Path | None = None) -> Files:
         """The files that the flags select; a setting of any other format is an error.
 
-        The `style` is that of a drawing; None for a scene in space.
+        The `style` is that of a drawing; None for a scene in space. A file that is written alone has its format.
         """
+        formats, scale, fuse, frames = flags.formats, flags.scale, flags.fuse, flags.frames
+        if alone is not None and alone.suffix[1:].lower() in FORMATS:
+            formats = alone.suffix
         if formats is None:
             formats = "glb" if style is None else "svg"
-        chosen = tuple(dict.fromkeys(part.strip().lower().lstrip(".") for part in formats.split(",")))
-        unknown = [name for name in chosen if name not in FORMATS]
-        if unknown or not chosen:
-            raise _refused("--format", repr(formats), f"formats among {', '.join(FORMATS)}", "glb,stl")
+        chosen = listed(formats, FORMATS)
         if style is None and set(DRAWINGS) & set(chosen):
             raise _refused(
                 "--format", repr(formats), "no svg, which is for models that draw in the plane", "glb"
@@ -84,7 +106,7 @@ class Files:
             ("--scale", scale, SOLIDS),
             ("--fuse", fuse, SOLIDS),
             ("--frames", frames, ANIMATIONS),
-            ("--size", size, ANIMATIONS),
+            ("--size", flags.size, ANIMATIONS),
         ):
             if given is not None and not set(kinds) & set(chosen):
                 other = " or ".join(f"`{kind}`" for kind in kinds) + " in `--format`"
@@ -99,7 +121,7 @@ class Files:
             raise _refused("--frames", repr(frames), "a whole number from 1 to 10000", "48")
         if set(SOLIDS) & set(chosen):
             draw.solid.kernel()
-        return cls(chosen, scale, fuse, frames, _pixels(size), style)
+        return cls(chosen, scale, fuse, frames, _pixels(flags.size), style)
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any]) -> Files:
@@ -115,6 +137,10 @@ class Files:
         if unknown := [name for name in found.formats if name not in FORMATS]:
             raise Unfit("$.formats", f"formats among {', '.join(FORMATS)}", shown(unknown[0]))
         return found
+
+    def write_one(self, sample: nw.Sample, place: Path) -> Path:
+        """Write one file, of the format of its suffix."""
+        return self._written(sample, place, place.suffix[1:].lower())
 
     def names(self, number: int | None = None) -> list[str]:
         """The names of the files: of the best, or of the result of that number."""

@@ -12,7 +12,7 @@ from typing import Any
 import msgspec
 from msgspec import Struct
 
-from niwaki.studio.messages import Ask, Key, Outcome, Pin, Settings
+from niwaki.studio.messages import Ask, HeldPart, Key, Outcome, Settings
 
 
 class Document(Struct, kw_only=True):
@@ -28,7 +28,7 @@ class Document(Struct, kw_only=True):
         The gallery, in its order.
     picked
         The result that is shown and worked on.
-    pins
+    held
         Held parts, with the values that hold them.
     stars
         Marked results; they stay in the gallery when others come.
@@ -40,7 +40,7 @@ class Document(Struct, kw_only=True):
     settings: Settings = Settings()
     results: list[Outcome] = []
     picked: Key | None = None
-    pins: list[Pin] = []
+    held: list[HeldPart] = []
     stars: list[Key] = []
 
     def changed(self, changes: dict[str, Any]) -> Document:

@@ -179,6 +179,9 @@ class Journal:
                 raise Unfit("$.step", expected, f"step {step.step} after step {step.parent}")
             if _is_deep(step.changes, limit("depth")):
                 raise Unfit("$.changes", "at most a few tables in one another", "many")
+            if "pins" in step.changes:
+                # As sessions of the first format name it.
+                step.changes["held"] = step.changes.pop("pins")
             try:
                 fitted(step.changes, Document)
             except Unfit as error:

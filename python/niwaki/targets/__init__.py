@@ -15,6 +15,7 @@ camera     the camera that sees an image
 images     which pixels of an image should be on
 pixels     the pixels of image files
 sketches   scores of a scene, as values that multiply
+asks       what a person can ask by name, and the sketches that this stands for
 fit        how a scene fits what it should be, in shares that cannot flatter
 views      a scene as the sketch of an image or a shadow sees it, as a picture
 outline    the outline of a room, from a file

@@ -1,3 +1,4 @@
+from . import asks as asks
 from . import drawing as drawing
 from . import drawings as drawings
 from . import examples as examples

@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 
 RULES = ("solid", "surface")
 
+#: A sketch by name, with what it is given.
+Ask = tuple[str, dict[str, Any]]
+
 #: Low and high corner of a part of the plane, (x, y) each, scene units.
 Window = tuple[tuple[float, float], tuple[float, float]]
 
@@ -267,7 +270,7 @@ def match_shadow(
     """
     on, greys = _wish(image, weight_image)
     check_positive("sigma", sigma)
-    floor = receiver if isinstance(receiver, Receiver) else Receiver.load(receiver)
+    floor = Receiver.of(receiver)
     direction = _direction("light", light)
     seen_by = floor.camera(direction, on.shape[1] / on.shape[0]) if camera is None else Camera.of(camera)
     with picture_errors(floor.name):
@@ -417,19 +420,20 @@ def overshoot(
     return _score("overshoot", given, given)
 
 
-#: The functions that make sketches, by name.
+#: The functions that make sketches, by name, in the order in which they are evaluated where `niwaki.targets.asks` asks
+#: for several: those that may forbid a scene come first.
 SKETCHES: dict[str, Callable[..., Score]] = {
     make.__name__: make
     for make in (
         no_self_intersection,
-        match_volume,
-        match_image,
-        match_shadow,
         match_drawing,
         fill_drawing,
-        avoid,
         floor,
+        avoid,
+        match_image,
+        match_shadow,
         overshoot,
+        match_volume,
     )
 }
 

@@ -78,7 +78,7 @@ class Mesh:
 
     @classmethod
     def of(cls, given: Self | str | PathLike[str]) -> Self:
-        """The same, or that of a mesh file.
+        """The same, or that of a mesh file; of a target also `gallery:` and the name of an example.
 
         Raises
         ------
@@ -93,7 +93,7 @@ class Mesh:
             raise bad(
                 cls.__name__.lower(), given, "a mesh, or the file of one", '`niwaki.Target.load("ship.obj")`'
             )
-        return cls.load(given)
+        return cls.find(str(given))
 
     @classmethod
     def find(cls, source: str) -> Self:

@@ -79,7 +79,7 @@ function pressed(event: KeyboardEvent): void {
   else if (event.key === "x") store.showDifference.value = !store.showDifference.value;
   else if (event.key === "d" && store.kind.value === "scene") store.tool.value = store.tool.value === "draw" ? "look" : "draw";
   else if (event.key === "r" && level) store.reroll(level, 1);
-  else if (event.key === "p" && level) store.pinOrFree(level);
+  else if (event.key === "h" && level) store.holdOrFree(level);
   else if (event.key === "s" && store.picked.value) {
     const key = store.picked.value;
     void store.tell({ kind: "star", key, on: !store.isStarred(key) });
@@ -169,6 +169,6 @@ Object.assign(window, {
       return found === null ? null : [frame.at[0] + found[0] * frame.at[2], frame.at[1] + found[1] * frame.at[3]];
     },
     pointOf: (address: string) => stage.pointOf(address),
-    pin: (name: string) => store.pinOrFree(name),
+    hold: (name: string) => store.holdOrFree(name),
   },
 });

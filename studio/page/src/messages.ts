@@ -93,7 +93,7 @@ export interface Set {
   id?: number;
 }
 
-/** Search; pinned parts are held. A search that runs is stopped first, and nothing of it is kept. */
+/** Search; what is held stays. A search that runs is stopped first, and nothing of it is kept. */
 export interface Run {
   kind: "run";
   id?: number;
@@ -106,8 +106,8 @@ export interface Stop {
 }
 
 /** Hold parts of the picked result in what follows. */
-export interface PinParts {
-  kind: "pin";
+export interface HoldParts {
+  kind: "hold";
   parts: string[];
   color?: string | null;
   id?: number;
@@ -297,7 +297,7 @@ export interface Outcome {
 }
 
 /** A held part: its pattern, and the values of the choices that hold it. */
-export interface Pin {
+export interface HeldPart {
   part: string;
   choices: Record<string, any>;
 }
@@ -334,7 +334,7 @@ export interface View {
   settings: Settings;
   results: Outcome[];
   picked: Key | null;
-  pins: Pin[];
+  held: HeldPart[];
   stars: Key[];
   models: ModelInfo[];
   targets: string[];
@@ -542,7 +542,7 @@ export type Command =
   | Set
   | Run
   | Stop
-  | PinParts
+  | HoldParts
   | FreeParts
   | Reroll
   | Choose

@@ -67,12 +67,12 @@ export const theme = signal<"light" | "dark">(
 export const kind = computed(() => view.value?.model?.kind ?? "scene");
 export const isSearching = computed(() => view.value?.searching != null);
 export const picked = computed(() => view.value?.picked ?? null);
-/** Whether parts are held, of those whose pin waits for an answer. */
+/** Whether parts are held, of those that wait for an answer. */
 const asked = signal<ReadonlyMap<string, { isHeld: boolean }>>(new Map());
 let held: ReadonlySet<string> = new Set();
 /** The parts that are held: as the studio tells, and at once as they are asked for. Equal sets are the same one. */
-export const pinned = computed(() => {
-  const found = new Set((view.value?.pins ?? []).map((one) => one.part));
+export const heldParts = computed(() => {
+  const found = new Set((view.value?.held ?? []).map((one) => one.part));
   for (const [part, { isHeld }] of asked.value) {
     if (isHeld) found.add(part);
     else found.delete(part);
@@ -132,7 +132,7 @@ function heard(event: Event): void {
 
 const link = connect(heard, framed, (open) => (isOpen.value = open));
 
-/** Commands that pins do not change: the others wait until a pin that is shown is held. */
+/** Commands that held parts do not change: the others wait until what is shown as held is. */
 const UNHELD = new Set<string>(["show", "describe", "judge", "difference", "export", "stop"]);
 let holding: Promise<unknown> = Promise.resolve();
 
@@ -191,10 +191,10 @@ export function select(address: string | null): void {
   part.value = address;
   level.value = address === null ? null : address.split("/").slice(0, -1).join("/");
 }
-/** Pins a part or frees it: shown at once, and taken back if the studio refuses it. */
-export function pinOrFree(name: string): void {
-  const one = { isHeld: !pinned.value.has(name) };
-  const answer = tell({ kind: one.isHeld ? "pin" : "free", parts: [name] });
+/** Holds a part or frees it: shown at once, and taken back if the studio refuses it. */
+export function holdOrFree(name: string): void {
+  const one = { isHeld: !heldParts.value.has(name) };
+  const answer = tell({ kind: one.isHeld ? "hold" : "free", parts: [name] });
   asked.value = new Map(asked.value).set(name, one);
   holding = answer.then(() => {
     if (asked.value.get(name) === one) asked.value = new Map([...asked.value].filter(([part]) => part !== name));

@@ -39,12 +39,12 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
     ("text", "code", "message"),
     [
         ('lightness = [["wall", "rof"]]', "rules-no-region", "did you mean `roof`"),
-        ("[pinned]\nmoon = '#ffffff'", "rules-no-region", "it has wall, roof, ink, sky"),
+        ("[held]\nmoon = '#ffffff'", "rules-no-region", "it has wall, roof, ink, sky"),
         ('background = "see"', "rules-no-region", "`see`"),
         ('lightnes = [["wall", "roof"]]', "rules-unclear", "did you mean `lightness`"),
         ('lightness = ["wall", "roof"]', "rules-unclear", "chains"),
         ('lightness = [["wall"]]', "rules-unclear", "chains"),
-        ("[pinned]\nwall = 'red'", "rules-unclear", "not to a `#rrggbb`"),
+        ("[held]\nwall = 'red'", "rules-unclear", "not to a `#rrggbb`"),
         ("[muted]\nwall = true", "rules-unclear", "from 0 to 200"),
         ("muted = 3", "rules-unclear", "table"),
         ("background = 3", "rules-unclear", "one region"),
@@ -67,26 +67,26 @@ def test_rules_that_cannot_be_used_give_an_error(tmp_path, text: str, code: str,
         ),
         ('lighter = [["wall", "roof"], ["roof", "wall"]]', ["`wall` is at least", "`roof` is at least"], []),
         ('lightness = [["wall", "wall"]]', ["`wall` is 15 units lighter than `wall`"], []),
-        # a pinned black region that is to be lighter than another
+        # a held black region that is to be lighter than another
         (
-            'lightness = [["ink", "wall"]]\n[pinned]\nink = "#000000"',
-            ["`ink` is 15", "`ink` is pinned to #000000", "`wall` is no darker than black"],
+            'lightness = [["ink", "wall"]]\n[held]\nink = "#000000"',
+            ["`ink` is 15", "`ink` is held at #000000", "`wall` is no darker than black"],
             [],
         ),
-        # two pinned colours in the wrong order, through a third region
+        # two held colours in the wrong order, through a third region
         (
-            'lightness = [["wall", "roof", "ink"]]\n[pinned]\nwall = "#303030"\nink = "#f0f0f0"',
-            ["`wall` is pinned", "`ink` is pinned", "`roof` is 15"],
-            [],
-        ),
-        (
-            'same-chroma = [["wall", "roof"], ["ink", "roof"]]\n[pinned]\nwall = "#ff0000"\nink = "#00ff00"',
-            ["`wall` and `roof` are shades", "`ink` and `roof` are shades", "pinned to #00ff00"],
+            'lightness = [["wall", "roof", "ink"]]\n[held]\nwall = "#303030"\nink = "#f0f0f0"',
+            ["`wall` is held", "`ink` is held", "`roof` is 15"],
             [],
         ),
         (
-            'same-chroma = [["wall", "roof"]]\n[muted]\nroof = 10\n[pinned]\nwall = "#ff0000"',
-            ["`roof` is at most 10", "pinned to #ff0000"],
+            'same-chroma = [["wall", "roof"], ["ink", "roof"]]\n[held]\nwall = "#ff0000"\nink = "#00ff00"',
+            ["`wall` and `roof` are shades", "`ink` and `roof` are shades", "held at #00ff00"],
+            [],
+        ),
+        (
+            'same-chroma = [["wall", "roof"]]\n[muted]\nroof = 10\n[held]\nwall = "#ff0000"',
+            ["`roof` is at most 10", "held at #ff0000"],
             [],
         ),
     ],
@@ -111,7 +111,7 @@ def test_the_least_slack_agrees_with_a_linear_program() -> None:
         random = np.random.default_rng(seed)
         names = [f"r{k}" for k in range(6)]
         pairs = [tuple(random.choice(6, 2, replace=False)) for _ in range(9)]
-        rules = Rules(lightness=[[names[a], names[b]] for a, b in pairs], pinned={"r0": "#808080"})
+        rules = Rules(lightness=[[names[a], names[b]] for a, b in pairs], held={"r0": "#808080"})
         rows, most = [], []
         for a, b in pairs:
             for sign in (1.0, -1.0):
@@ -135,5 +135,7 @@ def test_rules_as_a_file_are_the_rules_again() -> None:
         rules = Rules.load(place)
         assert Rules.of(tomllib.loads(rules.toml()), place) == rules
     chains = [['a "b"', "grün", "\\\n"]]
-    odd = Rules.of({"lighter": chains, "muted": {"all": 7.5}, "pinned": {"a.b": "#00ff00"}})
+    odd = Rules.of({"lighter": chains, "muted": {"all": 7.5}, "held": {"a.b": "#00ff00"}})
+    # As files of the first format have it.
+    assert Rules.of({"lighter": chains, "muted": {"all": 7.5}, "pinned": {"a.b": "#00ff00"}}) == odd
     assert Rules.of(tomllib.loads(odd.toml())) == odd

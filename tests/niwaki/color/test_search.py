@@ -1,4 +1,4 @@
-"""Colourings keep rules and pinned colours, differ, are the same for a seed, and are written to files."""
+"""Colourings keep rules and held colours, differ, are the same for a seed, and are written to files."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def small(tmp_path):
     )
     (tmp_path / "rules.toml").write_text(
         'lightness = [["wall", "roof"]]\nsame-chroma = [["roof", "door"]]\nsame-hue = [["wall", "sky"]]\n'
-        'lighter = [["sky", "door"]]\n[muted]\nall = 60\nsky = 20\n[pinned]\nwall = "#e8d9b0"\n',
+        'lighter = [["sky", "door"]]\n[muted]\nall = 60\nsky = 20\n[held]\nwall = "#e8d9b0"\n',
         encoding="utf-8",
     )
     return place
@@ -81,10 +81,10 @@ def test_more_colourings_than_the_sampler_gives(small) -> None:
         color(small, count=500, method=QUICK, seed=1)
 
 
-@pytest.mark.parametrize("weight", [0, -1.0, float("nan"), float("inf"), True])
-def test_a_weight_is_a_number_above_zero(small, weight: float) -> None:
-    with pytest.raises(InputError, match="weight"):
-        color(small, weight=weight, count=1, seed=1)
+@pytest.mark.parametrize("strictness", [0, -1.0, float("nan"), float("inf"), True])
+def test_strictness_is_a_number_above_zero(small, strictness: float) -> None:
+    with pytest.raises(InputError, match="strictness"):
+        color(small, strictness=strictness, count=1, seed=1)
 
 
 def test_the_default_is_many_short_chains_that_follow_the_gradient() -> None:
@@ -96,7 +96,7 @@ def test_the_command_writes_the_files_that_it_names(small, tmp_path) -> None:
     result = CliRunner().invoke(
         app,
         ["color", str(small), "--rules", str(tmp_path / "rules.toml"), "-n", "2", "-o", str(out)]
-        + ["--size", "120", "--seed", "1"],
+        + ["--side", "120", "--seed", "1"],
         catch_exceptions=False,
     )
     assert result.exit_code == 0 and "2 colourings" in result.stdout

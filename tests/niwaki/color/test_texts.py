@@ -21,20 +21,20 @@ MISTAKES = {
     "a rule of another kind": (PLAIN, 'ligthness = [["wall", "roof"]]'),
     "no such region": (PLAIN, 'lightness = [["wal", "roof"]]'),
     "a circle": (PLAIN, 'lightness = [["wall", "roof"], ["roof", "wall"]]'),
-    "pinned the wrong way round": (
+    "held the wrong way round": (
         PLAIN,
-        'lightness = [["wall", "roof"]]\n[pinned]\nwall = "#101010"\nroof = "#ffffff"',
+        'lightness = [["wall", "roof"]]\n[held]\nwall = "#101010"\nroof = "#ffffff"',
     ),
-    "shades that are pinned apart": (
+    "shades that are held apart": (
         PLAIN,
-        'same-chroma = [["wall", "roof"]]\n[pinned]\nwall = "#c02020"\nroof = "#2020c0"',
+        'same-chroma = [["wall", "roof"]]\n[held]\nwall = "#c02020"\nroof = "#2020c0"',
     ),
-    "muted and pinned to what is loud": (
+    "muted and held at what is loud": (
         PLAIN,
-        'same-chroma = [["wall", "roof"]]\n[muted]\nwall = 10\n[pinned]\nroof = "#c02020"',
+        'same-chroma = [["wall", "roof"]]\n[muted]\nwall = 10\n[held]\nroof = "#c02020"',
     ),
     "a region against itself": (PLAIN, 'lighter = [["wall", "wall"]]'),
-    "everything pinned": (PLAIN, '[pinned]\nwall = "#101010"\nroof = "#ffffff"'),
+    "everything held": (PLAIN, '[held]\nwall = "#101010"\nroof = "#ffffff"'),
 }
 
 

@@ -92,10 +92,22 @@ def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
     commands = (
         ["show", f"{place}:tower", "-n", "1", "-o", folder / "show.png", "--quick"],
         ["check", place],
-        ["grow", place, "--target", "pillar.obj", "-n", "5", "--seed", "1", "--no-picture", "-o", out],
+        [
+            "grow",
+            place,
+            "--target",
+            "pillar.obj",
+            "--particles",
+            "5",
+            "--seed",
+            "1",
+            "--no-picture",
+            "-o",
+            out,
+        ],
         ["replay", out / "run.json", "--trust", "-o", folder / "again", "--no-picture"],
         ["batch", "run", "spec.toml", "-o", folder / "batch", "--processes", "2"],
-        ["batch", "export", folder / "batch", "--trust", place, "--csv"],
+        ["batch", "export", folder / "batch", "--model", place, "--format", "csv"],
     )
     for words in commands:
         done = shell(words, folder)

@@ -18,7 +18,7 @@ from PIL import Image
 
 @pytest.fixture(scope="module")
 def word() -> letters.Word:
-    return letters.write("I i", seed=1, particles=20, tries=4)
+    return letters.write("I i", seed=1, particles=20, searches=4)
 
 
 def test_letters_are_near_their_glyphs(word: letters.Word) -> None:
@@ -43,9 +43,9 @@ def test_letters_are_in_their_places(word: letters.Word) -> None:
 
 
 def test_the_same_seed_writes_the_same_on_any_number_of_threads(word: letters.Word) -> None:
-    again = letters.write("I i", seed=1, particles=20, tries=4, threads=1)
+    again = letters.write("I i", seed=1, particles=20, searches=4, threads=1)
     assert again.svg() == word.svg()
-    assert letters.write("I i", seed=2, particles=20, tries=4).svg() != word.svg()
+    assert letters.write("I i", seed=2, particles=20, searches=4).svg() != word.svg()
 
 
 def test_picture_svg_and_animation(word: letters.Word, tmp_path: Path) -> None:
@@ -60,7 +60,7 @@ def test_picture_svg_and_animation(word: letters.Word, tmp_path: Path) -> None:
 
 
 def test_lightning_has_its_own_guide() -> None:
-    word = letters.write("L", "lightning", seed=1, particles=20, tries=4)
+    word = letters.write("L", "lightning", seed=1, particles=20, searches=4)
     assert word.letters[0].similarity > 0.7
 
 

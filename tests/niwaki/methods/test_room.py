@@ -135,20 +135,20 @@ def test_powers_that_no_real_number_holds() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "grow spaceship -n 1000000000",
-        "grow spaceship -n 99999999999999999999",
+        "grow spaceship --particles 1000000000",
+        "grow spaceship --particles 99999999999999999999",
         "grow spaceship --method smc --populations 1000000000",
         "grow spaceship --method smc --rejuvenate prior() --moves 2000000000",
         "sample coin --chains 1000000000",
-        "color robot --size 1000000",
-        "color robot --measure 1000000",
+        "color robot --side 1000000",
+        "color robot --pixels 1000000",
         "color robot -n 1000000000",
         "letters A --width 1000000",
-        "letters A -n 1000000000",
-        "letters A --tries 100000000",
+        "letters A --particles 1000000000",
+        "letters A --searches 100000000",
         "grow spaceship --runs 1000000000",
         "show coin -n 1000000000",
-        "guide train vines --targets scribbles --rounds 1000000000",
+        "guide train vines --targets scribbles --searches 1000000000",
     ],
 )
 def test_the_shell_refuses_the_same(line: str, tmp_path: Path) -> None:

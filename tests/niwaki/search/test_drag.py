@@ -120,19 +120,26 @@ def test_held_choices_stay_to_the_bit_and_are_the_reason_where_all_are_held() ->
     sample = nw.run(post, seed=1).best
     a, b, deep = (sample.choices[name] for name in ("a", "b", "deep"))
     for n in range(20):
-        found = sample.drag("top", (a + b + 0.1 * n, 0.5, deep), lock=["b"])
+        found = sample.drag("top", (a + b + 0.1 * n, 0.5, deep), hold=["b"])
         assert found.best is not None
         assert found.best.sample.choices["b"] == b
-    held = sample.drag("top", (a + b + 1.0, 0.5, deep), lock=["*"])
+    held = sample.drag("top", (a + b + 1.0, 0.5, deep), hold=["*"])
     assert held.best is None
     assert (
         held.reason
         == "nothing that is free moves `top`: all 3 choices that move it are held (`a`, `b`, `deep`)"
     )
-    # A search's own lock holds as well.
-    locked = nw.run(post, seed=1, lock={"a": 0.25}).best.drag("top", (3.0, 0.5, deep))
-    assert locked.best is not None
-    assert locked.best.sample.choices["a"] == 0.25
+    # Values by address are those of the run, and hold the same.
+    expected = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=["b"]).answers
+    for hold in ("b", {"b": b}, sample.held("b")):
+        answers = sample.drag("top", (a + b + 0.1, 0.5, deep), hold=hold).answers
+        assert [one.changed for one in answers] == [one.changed for one in expected]
+    with pytest.raises(InputError, match="hold"):
+        sample.drag("top", (a, 0.5, deep), hold={"b": b + 1.0})
+    # A search's own hold holds as well.
+    bound = nw.run(post, seed=1, hold={"a": 0.25}).best.drag("top", (3.0, 0.5, deep))
+    assert bound.best is not None
+    assert bound.best.sample.choices["a"] == 0.25
 
 
 def test_a_grabbed_point_turns_with_its_part() -> None:
@@ -169,7 +176,7 @@ def test_structure_changes_where_that_is_the_only_way() -> None:
     assert drag.answers[0].sample.choices["count"] == 4
     assert drag.answers[0].part == "i[3]/emit"
     assert drag.answers[0].share <= NEAR
-    held = sample.drag("i[2]/emit", (0.1, 3.5, 0.0), lock=["count"])
+    held = sample.drag("i[2]/emit", (0.1, 3.5, 0.0), hold=["count"])
     assert not held.answers
     assert held.best.sample.choices["count"] == 3
     assert not sample.drag("i[2]/emit", (0.1, 3.5, 0.0), structure=False).answers

@@ -229,8 +229,8 @@ def test_runs_from_the_prior_are_those_that_are_valid(model: Any) -> None:
 
 def test_a_held_choice_may_be_invalid() -> None:
     with pytest.raises(nw.ModelFault, match="no entry 3"):
-        nw.run(by_host, method=nw.importance(50), seed=1, lock={"n": 3})
-    held = nw.run(by_host, method=nw.importance(50), seed=1, lock={"a": True})
+        nw.run(by_host, method=nw.importance(50), seed=1, hold={"n": 3})
+    held = nw.run(by_host, method=nw.importance(50), seed=1, hold={"a": True})
     assert held.invalid[0].call == "table(3)" and {
         sample.value[0] for sample in held if sample.has_ended
     } <= {0, 1, 2}

@@ -78,7 +78,7 @@ def test_who_mixes_is_told(program: Any, method: str) -> None:
 
 
 def test_a_held_choice_that_mixes_is_told() -> None:
-    assert len(said(held, nw.importance(50), lock={"x": 0.0})) == 1
+    assert len(said(held, nw.importance(50), hold={"x": 0.0})) == 1
     assert said(held, nw.importance(50)) == []
 
 

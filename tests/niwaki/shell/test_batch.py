@@ -73,9 +73,9 @@ def test_a_batch_by_its_file_and_what_is_exported(place: Path, tmp_path: Path) -
     again = run("batch", place)
     assert again.exit_code == 0 and "16 searches; in towers" in again.output
     # The host function is Python: nothing runs it unless that was said.
-    refused = run("batch", "export", "towers", "--csv")
+    refused = run("batch", "export", "towers", "--format", "csv")
     assert refused.exit_code != 0 and "untrusted-function" in str(refused.exception)
-    flags = ["--csv", "--sheet", "--glb", "--best", 3, "--choices", "--trust", place.with_name("garden.py")]
+    flags = ["--format", "csv,png,glb", "-n", 3, "--choices", "--model", place.with_name("garden.py")]
     written = run("batch", "export", "towers", *flags)
     assert written.exit_code == 0, written.output
     assert f"16 of 16 searches, hash {batches.Store(Path('towers')).hash()}" in written.output
@@ -127,7 +127,7 @@ def test_a_file_that_is_no_batch_has_a_message(change: tuple[str, str], said: st
     [
         (["--shard", "5/4"], "shard"),
         (["--engine", "slurm"], "local, ray, dask"),
-        (["--address", "tcp://there"], "--engine ray"),
+        (["--cluster", "tcp://there"], "--engine ray"),
         (["--processes", "0"], "--processes"),
         (["--chunk", "-1"], "chunk"),
     ],
@@ -140,7 +140,7 @@ def test_flags_that_make_no_sense_have_a_message(words: list[str], said: str, pl
 def test_a_folder_of_other_results_is_refused(place: Path, tmp_path: Path) -> None:
     (tmp_path / "used").mkdir()
     (tmp_path / "used" / "run.json").write_text("{}")
-    assert "folder-has-results" in str(run("batch", place, "-o", "used").exception)
+    assert "already-there" in str(run("batch", place, "-o", "used").exception)
     assert "no-batch" in str(run("batch", "export", "used").exception)
 
 

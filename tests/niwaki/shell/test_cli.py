@@ -19,7 +19,7 @@ from niwaki.shell.main import app
 from typer.testing import CliRunner
 
 GOLDEN = Path(__file__).parents[2] / "golden"
-GROW = ["grow", "spaceship", "-n", "30", "--voxel", "0.5", "--seed", "3"]
+GROW = ["grow", "spaceship", "--particles", "30", "--voxel", "0.5", "--seed", "3"]
 
 MODEL = """
 from niwaki import box, emit, flip, model, uniform
@@ -75,7 +75,9 @@ def test_pictures(tower: Path, tmp_path: Path) -> None:
         "v 0 0 0\nv 1 0 0\nv 0 3 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", encoding="utf-8"
     )
     out = tmp_path / "out"
-    grown = run("grow", f"{tower}:tower", "--target", str(target), "-n", "10", "--seed", "1", "-o", str(out))
+    grown = run(
+        "grow", f"{tower}:tower", "--target", str(target), "--particles", "10", "--seed", "1", "-o", str(out)
+    )
     assert grown.exit_code == 0, grown.output
     assert {path.name for path in out.iterdir()} == {"best.glb", "best.png", "run.json"}
     assert (out / "best.png").read_bytes()[:4] == b"\x89PNG"
@@ -119,7 +121,7 @@ def test_check_reports_and_refuses(tower: Path) -> None:
 @pytest.mark.filterwarnings("ignore:the best result scores")  # the tower is wider than the pillar
 def test_a_replay_needs_no_model_file_and_runs_none(tower: Path, tmp_path: Path) -> None:
     out, again = tmp_path / "out", tmp_path / "again"
-    words = ["grow", f"{tower}:tower", "--target", str(pillar(tmp_path)), "-n", "5", "--no-picture"]
+    words = ["grow", f"{tower}:tower", "--target", str(pillar(tmp_path)), "--particles", "5", "--no-picture"]
     assert run(*words, "-o", str(out)).exit_code == 0
     for text in (MODEL.replace("flip(0.8)", "flip(0.7)"), "raise SystemExit(9)", None):
         tower.unlink() if text is None else tower.write_text(text)
@@ -146,7 +148,7 @@ def refusals(folder: Path, garden: Path) -> dict[str, list[str]]:
         "no target": ["grow", f"{garden}:tower"],
         "a target that is not there": ["grow", "spaceship", "--target", f"{folder}/none.obj"],
         "a target cut short": ["grow", "spaceship", "--target", f"{folder}/cut.glb"],
-        "no particles": ["grow", "spaceship", "-n", "0"],
+        "no particles": ["grow", "spaceship", "--particles", "0"],
         "a setting": ["grow", "spaceship", "--order", "random"],
         "a run that is not there": ["replay", f"{folder}/none.json"],
         "a run cut short": ["replay", f"{folder}/broken.json"],

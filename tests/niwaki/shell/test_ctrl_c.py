@@ -49,13 +49,13 @@ BATCH = 'model = "garden.py:tower"\nseeds = 40\n[grow]\ntarget = "gallery:ship"\
 
 #: Commands whose progress presses the key.
 SHOWN = {
-    "grow": "grow garden.py:tower --target gallery:ship -n 10 --voxel 1 --runs 1000 --no-picture -o out",
+    "grow": "grow garden.py:tower --target gallery:ship --particles 10 --voxel 1 --runs 1000 --no-picture -o out",
     "sample": "sample garden.py:tower --steps 1000000 --no-picture -o out",
     "batch": "batch garden.toml -o out --processes 1 --chunk 0",
     "color": "color bug -n 2 -o out",
-    "letters": "letters I -n 4 --tries 3 --no-gif -o out",
+    "letters": "letters I --particles 4 --searches 3 --format png,svg -o out",
     "check --try": "check garden.py:tower --try garden.py:tower --target gallery:ship",
-    "guide train": "guide train vines --targets scribbles --rounds 9,9 -o out/vines.guide",
+    "guide train": "guide train vines --targets scribbles --searches 9,9 -o out/vines.guide",
 }
 
 #: Commands in which a host function presses it.
@@ -63,7 +63,7 @@ HOSTS = {
     "show": "show garden.py:tower -n 3 --seed 1",
     "replay": "replay first/run.json --trust -o out",
     "grow --reroll": "grow garden.py:tower --target gallery:ship --from first/run.json --reroll * --no-picture -o out",
-    "grow": "grow garden.py:tower --target gallery:ship -n 10 --voxel 1 --runs 1000 --no-picture -o out",
+    "grow": "grow garden.py:tower --target gallery:ship --particles 10 --voxel 1 --runs 1000 --no-picture -o out",
     "explain": "explain garden.py:tower --choice arm[1]/size",
 }
 
@@ -121,7 +121,7 @@ def test_ctrl_c_ends_a_command(name: str, place: Path, monkeypatch: pytest.Monke
 def test_ctrl_c_inside_of_a_host_function_ends_a_command(
     name: str, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = run("grow garden.py:tower --target gallery:ship -n 10 --voxel 1 --no-picture -o first")
+    first = run("grow garden.py:tower --target gallery:ship --particles 10 --voxel 1 --no-picture -o first")
     assert first.exit_code == 0, first.output
     before = whole(place / "first")
     monkeypatch.setenv("PRESSED", "1")
@@ -140,7 +140,7 @@ def test_what_learns_to_look_ahead_is_kept(place: Path, monkeypatch: pytest.Monk
     pressed = partial(guides.train_look_ahead, progress=lambda *_: signal.raise_signal(signal.SIGINT))
     monkeypatch.setattr(nw, "train_guide", lambda *_, **__: own)
     monkeypatch.setattr(guides, "train_look_ahead", pressed)
-    stopped("guide train vines --targets scribbles --look-ahead 100000 -o out/vines.guide")
+    stopped("guide train vines --targets scribbles --searches-ahead 100000 -o out/vines.guide")
     assert nw.Guide.load(place / "out/vines.guide").report["look_ahead"]["interrupted"]
 
 

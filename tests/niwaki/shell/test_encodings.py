@@ -21,7 +21,7 @@ FILE, FOLDER = "\u043c\u043e\u0434\u0435\u043b\u044c.py", "\u2713 \u043e\u0442\u
 COMMANDS = (
     ["check", FILE],
     ["show", FILE, "-n", "1", "--quick", "--seed", "1"],
-    ["grow", FILE, "--target", "box.obj", "-n", "5", "--seed", "1", "--no-picture", "-o", FOLDER],
+    ["grow", FILE, "--target", "box.obj", "--particles", "5", "--seed", "1", "--no-picture", "-o", FOLDER],
     ["replay", f"{FOLDER}/run.json", "-o", "again", "--no-picture"],
     ["color", "house", "-o", f"{FOLDER} 2", "--seed", "1"],
     ["models"],

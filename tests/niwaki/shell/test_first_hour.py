@@ -75,7 +75,7 @@ def data(folder: str = "out") -> dict[str, Any]:
     return dict(json.loads(Path(folder, "run.json").read_text()))
 
 
-@pytest.mark.parametrize("output", ["sheet.txt", "sheet", "no/such/folder/sheet.png", "."])
+@pytest.mark.parametrize("output", ["sheet.txt", "v1.2", "garden.py/sheet.png", "garden.py"])
 def test_show_looks_at_the_name_of_its_picture_before_it_runs(place: Path, output: str) -> None:
     done = run("show", "garden.py:tower", "-n", "4", "--seed", "1", "-o", output)
     assert done.exit_code != 0 and "#1" not in done.stdout
@@ -134,7 +134,7 @@ def test_no_folder_is_replaced_without_a_word(place: Path) -> None:
     grown("--seed", "2")
     assert Path("out/run.json").read_bytes() == first and Path("out-2/run.json").exists()
     refused = run(*GROW, "-o", "out")
-    assert isinstance(refused.exception, NiwakiError) and "folder-has-results" in str(refused.exception)
+    assert isinstance(refused.exception, NiwakiError) and "already-there" in str(refused.exception)
     assert Path("out/run.json").read_bytes() == first
     grown("--seed", "2", "-o", "out", "--force")
     assert Path("out/run.json").read_bytes() != first
@@ -149,13 +149,19 @@ def choices(folder: str, number: int = 0) -> dict[str, Any]:
     return {one["address"]: one["value"] for one in data(folder)["runs"][number]["choices"]}
 
 
-def test_a_lock_holds_and_a_reroll_keeps_the_rest(place: Path) -> None:
+def test_what_is_held_stays_and_a_reroll_keeps_the_rest(place: Path) -> None:
     grown("--runs", "2", "-o", "a")
     before = choices("a", 1)
-    grown("--from", "a/run.json", "--run", "2", "--lock", "hat", "-o", "b", "--seed", "5")
+    grown("--from", "a/run.json", "--run", "2", "--hold", "hat", "-o", "b", "--seed", "5")
     hat = [one for one in before if one.startswith("hat/")]
     assert hat and all(choices("b")[one] == before[one] for one in hat)
     assert choices("b") != before
+    (size,) = [one for one in before if one == "hat/side"]
+    grown("--hold", f"{size}=0.5", "-o", "e")
+    assert choices("e")[size] == 0.5
+    grown("--hold", f"{size}=0.5", "--from", "a/run.json", "--run", "2", "--hold", "arm/size", "-o", "f")
+    assert choices("f")[size] == 0.5
+    assert isinstance(run(*GROW, "--hold", f"{size}=wide").exception, NiwakiError)
     grown("--from", "a/run.json", "--run", "2", "--reroll", "hat", "-o", "c", "--seed", "5", "--runs", "2")
     after = choices("c")
     assert all(after[one] != before[one] for one in hat)
@@ -202,7 +208,16 @@ def test_one_result_has_no_sheet_and_an_image_is_seen_from_its_camera(place: Pat
     image.save("wide.png")
     camera = {"kind": "orthographic", "position": [0, 2, 20], "look_at": [0, 2, 0], "height": 5.0}
     Path("cam.json").write_text(json.dumps(camera))
-    words = ["grow", "garden.py:tower", "--match-image", "wide.png", "--camera", "cam.json", "-n", "20"]
+    words = [
+        "grow",
+        "garden.py:tower",
+        "--match-image",
+        "wide.png",
+        "--camera",
+        "cam.json",
+        "--particles",
+        "20",
+    ]
     assert run(*words, "--seed", "1", "-o", "a", "--quick").exit_code == 0
     assert not Path("a/sheet.png").exists()
     assert run(*words, "--seed", "1", "-o", "b", "--quick", "--runs", "2").exit_code == 0
@@ -234,10 +249,10 @@ def test_messages(place: Path, golden: Any) -> None:
         "a preset that is not there": [*GROW, "--preset", "none.toml"],
         "runs that are never possible": ["show", "garden.py:never", "--seed", "1"],
         "a folder with results": [*GROW, "-o", "a"],
-        "a lock without a result": [*GROW, "--lock", "hat"],
+        "a hold without a result": [*GROW, "--hold", "hat"],
         "a result and nothing to keep": [*GROW, "--from", "a/run.json"],
-        "a lock and a reroll": [*GROW, "--from", "a/run.json", "--lock", "hat", "--reroll", "arm"],
-        "a lock of nothing": [*GROW, "--from", "a/run.json", "--lock", "hut"],
+        "a hold and a reroll": [*GROW, "--from", "a/run.json", "--hold", "hat", "--reroll", "arm"],
+        "a hold of nothing": [*GROW, "--from", "a/run.json", "--hold", "hut"],
         "a reroll of nothing": [*GROW, "--from", "a/run.json", "--reroll", "hut", "-o", "c"],
         "a result that is not there": ["replay", "a/run.json", "--run", "2", "-o", "b"],
         "an export of what is not there": [*GROW, "--runs", "3", "--export", "1,4", "-o", "b"],

@@ -56,7 +56,7 @@ TASKS: list[str | tuple[str, str, str]] = [
     "grow tower.py width=wide --target pillar.obj",
     "grow tower.py width=1.2 count=3 --target pillar.obj --seed 1 --runs 3 --export 2 --quick -o wide",
     "grow tower.py --target pillar.obj -o wide",
-    "grow tower.py width=1.2 --target pillar.obj --from wide/run.json --run 2 --lock hat --seed 7 --quick -o held",
+    "grow tower.py width=1.2 --target pillar.obj --from wide/run.json --run 2 --hold hat --seed 7 --quick -o held",
     "grow tower.py width=1.2 --target pillar.obj --from wide/run.json --reroll hut -o other",
     "grow tower.py width=1.2 --target pillar.obj --from wide/run.json --reroll hat --seed 7 --quick -o other",
     "replay wide/run.json --run 3 --format obj -o third --no-picture",
@@ -72,7 +72,7 @@ TASKS: list[str | tuple[str, str, str]] = [
     "grow bridge.py --target pillar.obj --seed 1 --quick -o bridge",
     "grow spaceship --seed 1 --quick -o ship",
     "grow spceship",
-    "color bug -n 1 --seed 1 --size 64 -o colours",
+    "color bug -n 1 --seed 1 --side 64 -o colours",
 ]  # fmt: skip
 
 

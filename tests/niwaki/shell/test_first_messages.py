@@ -123,7 +123,17 @@ def test_losses_are_named_when_some_runs_survive(place: Path) -> None:
         "from niwaki import *\n\n@model\ndef m():\n    emit(box((0, 2, 0), (4, 4, 4)), name='road')\n"
         "    emit(box((0 if flip(0.6) else 5, 1, 0), (0.2, 0.2, 0.2)), name='cable')\n"
     )
-    words = ("grow", "lucky.py:m", "--target", "box.obj", "--no-picture", "--method", "smc", "-n", "1")
+    words = (
+        "grow",
+        "lucky.py:m",
+        "--target",
+        "box.obj",
+        "--no-picture",
+        "--method",
+        "smc",
+        "--particles",
+        "1",
+    )
     with pytest.warns(UserWarning, match="runs became impossible") as found:
         run(*words, "--runs", "8", "--seed", "1")
     lost = next(str(one.message) for one in found if "became impossible" in str(one.message))

@@ -61,7 +61,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-GROW = ["grow", "garden.py:towers", "-n", "60", "--seed", "1", "-o", "out"]
+GROW = ["grow", "garden.py:towers", "--particles", "60", "--seed", "1", "-o", "out"]
 IMAGE = ["--match-image", "skyline.png", "--camera", "cam.json"]
 SHADOW = ["--match-shadow", "skyline.png", "--light", "-1,-1,0", "--receiver", "ground.obj"]
 
@@ -113,7 +113,7 @@ def test_a_drawing_is_followed_from_its_own_start(place: Path) -> None:
     ink = Image.new("L", (300, 300), 255)
     ImageDraw.Draw(ink).rectangle((130, 60, 170, 280), 0)
     ink.save("trunk.png")
-    done = run("grow", "vines", "--match-image", "trunk.png", "-n", "40", "--seed", "1", "-o", "out")
+    done = run("grow", "vines", "--match-image", "trunk.png", "--particles", "40", "--seed", "1", "-o", "out")
     assert done.exit_code == 0, (done.output, done.exception)
     names = {path.name for path in Path("out").iterdir()}
     assert names == {"best.svg", "best.png", "drawing.png", "run.json"}
@@ -125,7 +125,18 @@ def test_a_drawing_is_followed_from_its_own_start(place: Path) -> None:
     again = run("replay", "out/run.json", "-o", "again")
     assert again.exit_code == 0 and Path("again/best.svg").read_bytes() == svg
     own = run(
-        "grow", "circuit", "-n", "10", "--seed", "1", "-o", "board", "--format", "svg,gif", "--size", "60x60"
+        "grow",
+        "circuit",
+        "--particles",
+        "10",
+        "--seed",
+        "1",
+        "-o",
+        "board",
+        "--format",
+        "svg,gif",
+        "--size",
+        "60x60",
     )
     assert own.exit_code == 0 and Path("board/growth.gif").is_file(), (own.output, own.exception)
 
@@ -297,7 +308,7 @@ def test_a_file_that_fails_leaves_the_others(place: Path, monkeypatch: pytest.Mo
         "FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3]])\n\n"
         "@model\ndef sail():\n    emit(mesh(CORNERS, FACES))\n"
     )
-    words = ["grow", "sail.py:sail", "--target", "wall.obj", "-n", "2", "-o", "out", "--no-picture"]
+    words = ["grow", "sail.py:sail", "--target", "wall.obj", "--particles", "2", "-o", "out", "--no-picture"]
     failed = run(*words, "--format", "stl,glb")
     assert isinstance(failed.exception, NiwakiError) and failed.exception.code == "not-a-solid"
     assert {path.name for path in Path("out").iterdir()} == {"run.json", "best.glb"}

@@ -51,9 +51,9 @@ def trained(pictures: Path) -> tuple[Path, Any]:
         "lightning",
         "--targets",
         pictures,
-        "--out",
+        "-o",
         out,
-        "--rounds",
+        "--searches",
         "6,4",
         "--seed",
         "1",
@@ -81,7 +81,7 @@ def test_a_guide_is_shown_and_gone_on_with(trained: tuple[Path, Any], pictures: 
     assert re.search(r"round 2: \d traces; held out: mean 0\.\d+", shown.stdout)
     more = run(
         *("guide", "train", "lightning", "--targets", pictures, "--start", out),
-        *("--out", tmp_path / "more.guide", "--rounds", "4", "--no-mirror", "--seed", "1"),
+        *("-o", tmp_path / "more.guide", "--searches", "4", "--no-mirror", "--seed", "1"),
     )
     assert more.exit_code == 0, more.output
     assert "the guide that was given; held out" in run("guide", "show", tmp_path / "more.guide").stdout
@@ -89,13 +89,13 @@ def test_a_guide_is_shown_and_gone_on_with(trained: tuple[Path, Any], pictures: 
 
 def test_a_guide_is_taught_to_look_ahead(pictures: Path, tmp_path: Path) -> None:
     out = tmp_path / "far.guide"
-    train = ("guide", "train", "lightning", "--targets", pictures, "--out", out, "--rounds", "6")
-    made = run(*train, "--seed", "1", "--look-ahead", "24")
+    train = ("guide", "train", "lightning", "--targets", pictures, "-o", out, "--searches", "6")
+    made = run(*train, "--seed", "1", "--searches-ahead", "24")
     assert made.exit_code == 0, made.output
     assert Guide.load(out).report["look_ahead"]["rises"][0] > 20
     assert "looks ahead: " in run("guide", "show", out).stdout
     grow = ("grow", "lightning", "--match-image", pictures / "0.png", "--seed", "1", "--no-picture")
-    grown = run(*grow, "--guide", out, "--look-ahead", "0.2", "-n", "5", "-o", tmp_path)
+    grown = run(*grow, "--guide", out, "--look-ahead", "0.2", "--particles", "5", "-o", tmp_path)
     assert grown.exit_code == 0, grown.output
     method = searched(tmp_path)
     assert (method["look_ahead"], method["particles"]) == (0.2, 5)
@@ -115,12 +115,12 @@ def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("flags", "told", "name", "particles"),
     [
-        (["-n", "12"], True, "smc", 12),
+        (["--particles", "12"], True, "smc", 12),
         (["--method", "smc"], True, "smc", 50),
-        (["--guide", "none", "-n", "12"], False, "smc", 12),
+        (["--guide", "none", "--particles", "12"], False, "smc", 12),
         (["--rounds", "1"], False, "improve", 200),
-        (["--weights", "absolute", "-n", "12", "--resampling", "systematic"], False, "smc", 12),
-        (["--method", "pimh", "--sweeps", "2", "-n", "12"], False, "pimh", 12),
+        (["--weights", "absolute", "--particles", "12", "--resampling", "systematic"], False, "smc", 12),
+        (["--method", "pimh", "--sweeps", "2", "--particles", "12"], False, "pimh", 12),
         (["--method", "pimh", "--sweeps", "2", "--guide", FOLDER / "vines.guide"], False, "pimh", 50),
     ],
 )
@@ -136,12 +136,25 @@ def test_other_settings_decide(
 
 
 def test_json_is_alone_on_stdout() -> None:
-    grown = run(*GROW, "--json", "-n", "5")
+    grown = run(*GROW, "--json", "--particles", "5")
     assert grown.stderr == TOLD and list(json.loads(grown.stdout)) == ["runs"]
 
 
 def test_a_word_is_written(tmp_path: Path) -> None:
-    made = run("letters", "Hi", "-o", tmp_path, "--seed", "1", "-n", "10", "--tries", "2", "--width", "160")
+    made = run(
+        "letters",
+        "Hi",
+        "-o",
+        tmp_path,
+        "--seed",
+        "1",
+        "--particles",
+        "10",
+        "--searches",
+        "2",
+        "--width",
+        "160",
+    )
     assert made.exit_code == 0, made.output
     assert sorted(place.name for place in tmp_path.iterdir()) == ["growth.gif", "word.png", "word.svg"]
     assert re.match(
@@ -166,16 +179,16 @@ def test_what_is_refused(
         result = run(*words)
         return lambda: (_ for _ in ()).throw(result.exception)
 
-    train = ["guide", "train", "vines", "--out", "x.guide", "--targets"]
+    train = ["guide", "train", "vines", "-o", "x.guide", "--targets"]
     reviewed(
         GOLDEN / "guides-shell.txt",
         {
             "drawings that judge": refused(*train, "glyphs"),
             "one target": refused(*train, "one"),
             "pictures without ink": refused(*train, "blank"),
-            "rounds that are no numbers": refused(*train, pictures, "--rounds", "many"),
+            "rounds that are no numbers": refused(*train, pictures, "--searches", "many"),
             "an objective that is none": refused(*train, pictures, "--objective", "evidence"),
-            "rounds without examples": refused(*train, pictures, "--objective", "bound", "--rounds", "4"),
+            "rounds without examples": refused(*train, pictures, "--objective", "bound", "--searches", "4"),
             "a search that draws no choices by a guide": refused(
                 *GROW, "--method", "improve", "--guide", vines
             ),

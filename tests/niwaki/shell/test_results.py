@@ -147,7 +147,7 @@ def run(*words: object) -> Any:
     return CliRunner().invoke(app, [str(word) for word in words])
 
 
-GROW = ["grow", "spaceship", "-n", "20", "--voxel", "0.5", "--no-picture"]
+GROW = ["grow", "spaceship", "--particles", "20", "--voxel", "0.5", "--no-picture"]
 
 
 def test_two_runs_at_once_do_not_share_a_folder(tmp_path: Path) -> None:
@@ -159,7 +159,7 @@ def test_two_runs_at_once_do_not_share_a_folder(tmp_path: Path) -> None:
     ends = [(child.communicate()[1], child.returncode) for child in children]
     codes = sorted(code for _, code in ends)
     assert codes[0] == 0 and set(codes) <= {0, 2}
-    assert all("folder-in-use" in text or "folder-has-results" in text for text, code in ends if code == 2)
+    assert all("folder-in-use" in text or "already-there" in text for text, code in ends if code == 2)
     found = json.loads((tmp_path / "out" / "run.json").read_text())
     glb = (tmp_path / "out" / "best.glb").read_bytes()
     assert found["files"] == {"best.glb": hashlib.sha256(glb).hexdigest()}
@@ -184,5 +184,5 @@ def test_a_replay_keeps_a_folder_of_one_run(tmp_path: Path) -> None:
     assert found["shown"] == 1 - best and found["best"] == best and list(found["files"]) == ["best.ply"]
     # Another search does not.
     refused = run("replay", two / "run.json", "-o", one, "--no-picture")
-    assert isinstance(refused.exception, NiwakiError) and "another run" in str(refused.exception)
+    assert isinstance(refused.exception, NiwakiError) and "is there already" in str(refused.exception)
     assert names(one) == {"run.json", "best.ply"}

@@ -76,7 +76,9 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
 
 def test_a_search_that_begins_replaces_the_checkpoint_and_says_so(tmp_path: Path) -> None:
     (tmp_path / resuming.NAME).write_text("of an older search\n")
-    grown = run("grow", "spaceship", "-n", "10", "--voxel", "0.5", "--no-picture", "--force", "-o", tmp_path)
+    grown = run(
+        "grow", "spaceship", "--particles", "10", "--voxel", "0.5", "--no-picture", "--force", "-o", tmp_path
+    )
     assert grown.exit_code == 0, grown.output
     assert "is replaced" in grown.stderr
     assert not (tmp_path / resuming.NAME).exists()

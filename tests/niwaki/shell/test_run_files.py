@@ -80,7 +80,7 @@ def searches() -> dict[str, nw.Search]:
             **bounds,
         ),
         "improve": nw.Search(pile, (foot, 0.5), nw.floor(0.0), nw.improve(10, rounds=2), runs=2, **bounds),
-        "polished": nw.Search(near, (0.5,), lock={"x": 0.25}, **bounds),
+        "polished": nw.Search(near, (0.5,), hold={"x": 0.25}, **bounds),
         "picture": nw.Search(pile, (foot,), nw.match_image(image, camera), nw.smc(5), **bounds),
     }
 

@@ -224,7 +224,18 @@ def test_many_stored_files_that_were_changed_give_messages(name: str, tmp_path: 
 
 
 def grown(folder: Path, *words: str) -> None:
-    line = ["grow", "coral", "-n", "5", "--seed", "1", "--no-picture", "-o", str(folder / "out"), *words]
+    line = [
+        "grow",
+        "coral",
+        "--particles",
+        "5",
+        "--seed",
+        "1",
+        "--no-picture",
+        "-o",
+        str(folder / "out"),
+        *words,
+    ]
     done = CliRunner().invoke(app, line)
     if done.exception is not None and not isinstance(done.exception, SystemExit):
         raise done.exception

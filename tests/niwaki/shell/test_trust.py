@@ -54,7 +54,7 @@ def grown(folder: Path, line: str) -> tuple[Path, Path, Path]:
         f"{file}:tower",
         "--target",
         target,
-        "-n",
+        "--particles",
         "5",
         "--seed",
         "1",

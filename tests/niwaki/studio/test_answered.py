@@ -27,7 +27,7 @@ FIELDS: dict[type, dict[str, Any]] = {
     m.ChooseModel: {"reference": "spaceship"},
     m.SetAsk: {"ask": {"floor": 0.0}},
     m.Set: {"arguments": {"a": 1}},
-    m.PinParts: {"parts": ["a"]},
+    m.HoldParts: {"parts": ["a"]},
     m.Reroll: {"part": "a"},
     m.Choose: {"address": "a", "value": 1.0},
     m.Drag: {"part": "a", "to": [0, 0, 0]},
@@ -140,7 +140,7 @@ def test_a_worker_that_says_what_is_no_report_is_named(tmp_path):
         {"kind": "choose", "address": "\x00", "value": 1e308},
         {"kind": "drag", "part": "", "to": [1e9, -1e9, 0.0]},
         {"kind": "reroll", "part": "[", "count": 48},
-        {"kind": "pin", "parts": ["*"] * 10_000},
+        {"kind": "hold", "parts": ["*"] * 10_000},
     ],
 )
 def test_a_strange_command_is_answered(served, connected, fields):

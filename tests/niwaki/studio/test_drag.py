@@ -76,7 +76,7 @@ def test_a_part_moves_with_the_pointer_and_its_end_is_a_result(ship):
 def test_pinned_choices_are_equal_to_the_bit_after_twenty_drags(ship):
     first = described(ship)["choices"]
     held = [one["address"] for one in first][::3]
-    ship.ask("pin", parts=held)
+    ship.ask("hold", parts=held)
     values = {one["address"]: one["value"] for one in first if one["address"] in held}
     rng = np.random.default_rng(1)
     for _ in range(20):

@@ -13,7 +13,7 @@ from niwaki import studio
 from niwaki.studio.journal import Journal
 from studio_process import serving
 
-#: A session as the first format has it: two colourings of a bug, the second starred and picked, one region pinned.
+#: A session as the first format has it: two colourings of a bug, the second starred and picked, one region held.
 STORED = Path(__file__).parents[2] / "golden" / "studio-session"
 
 
@@ -94,11 +94,11 @@ def test_a_session_of_the_first_format_is_opened_with_its_results_and_its_way_ba
         first, second = one.view["results"]
         assert one.view["model"]["reference"] == "drawing:bug" and one.view["picked"] == second["key"]
         assert one.view["stars"] == [second["key"]] and (one.view["undo"], one.view["redo"]) == (7, 1)
-        (pin,) = one.view["pins"]
+        (part,) = one.view["held"]
         colors = one.ask("describe", key=second["key"])["colors"]
-        assert colors[pin["part"]] == pin["choices"][pin["part"]]
+        assert colors[part["part"]] == part["choices"][part["part"]]
         one.ask("redo")
-        assert one.view["pins"] == []
+        assert one.view["held"] == []
         for _ in range(8):
             one.ask("undo")
         assert one.view["results"] == [] and one.view["stars"] == []

@@ -53,8 +53,8 @@ def test_regions_and_rules_are_those_of_the_drawing(connected):
 
 def test_a_pinned_region_keeps_its_colour_in_twenty_colourings(served, connected):
     results = colored(connected)
-    connected.ask("pin", parts=["roof", "sky"])
-    held = {one["part"]: one["choices"][one["part"]] for one in connected.view["pins"]}
+    connected.ask("hold", parts=["roof", "sky"])
+    held = {one["part"]: one["choices"][one["part"]] for one in connected.view["held"]}
     before = described(connected)["colors"]
     assert held == {name: before[name] for name in ("roof", "sky")}
     connected.ask("set", settings={"count": 20, "seed": 5})
@@ -67,12 +67,12 @@ def test_a_pinned_region_keeps_its_colour_in_twenty_colourings(served, connected
         assert {name: colors[name] for name in held} == held
         seen.append(tuple(colors.values()))
     assert len(set(seen)) == 20
-    connected.ask("pin", parts=["door"], color="#102030")
+    connected.ask("hold", parts=["door"], color="#102030")
     connected.ask("run")
     assert described(connected)["colors"]["door"] == "#102030"
     rules = connected.ask("export", key=connected.view["picked"], format="toml")
     written = tomllib.loads(fetch(served, f"/file/{rules['hash']}").decode())
-    assert written["pinned"] == {**held, "door": "#102030"}
+    assert written["held"] == {**held, "door": "#102030"}
     assert Rules.of(written) == Rules.of({**tomllib.loads((OWN / "house.toml").read_text()), **written})
     connected.ask("free")
 
@@ -194,8 +194,8 @@ def test_blocks_that_fall_are_named_and_pinned_calls_stay(served, connected):
     connected.ask("model", reference="stack:cut_stack")
     connected.ask("set", settings={"count": 1, "seed": 1})
     connected.ask("run")
-    connected.ask("pin", parts=["pile/piece"])
-    held = connected.view["pins"][0]["choices"]
+    connected.ask("hold", parts=["pile/piece"])
+    held = connected.view["held"][0]["choices"]
     connected.ask("set", settings={"count": 1, "seed": 2})
     connected.ask("run")
     key = connected.view["picked"]

@@ -22,10 +22,10 @@ def test_kill_in_a_search_loses_nothing_that_was_shown(tmp_path):
             one.ask("set", settings={"count": 3, "seed": 1, "effort": 0.25})
             one.ask("run")
             one.ask("star", key=one.view["results"][1]["key"])
-            one.ask("pin", parts=["while[0]/length"])
+            one.ask("hold", parts=["while[0]/length"])
             before = {
                 name: one.view[name]
-                for name in ("results", "picked", "stars", "pins", "settings", "model", "undo")
+                for name in ("results", "picked", "stars", "held", "settings", "model", "undo")
             }
             one.ask("set", settings={"count": 8, "seed": 2, "effort": 64.0})
             one.events.clear()

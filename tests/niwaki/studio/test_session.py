@@ -103,8 +103,8 @@ def test_pinned_choices_stay_equal_when_the_rest_is_grown_again(served, connecte
     results = grown(connected, count=1, seed=3)
     described = connected.ask("describe", key=results[0]["key"])
     part = next(one["address"] for one in described["parts"] if "wings" in one["address"]).rpartition("/")[0]
-    connected.ask("pin", parts=[part])
-    held = connected.view["pins"][0]["choices"]
+    connected.ask("hold", parts=[part])
+    held = connected.view["held"][0]["choices"]
     assert any(address.startswith(part + "/") for address in held)
     for seed in range(100, 120):
         connected.ask("set", settings={"count": 1, "seed": seed, "effort": 0.25})
@@ -114,7 +114,7 @@ def test_pinned_choices_stay_equal_when_the_rest_is_grown_again(served, connecte
         found = {one["address"]: one["value"] for one in data["runs"][key["number"]]["choices"]}
         assert {address: found[address] for address in held} == held
     connected.ask("free")
-    assert connected.view["pins"] == []
+    assert connected.view["held"] == []
 
 
 def test_a_part_is_grown_again_in_place_and_nothing_else_changes(served, connected):

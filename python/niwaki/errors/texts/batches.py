@@ -20,7 +20,7 @@ BATCHES = (
         why="a batch has a file `spec-....json`, which says what is searched",
         help="name the folder that `niwaki batch` wrote to",
         example="niwaki batch export out, of a folder of niwaki grow",
-        cure="niwaki batch export ships --csv",
+        cure="niwaki batch export ships --format csv",
     ),
     Message(
         "other-batch",

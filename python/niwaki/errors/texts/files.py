@@ -120,14 +120,6 @@ FILES = (
         cure="niwaki grow ship -o one & niwaki grow ship -o two",
     ),
     Message(
-        "folder-of-another-run",
-        "this folder has the results of another run",
-        why="a replay writes no `run.json` over another, and files of two runs must not stand in one folder",
-        help="name another folder with `-o`, or add `--force` to replace them",
-        example="niwaki replay saved/run.json -o out, where out/run.json is of another search",
-        cure="niwaki replay saved/run.json -o again",
-    ),
-    Message(
         "file-unwritable",
         "this file cannot be written",
         why="{reason}",

@@ -52,8 +52,8 @@ GUIDES = (
         "`{name}` has no targets to train a guide on",
         why="{reason}",
         help="give {cure}",
-        example="niwaki guide train vines --targets empty/ --out vines.guide",
-        cure="niwaki guide train vines --targets scribbles --out vines.guide",
+        example="niwaki guide train vines --targets empty/ -o vines.guide",
+        cure="niwaki guide train vines --targets scribbles -o vines.guide",
     ),
     Message(
         "letter-missing",
@@ -67,8 +67,8 @@ GUIDES = (
         "letter-lost",
         "nothing grew into `{name}`",
         why="every particle of {tries} searches became impossible",
-        help="give more particles (`-n`) or more `--tries`, or another font",
-        example='niwaki letters "." -n 1 --tries 1',
+        help="give more `--particles` or more `--searches`, or another font",
+        example='niwaki letters "." --particles 1 --searches 1',
         cure='niwaki letters "."',
     ),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -199,11 +199,11 @@ def dragged(
     *,
     grab: Point | None = None,
     along: Point | None = None,
-    lock: Iterable[str] = (),
+    hold: parts.Hold = (),
     answers: int = 4,
     structure: bool = True,
 ) -> Drag:
     """Drag a part of a sample of this search: see `Sample.drag`."""
-    return Dragging(search, sample, part, grab=grab, along=along, lock=lock, to=to).to(
+    return Dragging(search, sample, part, grab=grab, along=along, hold=hold, to=to).to(
         to, answers=answers, structure=structure
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Any
@@ -85,14 +85,14 @@ class Held:
         *,
         grab: Point | None = None,
         along: Point | None = None,
-        lock: Iterable[str] = (),
+        hold: parts.Hold = (),
         to: Point | None = None,
     ) -> None:
         self.search, self.sample = search, sample
         if not sample.has_ended:
             raise bad("sample", sample, "a run that has ended", "more time or particles")
         # Descents do not score the scene, and know by themselves what is held.
-        bare = replace(search, score=Score(), choices=None, polish=None, lock=None)
+        bare = replace(search, score=Score(), choices=None, polish=None, hold=None)
         with translated(search.model.name):
             self.task = bare.task
             trace = self.task.replay(dict(sample.choices), None)
@@ -104,8 +104,14 @@ class Held:
             )
         boxes = np.array([shape.aabb() for _, shapes in trace.parts for shape in shapes])
         self.size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max()) or 1.0
-        self.locked = set(sample.held(*lock)) if lock else set()
-        self.locked |= set(search.lock or ())
+        kept = sample._held(hold)
+        for address, value in kept.items():
+            if sample.choices.get(address) != value:
+                found = sample.choices.get(address, "no such choice")
+                raise bad(
+                    "hold", {address: value}, f"the value of the run, {found!r}", "`sample.held(pattern)`"
+                )
+        self.holds = {*kept, *search.held}
         self.across = _projection(along)
         self.values = {choice.path: choice.value for choice in trace.choices}
         self._grips = self._gripped(part, grab)
@@ -161,7 +167,7 @@ class Held:
 
     def movable(self, state: State) -> set[int]:
         """Choices that may move: all that are not held."""
-        return {choice.address for choice in state.trace.choices if choice.path not in self.locked}
+        return {choice.address for choice in state.trace.choices if choice.path not in self.holds}
 
     def place(self, state: State, free: set[int]) -> Place | None:
         """The point and its derivatives; None where nothing moves it."""

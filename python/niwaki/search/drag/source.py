@@ -140,8 +140,8 @@ def explained(held: Held, goal: Vector, most: int = 3) -> list[SourceChange]:
     ]
     with translated(model.name):
         task = _engine.Task(compile_core(core), args)
-        if held.search.lock:
-            task = task.holding(dict(held.search.lock))
+        if held.search.held:
+            task = task.holding(held.search.held)
         placer = task.placer(held.start.trace.run)
         descent = _Descent(held, placer, goal)
         begun = descent.look(numbers, [one.value for one in numbers], {})

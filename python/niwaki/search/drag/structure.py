@@ -40,7 +40,7 @@ def _tried(held: Held) -> list[tuple[str, Any]]:
     call = held.start.part.rpartition("/")[0]
     deciding = {*parts.deciding(call), call}
     choices = [c for c in held.start.trace.choices if c.path.rpartition("/")[0] in deciding]
-    free = [choice for choice in reversed(choices) if choice.path not in held.locked]
+    free = [choice for choice in reversed(choices) if choice.path not in held.holds]
     return [(choice.path, value) for choice in free for value in _others(choice)][:TRIED]
 
 

@@ -81,14 +81,14 @@ class Set(Command, tag="set"):
 
 
 class Run(Command, tag="run"):
-    """Search; pinned parts are held. A search that runs is stopped first, and nothing of it is kept."""
+    """Search; what is held stays. A search that runs is stopped first, and nothing of it is kept."""
 
 
 class Stop(Command, tag="stop"):
     """Stop the search; what it has found becomes results."""
 
 
-class PinParts(Command, tag="pin"):
+class HoldParts(Command, tag="hold"):
     """Hold parts of the picked result in what follows."""
 
     parts: Addresses
@@ -227,7 +227,7 @@ AnyCommand = (
     | Set
     | Run
     | Stop
-    | PinParts
+    | HoldParts
     | FreeParts
     | Reroll
     | Choose

@@ -191,7 +191,7 @@ class Outcome(Struct, frozen=True):
     note: str = ""
 
 
-class Pin(Struct, frozen=True):
+class HeldPart(Struct, frozen=True):
     """A held part: its pattern, and the values of the choices that hold it."""
 
     part: str

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Key, Outcome, Pin, Point, RulesAsk, Settings
+from niwaki.studio.messages.document import Ask, HeldPart, Key, Outcome, Point, RulesAsk, Settings
 
 
 class Place(Struct):
@@ -104,7 +104,7 @@ class View(Struct):
     settings: Settings
     results: list[Outcome]
     picked: Key | None
-    pins: list[Pin]
+    held: list[HeldPart]
     stars: list[Key]
     models: list[ModelInfo]
     targets: list[str]

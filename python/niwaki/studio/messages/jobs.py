@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from msgspec import Struct
 
-from niwaki.studio.messages.document import Ask, Choices, Key, Outcome, Pin, Point, Settings
+from niwaki.studio.messages.document import Ask, Choices, HeldPart, Key, Outcome, Point, Settings
 from niwaki.studio.messages.events import Described, Difference, Dragged, ModelInfo, Offered, Problem, Shape
 from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
@@ -18,7 +18,7 @@ class Question(Struct):
     arguments: dict[str, Any]
     ask: Ask
     settings: Settings
-    lock: Choices = {}
+    hold: Choices = {}
     #: Of a drawing that was sent: where it is.
     file: str = ""
 
@@ -81,7 +81,7 @@ class GrowAgain(Job, tag="grow-again"):
 
     Attributes
     ----------
-    seed, lock, count
+    seed, hold, count
         Another seed, other held choices, another number of results that differ; as they were where they are None.
     """
 
@@ -89,7 +89,7 @@ class GrowAgain(Job, tag="grow-again"):
     run: int
     file: str
     seed: int | None = None
-    lock: Choices | None = None
+    hold: Choices | None = None
     count: int | None = None
 
 
@@ -229,7 +229,7 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     outcomes: list[Outcome] = []
     models: list[ModelInfo] = []
     targets: list[str] = []
-    pins: list[Pin] = []
+    held: list[HeldPart] = []
     path: str = ""
     interrupted: bool = False
     #: What windows see as `View.note`; of a search, as `View.losses`.

@@ -9,7 +9,7 @@ clicked, a slider, a file) is the other worker's, so a search never makes the pa
 - `setting`    the ask, arguments and settings
 - `marking`    picked results, stars; undo and redo
 - `searching`  a search, what it shows meanwhile, its end
-- `holding`    pinned parts
+- `holding`    held parts
 - `reshaping`  a part grown again, a choice with another value: results in the place of a result
 - `dragging`   a part that is dragged
 - `rewriting`  changes of the model's file

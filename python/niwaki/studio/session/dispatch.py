@@ -35,7 +35,7 @@ COMMANDS: dict[type[m.Command], Work] = {
     m.Set: setting.set_values,
     m.Run: searching.run,
     m.Stop: searching.stop,
-    m.PinParts: holding.pin,
+    m.HoldParts: holding.hold,
     m.FreeParts: holding.free,
     m.Reroll: reshaping.reroll,
     m.Choose: reshaping.choose,

@@ -44,19 +44,19 @@ async def drag(session: Session, window: Window, command: m.Drag) -> m.Answer | 
         found = of_model(answer.outcomes, job.question.model)
         session.placed("drag", picked, found)
         if command.follow:
-            await _follow(session, found[0].key, job.question, answer.pins)
+            await _follow(session, found[0].key, job.question, answer.held)
     return answer
 
 
-async def _follow(session: Session, picked: m.Key, question: m.Question, pins: list[m.Pin]) -> None:
+async def _follow(session: Session, picked: m.Key, question: m.Question, held: list[m.HeldPart]) -> None:
     """Grow the rest again around the part; where that gives nothing, the result stays."""
     if session.searching is not None:
         return
-    lock = question.lock | {name: value for pin in pins for name, value in pin.choices.items()}
+    hold = question.hold | {name: value for part in held for name, value in part.choices.items()}
     settings = m.Settings(count=1, effort=EFFORT)
     job = m.Grow(
         **session.fresh_run(),
-        question=msgspec.structs.replace(question, lock=lock, settings=settings),
+        question=msgspec.structs.replace(question, hold=hold, settings=settings),
         seed=secrets.randbits(53),
     )
     answer = await session.searcher.do(job, session.reported)

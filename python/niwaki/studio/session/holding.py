@@ -1,4 +1,4 @@
-"""Pinned parts: the values that hold them are asked of a worker once, and go with each search."""
+"""Held parts: the values that hold them are asked of a worker once, and go with each search."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from niwaki.studio.session.state import Refused, Session
 from niwaki.studio.window import Window
 
 
-async def pin(session: Session, window: Window, command: m.PinParts) -> m.Answer:
+async def hold(session: Session, window: Window, command: m.HoldParts) -> m.Answer:
     """Hold parts of the picked result in what follows."""
     if command.color is None:
         source = session.source(session.document.picked)
@@ -17,14 +17,14 @@ async def pin(session: Session, window: Window, command: m.PinParts) -> m.Answer
         for name in command.parts:
             if name not in regions:
                 raise Refused("no-region", f"the drawing has no region `{name}`")
-        answer = m.Answer(pins=[m.Pin(name, {name: command.color}) for name in command.parts])
+        answer = m.Answer(held=[m.HeldPart(name, {name: command.color}) for name in command.parts])
     if answer.problem is None:
-        left = [one for one in session.document.pins if one.part not in command.parts]
-        session.step("pin", {"pins": [*left, *answer.pins]})
+        left = [one for one in session.document.held if one.part not in command.parts]
+        session.step("hold", {"held": [*left, *answer.held]})
     return answer
 
 
 def free(session: Session, window: Window, command: m.FreeParts) -> None:
     """Hold them no more; all, where none is named."""
-    left = [one for one in session.document.pins if command.parts and one.part not in command.parts]
-    session.step("free", {"pins": left})
+    left = [one for one in session.document.held if command.parts and one.part not in command.parts]
+    session.step("free", {"held": left})

@@ -51,7 +51,7 @@ def choose_model(session: Session, window: Window, command: m.ChooseModel) -> No
         text = f"`{command.reference}` is no model of the gallery, and was not named at the start"
         raise Refused("unknown-model", text)
     session.losses = ""
-    fresh = {"model": reference or command.reference, "arguments": {}, "ask": m.Ask(), "pins": []}
+    fresh = {"model": reference or command.reference, "arguments": {}, "ask": m.Ask(), "held": []}
     session.step("model", {**fresh, "results": session.document.starred(), "picked": None})
     session.start(load(session))
 

@@ -156,7 +156,7 @@ class Session:
             settings=document.settings,
             results=[one for one in document.results if one.model == document.model],
             picked=document.picked,
-            pins=document.pins,
+            held=document.held,
             stars=document.stars,
             models=self.models,
             targets=self.targets,
@@ -265,11 +265,11 @@ class Session:
         ask = msgspec.structs.replace(
             ask, target=target, obstacles=[self._read(one) for one in ask.obstacles]
         )
-        lock: dict[str, Any] = {}
-        for pin in document.pins:
-            lock |= pin.choices
+        hold: dict[str, Any] = {}
+        for part in document.held:
+            hold |= part.choices
         file = self.drawing_file(document.model)
-        return m.Question(document.model or "", document.arguments, ask, document.settings, lock, file)
+        return m.Question(document.model or "", document.arguments, ask, document.settings, hold, file)
 
     def drawing_file(self, reference: str | None) -> str:
         """Where a drawing is that was sent, by its reference; empty for anything else."""

@@ -33,6 +33,7 @@ from niwaki.studio.messages import (
     DescribeRun,
     Ghost,
     Grow,
+    HeldPart,
     Hold,
     KeptRule,
     Key,
@@ -41,7 +42,6 @@ from niwaki.studio.messages import (
     Outcome,
     Palette,
     Picture,
-    Pin,
     Progressed,
     Question,
     RegionInfo,
@@ -108,7 +108,7 @@ def ghost(job: Ghost, send: Any) -> Answer:
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
-    """Colourings that differ, with the colours of pinned regions."""
+    """Colourings that differ, with the colours of held regions."""
     question, begun = job.question, time.perf_counter()
 
     def progress(now: Progress) -> None:
@@ -121,7 +121,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         rules,
         settings.count,
         method=default_method(max(1, round(settings.count * settings.effort))),
-        weight=_weight(question),
+        strictness=_weight(question),
         seed=job.seed,
         progress=progress,
     )
@@ -149,7 +149,7 @@ def hold(job: Hold) -> Answer:
     for name in job.parts:
         if name not in colors:
             raise InputError("no-part", pattern=name, name="the drawing", parts=", ".join(colors))
-    return Answer(pins=[Pin(name, {name: colors[name]}) for name in job.parts])
+    return Answer(held=[HeldPart(name, {name: colors[name]}) for name in job.parts])
 
 
 def describe(job: DescribeRun, send: Any) -> Answer:
@@ -177,7 +177,7 @@ def show(job: ShowRun, send: Any) -> Answer:
 
 
 def write(job: WriteFile) -> Answer:
-    """Write a colouring as a picture, as an SVG, or its rules with the pinned colours."""
+    """Write a colouring as a picture, as an SVG, or its rules with the held colours."""
     one = stored(job.source, job.number)
     folder = ensure_folder(Path(job.folder))
     if job.format == "png":
@@ -277,7 +277,7 @@ def _asked(reference: str) -> RulesAsk:
 
 
 def _tables(question: Question) -> dict[str, Any]:
-    """The rules that are asked, as the tables of a TOML file, with the pinned colours."""
+    """The rules that are asked, as the tables of a TOML file, with the held colours."""
     asked = question.ask.rules or _asked(question.model)
     tables: dict[str, Any] = {} if asked.background is None else {"background": asked.background}
     for one in asked.rules:
@@ -285,7 +285,7 @@ def _tables(question: Question) -> dict[str, Any]:
             tables.setdefault("muted", {}).update(dict.fromkeys(one.regions, one.most))
         else:
             tables.setdefault(one.kind, []).append(list(one.regions))
-    return {**tables, "pinned": dict(question.lock)}
+    return {**tables, "held": dict(question.hold)}
 
 
 def _rules(question: Question) -> Rules:

@@ -7,7 +7,7 @@ from typing import Any
 from niwaki.result import Result
 from niwaki.search.data import Writer
 from niwaki.search.drag import Dragging
-from niwaki.studio.messages import Answer, Dragged, DragPart, Key, Pin, Shifted
+from niwaki.studio.messages import Answer, Dragged, DragPart, HeldPart, Key, Shifted
 from niwaki.studio.worker import jobs, models, rewriting, runs, shapes
 
 #: The drag that goes on, with what it began with: of a pointer that moves only the first command prepares it.
@@ -49,7 +49,8 @@ def drag(job: DragPart, send: Any) -> Answer:
         send(*jobs.shape(one, "result", job.id, outcome.key))
     write = Writer()
     return Answer(
-        outcomes=outcomes, pins=[Pin(best.part, {name: write(value) for name, value in best.holds.items()})]
+        outcomes=outcomes,
+        held=[HeldPart(best.part, {name: write(value) for name, value in best.holds.items()})],
     )
 
 
@@ -59,8 +60,8 @@ def _dragging(job: DragPart) -> Dragging:
     if not _going or _going[0][0] != key:
         one = runs.sample(job.source, job.number)
         choices = one.choices
-        pinned = {name: choices[name] for name in runs.given(job.question.lock) if name in choices}
-        search, _ = jobs.searched(job.question, one, pinned)
+        held = {name: choices[name] for name in runs.given(job.question.hold) if name in choices}
+        search, _ = jobs.searched(job.question, one, held)
         # A part is taken by the middle of its box where no point of it is.
         _going[:] = [(key, Dragging(search, one, job.part, grab=job.grab, along=job.along, to=job.to))]
     return _going[0][1]

@@ -58,7 +58,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         rounds=max(1, round(ROUNDS * settings.effort)),
         diverse=variety.candidates(settings.count, settings.strength) if settings.count > 1 else None,
         seed=job.seed,
-        lock=runs.given(job.question.lock) or None,
+        hold=runs.given(job.question.hold) or None,
         progress=watching(job.id, job.run, send, check),
     )
     result.samples = variety.spread(ended(result), settings.count, settings.strength)
@@ -84,7 +84,7 @@ def watching(job: int, run: int, send: Any, check: Callable[[], None]) -> Watch:
 def regrow(job: Regrow, send: Any) -> Answer:
     """Grow a part of a result again, in place, by seeds that follow one another; equal outcomes are given once."""
     search, choices = searched(
-        job.question, runs.sample(job.source, job.number), runs.given(job.question.lock)
+        job.question, runs.sample(job.source, job.number), runs.given(job.question.hold)
     )
     with translated(search.model.name, choices=choices):
         whole = Sample.of_trace(search.task.replay(choices, None), search, job.seed)
@@ -126,11 +126,11 @@ def ended(result: Result) -> list[Sample]:
 
 
 def searched(
-    question: Question, one: Sample, lock: dict[str, Any] | None
+    question: Question, one: Sample, hold: dict[str, Any] | None
 ) -> tuple[SearchLike, dict[str, Any]]:
     """The search of a result with the present model and arguments, and the result's choices."""
     model, args = models.reference(question.model).model, asks.arguments(question)
-    search = replace(one.search, model=model, args=args, choices=None, lock=lock or None, polish=None)
+    search = replace(one.search, model=model, args=args, choices=None, hold=hold or None, polish=None)
     return search, dict(one.choices)
 
 

@@ -19,11 +19,11 @@ from niwaki.studio.messages import (
     Choices,
     Described,
     DescribeRun,
+    HeldPart,
     Hold,
     Key,
     Outcome,
     PartInfo,
-    Pin,
     Place,
     ShowRun,
     WriteFile,
@@ -85,10 +85,11 @@ def given(choices: Choices) -> dict[str, Any]:
 def hold(job: Hold) -> Answer:
     """The choices that hold parts of a result."""
     one, write = sample(job.source, job.number), Writer()
-    pins = [
-        Pin(part, {address: write(value) for address, value in one.held(part).items()}) for part in job.parts
+    held = [
+        HeldPart(part, {address: write(value) for address, value in one.held(part).items()})
+        for part in job.parts
     ]
-    return Answer(pins=pins)
+    return Answer(held=held)
 
 
 def describe(job: DescribeRun, send: Any) -> Answer:

@@ -65,7 +65,7 @@ def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
         found.model,
         explore(draws=1, chains=max(1, round(CHAINS * settings.count * settings.effort))),
         seed=job.seed,
-        lock=runs.given(question.lock) or None,
+        hold=runs.given(question.hold) or None,
         progress=progress,
         **question.arguments,
     )
@@ -120,8 +120,8 @@ def regrow(job: Regrow, send: Any) -> Answer:
         for address, value in choices.items()
         if address not in own and FORCES not in address.split("/")
     }
-    lock = {**held, **runs.given(job.question.lock)}
-    if own <= set(lock):
+    hold = {**held, **runs.given(job.question.hold)}
+    if own <= set(hold):
         raise Refused("no-other-form", f"`{job.part}` has no choices of its own that are free")
     wanted = job.count if job.strength is None else 2 * job.count
     try:
@@ -129,7 +129,7 @@ def regrow(job: Regrow, send: Any) -> Answer:
             found.model,
             explore(draws=1, chains=CHAINS * wanted),
             seed=job.seed,
-            lock=lock,
+            hold=hold,
             **job.question.arguments,
         )
     except NiwakiError as error:

@@ -47,8 +47,8 @@ def again(job: GrowAgain, send: Any, check: Callable[[], None]) -> Answer:
     search = run_files.searched(data, allowed.modules(data), job.source)
     if job.seed is not None:
         search = search.with_seed(job.seed)
-    if job.lock is not None:
-        search = replace(search, lock=runs.given(job.lock) or None)
+    if job.hold is not None:
+        search = replace(search, hold=runs.given(job.hold) or None)
     if job.count is not None:
         search = _counted(search, job.count)
     result = search.run(progress=jobs.watching(job.id, job.run, send, check))

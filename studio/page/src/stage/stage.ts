@@ -1,4 +1,4 @@
-// The scene in three.js: the shape, the ghost of the target, marks of selected and pinned parts, the camera.
+// The scene in three.js: the shape, the ghost of the target, marks of selected and held parts, the camera.
 //
 // Nothing is drawn unless something has changed. The camera moves when the user moves it, and when a window shows its
 // first content or another model; and once more for the first shape of a model that does not fit into the view, where the
@@ -43,8 +43,8 @@ import { kindOf, type Mode, Things } from "./things";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
-  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, pinned: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
-  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, pinned: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
+  light: { paper: 0xf3f1ec, ghost: 0x5a82b8, obstacle: 0xb4564a, mark: 0x8a857a, selected: 0xd0652b, held: 0x2f6f8f, shade: 0.16, falling: 0xb3261e, force: 0x1f5f8b },
+  dark: { paper: 0x1d1e21, ghost: 0x7fa3d4, obstacle: 0xd9837a, mark: 0x8c8d92, selected: 0xf08a4b, held: 0x6fb2d2, shade: 0.45, falling: 0xff6b5e, force: 0x8cc8f0 },
 };
 
 export class Stage {
@@ -277,16 +277,16 @@ export class Stage {
     this.draw();
   }
 
-  /** Mark parts: those that are selected or under the pointer, and those that are pinned. */
+  /** Mark parts: those that are selected or under the pointer, and those that are held. */
   mark(
     isSelected: (address: string) => boolean,
-    isPinned: (address: string) => boolean,
+    isHeld: (address: string) => boolean,
     isFalling: (address: string) => boolean,
   ): void {
     clear(this.marks);
     if (this.piece !== null && !this.piece.header.is_flat) {
       this.tint(isFalling, this.look.falling, 0.5);
-      this.tint(isPinned, this.look.pinned, 0.28);
+      this.tint(isHeld, this.look.held, 0.28);
       this.tint(isSelected, this.look.selected, 0.35);
     }
     this.draw();

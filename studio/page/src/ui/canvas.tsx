@@ -113,11 +113,11 @@ function follow(): void {
   const remark = () => {
     const level = store.level.value;
     const over = store.hovered.value;
-    const pins = [...store.pinned.value];
+    const held = [...store.heldParts.value];
     const falls = new Set([...(store.judged.value?.loose ?? []), ...(store.judged.value?.fallen ?? [])]);
     stage.mark(
       (address) => (level !== null && level !== "" && isBelow(address, level)) || (over !== null && isBelow(address, over)) || address === store.part.value,
-      (address) => pins.some((pin) => isBelow(address, pin)),
+      (address) => held.some((part) => isBelow(address, part)),
       (address) => falls.has(address),
     );
   };
@@ -154,7 +154,7 @@ function follow(): void {
     model = reference;
   });
   effect(() => {
-    void [store.level.value, store.hovered.value, store.pinned.value, store.part.value];
+    void [store.level.value, store.hovered.value, store.heldParts.value, store.part.value];
     remark();
   });
   effect(() => {
@@ -165,7 +165,7 @@ function follow(): void {
   let rules = "";
   effect(() => {
     // The rules of a drawing have changed: how well the picked result keeps them has, too.
-    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.pins.map((one) => one.part)]);
+    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.held.map((one) => one.part)]);
     const key = store.picked.peek();
     if (now !== rules && rules !== "" && key !== null && store.kind.peek() === "coloring") void store.tell({ kind: "describe", key });
     rules = now;

@@ -48,11 +48,11 @@ export function Inspector() {
             </button>
             <button
               class="button"
-              aria-pressed={store.pinned.value.has(here)}
-              onClick={() => store.pinOrFree(here)}
-              title="Hold this part in what comes (P)"
+              aria-pressed={store.heldParts.value.has(here)}
+              onClick={() => store.holdOrFree(here)}
+              title="Hold this part in what comes (H)"
             >
-              <Icon name="pin" filled={store.pinned.value.has(here)} /> {store.pinned.value.has(here) ? "Free" : "Pin"}
+              <Icon name="pin" filled={store.heldParts.value.has(here)} /> {store.heldParts.value.has(here) ? "Free" : "Hold"}
             </button>
           </div>
         )}
@@ -148,7 +148,7 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
   const name = choice.address.split("/").pop()!;
   const [moving, setMoving] = useState<number | null>(null);
   const isBoolean = typeof choice.value === "boolean";
-  const isPinned = store.pinned.value.has(choice.address);
+  const isHeld = store.heldParts.value.has(choice.address);
   const set = (value: number | boolean, phase: "move" | "end") =>
     void store.tell({ kind: "choose", address: choice.address, value, phase });
   const step = choice.is_whole ? 1 : ((choice.high ?? 1) - (choice.low ?? 0)) / 200;
@@ -184,11 +184,11 @@ function Choice({ choice }: { choice: ChoiceInfo }) {
       </label>
       <button
         class="icon-button tiny"
-        aria-pressed={isPinned}
-        title={isPinned ? `Free ${choice.address}` : `Pin ${choice.address}`}
-        onClick={() => store.pinOrFree(choice.address)}
+        aria-pressed={isHeld}
+        title={isHeld ? `Free ${choice.address}` : `Hold ${choice.address}`}
+        onClick={() => store.holdOrFree(choice.address)}
       >
-        <Icon name="pin" filled={isPinned} />
+        <Icon name="pin" filled={isHeld} />
       </button>
     </div>
   );

@@ -1,4 +1,4 @@
-// The right side of a drawing: the colours of its regions, which are pinned, and the rules.
+// The right side of a drawing: the colours of its regions, which are held, and the rules.
 
 import * as store from "../store";
 import { Icon } from "./icons";
@@ -8,7 +8,7 @@ export function Palette() {
   const view = store.view.value;
   const model = view?.model;
   if (view === null || model == null) return <aside class="side right" aria-label="Colours" />;
-  const held = new Map(view.pins.map((one) => [one.part, one.choices[one.part] as string]));
+  const held = new Map(view.held.map((one) => [one.part, one.choices[one.part] as string]));
   const colors = store.palette.value?.colors ?? {};
   return (
     <aside class="side right" aria-label="Colours">
@@ -16,7 +16,7 @@ export function Palette() {
         <h2>Colours</h2>
         <ul class="regions">
           {model.regions.map((one) => (
-            <Region key={one.name} name={one.name} color={colors[one.name] ?? held.get(one.name) ?? one.color} isHeld={store.pinned.value.has(one.name)} />
+            <Region key={one.name} name={one.name} color={colors[one.name] ?? held.get(one.name) ?? one.color} isHeld={store.heldParts.value.has(one.name)} />
           ))}
         </ul>
         {model.regions.length === 0 && <p class="quiet">…</p>}
@@ -30,7 +30,7 @@ function Region({ name, color, isHeld }: { name: string; color: string; isHeld: 
   const isSelected = store.level.value === name;
   const give = async (value: string) => {
     if (store.picked.value !== null) await store.tell({ kind: "choose", address: name, value });
-    await store.tell({ kind: "pin", parts: [name], color: value });
+    await store.tell({ kind: "hold", parts: [name], color: value });
   };
   return (
     <li
@@ -42,7 +42,7 @@ function Region({ name, color, isHeld }: { name: string; color: string; isHeld: 
         type="color"
         value={color}
         aria-label={`Colour of ${name}`}
-        title={`${name}: ${color}. Choose a colour; it is pinned`}
+        title={`${name}: ${color}. Choose a colour; it is held`}
         onInput={(event) => {
           if (store.picked.value === null) return;
           void store.tell({ kind: "choose", address: name, value: event.currentTarget.value, phase: "move" });
@@ -55,9 +55,9 @@ function Region({ name, color, isHeld }: { name: string; color: string; isHeld: 
       <button
         class="icon-button tiny"
         aria-pressed={isHeld}
-        title={isHeld ? `Free ${name}` : `Pin ${name}`}
+        title={isHeld ? `Free ${name}` : `Hold ${name}`}
         disabled={!isHeld && store.picked.value === null}
-        onClick={() => store.pinOrFree(name)}
+        onClick={() => store.holdOrFree(name)}
       >
         <Icon name="pin" filled={isHeld} />
       </button>

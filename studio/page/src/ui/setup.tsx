@@ -219,7 +219,7 @@ function Search({ settings }: { settings: Settings }) {
       </label>
       {running === null ? (
         <button class="primary" disabled={cannot} onClick={store.run} title={`${verb} (Enter)`}>
-          {store.pinned.value.size > 0 ? `${verb} the rest` : verb}
+          {store.heldParts.value.size > 0 ? `${verb} the rest` : verb}
         </button>
       ) : (
         <button class="primary stop" onClick={store.stop} title="Stop and keep what is there (Esc)">
@@ -230,15 +230,15 @@ function Search({ settings }: { settings: Settings }) {
         </button>
       )}
       {view.losses !== "" && <p class="quiet losses">{view.losses.replaceAll("`", "")}</p>}
-      {store.pinned.value.size > 0 && (
-        <ul class="pins" aria-label="Pinned parts">
-          {[...store.pinned.value].map((part) => (
+      {store.heldParts.value.size > 0 && (
+        <ul class="held" aria-label="Held parts">
+          {[...store.heldParts.value].map((part) => (
             <li key={part}>
               <Icon name="pin" filled />
               <button class="address" onClick={() => (store.level.value = part)}>
                 {part}
               </button>
-              <button class="icon-button tiny" title={`Free ${part}`} onClick={() => store.pinOrFree(part)}>
+              <button class="icon-button tiny" title={`Free ${part}`} onClick={() => store.holdOrFree(part)}>
                 <Icon name="close" />
               </button>
             </li>

@@ -7,6 +7,7 @@ import os
 import random
 import secrets
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import niwaki as nw
@@ -74,17 +75,17 @@ def furthest(found: dict[str, float], exact: dict[str, float], effective: float)
 
 def test_the_law_is_that_of_the_free_program_with_those_values() -> None:
     place = leg_of(1)
-    lock = {f"{place}/length": 2}
+    hold = {f"{place}/length": 2}
     free = nw.run(legs, nw.enumerate_all())
     assert isinstance(free.info, EnumerationInfo)
     # Only runs with a second leg, and of that length.
     kept = {str(v): math.exp(log) for v, log in free.info.table if v[0] > 1 and v[1][1][0] == 2}
     exact = {value: p / sum(kept.values()) for value, p in kept.items()}
-    locked = nw.run(legs, nw.enumerate_all(), lock=lock)
-    assert shares(locked) == pytest.approx(exact)
-    assert locked.log_evidence == pytest.approx(math.log(sum(kept.values())))
+    bound = nw.run(legs, nw.enumerate_all(), hold=hold)
+    assert shares(bound) == pytest.approx(exact)
+    assert bound.log_evidence == pytest.approx(math.log(sum(kept.values())))
     # Beyond 5 standard errors a share lies once in 1.7 million; some 60 are looked at.
-    weighed = nw.run(legs, nw.importance(20_000), lock=lock, seed=2)
+    weighed = nw.run(legs, nw.importance(20_000), hold=hold, seed=2)
     effective = 1 / float(np.sum(weighed.weights**2))
     assert furthest(shares(weighed), exact, effective) < 5
 
@@ -111,7 +112,7 @@ def by_quadrature(y: float) -> tuple[float, float]:
 def test_continuous_choices_follow_the_law_given_a_held_one(method: Any) -> None:
     """Within five errors of a sample of 500 that are independent: far fewer than there are."""
     mean, deviation = by_quadrature(0.16)
-    result = nw.run(slope, method, lock={"y": 0.16}, seed=3)
+    result = nw.run(slope, method, hold={"y": 0.16}, seed=3)
     assert all(sample.choices["y"] == 0.16 for sample in list(result)[:5])
     values = np.array([sample.choices["x"] for sample in result])
     weights = result.weights
@@ -119,15 +120,15 @@ def test_continuous_choices_follow_the_law_given_a_held_one(method: Any) -> None
 
 
 def test_a_search_for_the_best_and_its_polish_keep_what_is_held() -> None:
-    lock = {f"{leg_of(1)}/length": 1, f"{leg_of(0)}/length": 2}
-    found = nw.run(legs, nw.improve(rounds=5), lock=lock, seed=1)
-    polished = nw.run(legs, nw.smc(particles=50), lock=lock, seed=1).polish(nw.mh(500))
+    hold = {f"{leg_of(1)}/length": 1, f"{leg_of(0)}/length": 2}
+    found = nw.run(legs, nw.improve(rounds=5), hold=hold, seed=1)
+    polished = nw.run(legs, nw.smc(particles=50), hold=hold, seed=1).polish(nw.mh(500))
     for result in (found, polished):
-        assert lock.items() <= result.best.choices.items()
+        assert hold.items() <= result.best.choices.items()
 
 
 def test_a_lock_is_part_of_a_search() -> None:
-    search = nw.Search(legs, method=nw.smc(particles=20), seed=4, lock={f"{leg_of(0)}/length": 1})
+    search = nw.Search(legs, method=nw.smc(particles=20), seed=4, hold={f"{leg_of(0)}/length": 1})
     again = nw.Search.of_json(search.json())
     assert again.hash == search.hash != nw.Search(legs, method=nw.smc(particles=20), seed=4).hash
     values = [[one.value for one in own.run()] for own in (search, again)]
@@ -168,7 +169,7 @@ def test_what_decides_that_a_part_exists_is_above_and_before_it() -> None:
     held = sample.held(place)
     flips = [path for path in sample.choices if "flip" in path or "bernoulli" in path]
     assert set(flips[:3]) <= set(held) and len(held) >= 4 and not set(held) & set(flips[3:])
-    assert nw.run(tower, nw.smc(particles=20), lock=held, seed=1).best.primitives >= 3
+    assert nw.run(tower, nw.smc(particles=20), hold=held, seed=1).best.primitives >= 3
 
 
 @pytest.mark.parametrize("power", [1.0, 2.0])
@@ -176,10 +177,10 @@ def test_a_part_grown_again_follows_the_law_given_the_rest(power: float) -> None
     sample = nw.run(legs, seed=5, choices={"count": 2}).best
     part = leg_of(1)
     rest = {path: value for path, value in sample.choices.items() if not path.startswith(part + "/")}
-    locked = nw.run(legs, nw.enumerate_all(), lock=rest)
-    assert isinstance(locked.info, EnumerationInfo)
+    bound = nw.run(legs, nw.enumerate_all(), hold=rest)
+    assert isinstance(bound.info, EnumerationInfo)
     sharper = {}
-    for value, log in locked.info.table:
+    for value, log in bound.info.table:
         score = -0.4 * value[0] - 0.3 * sum(one[0] for one in value[1])
         sharper[str(value)] = math.exp(log + (power - 1) * score)
     exact = {value: p / sum(sharper.values()) for value, p in sharper.items()}
@@ -211,7 +212,7 @@ def test_growing_a_part_again_changes_nothing_else() -> None:
 
 
 def test_what_cannot_be_held_has_a_message() -> None:
-    for lock, code in (
+    for hold, code in (
         ({"lenght": 1}, "no-address"),
         ({"count": 1, f"{leg_of(1)}/length": 1}, "everything-impossible"),
         ({"count": 7}, "everything-impossible"),
@@ -219,12 +220,31 @@ def test_what_cannot_be_held_has_a_message() -> None:
         ({"count": "one"}, "type-mismatch"),
         ({"count": object()}, "bad-setting"),
         ([("count", 1)], "bad-setting"),
+        (3, "bad-setting"),
+        ("count", "hold-without-run"),
+        (["count"], "hold-without-run"),
     ):
         with pytest.raises(NiwakiError) as caught:
-            nw.run(legs, nw.smc(particles=20), seed=1, lock=lock)  # type: ignore[arg-type]
+            nw.run(legs, nw.smc(particles=20), seed=1, hold=hold)  # type: ignore[arg-type]
         assert caught.value.code == code
     with pytest.raises(InputError, match="did not make it"):
-        nw.run(legs, nw.smc(particles=20), seed=1, lock={"count": 1, f"{leg_of(1)}/length": 1})
+        nw.run(legs, nw.smc(particles=20), seed=1, hold={"count": 1, f"{leg_of(1)}/length": 1})
+
+
+def test_hold_means_the_same_in_every_search_and_drag() -> None:
+    first = nw.run(legs, nw.smc(particles=20), seed=1).best
+    leg = f"{leg_of(0)}/length"
+    expected = first.held(leg)
+    assert list(expected) == [leg]
+    # An address, a pattern, several, and values by address hold the same.
+    for hold in (leg, [leg], expected, {leg: first.choices[leg]}):
+        search = nw.Search(legs, method=nw.mh(20), seed=2, choices=first.choices, hold=hold)
+        assert search.held == expected and search.hash == replace(search, hold=expected).hash
+        assert replace(search, choices=None).held == expected
+        assert expected.items() <= search.run().best.choices.items()
+    assert nw.Search(legs, choices=first.choices, hold=["count", leg]).held == first.held("count", leg)
+    with pytest.raises(InputError, match="no-address|matches no"):
+        nw.Search(legs, choices=first.choices, hold="hat")
 
 
 #: Models that differ: bodies in a loop, a recursion, blocks that stand on each other, a town, a coral.
@@ -245,17 +265,17 @@ def hold_at_random(name: str, seed: int) -> str:
     paths = list(free.choices)
     calls = sorted({path.rpartition("/")[0] for path in paths} - {""})
     pool = calls if calls and rng.random() < 0.5 else paths
-    lock = free.held(*rng.sample(pool, min(len(pool), rng.randint(1, 3))))
+    hold = free.held(*rng.sample(pool, min(len(pool), rng.randint(1, 3))))
     method = rng.choice([nw.smc(particles=20), nw.smc(particles=20, order="depth-first"), nw.mh(50, thin=10)])
     start = free.choices if isinstance(method, nw.methods.Mh) else None
     try:
-        found = nw.run(one.model, method, score=score, seed=seed, lock=lock, choices=start)
+        found = nw.run(one.model, method, score=score, seed=seed, hold=hold, choices=start)
     except InputError as error:
         assert error.code in ("everything-impossible", "no-start"), str(error)
         return error.code
     alive = [sample for sample in found if sample.log_weight > -math.inf and sample.log_score > -math.inf]
     for sample in alive[:6]:
-        assert {path: sample.choices.get(path) for path in lock} == lock, f"{name}, seed {seed}"
+        assert {path: sample.choices.get(path) for path in hold} == hold, f"{name}, seed {seed}"
     return "held" if alive else "everything-impossible"
 
 

@@ -1,0 +1,375 @@
+"""Claim: a flag has one name, one short form, one metavar and one meaning in every command, and nothing is replaced."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+from niwaki.errors import InputError
+from niwaki.shell.app import COMMANDS, app
+from PIL import Image
+from typer.testing import CliRunner
+
+#: Every flag of every command: its names, what stands for its value, and how its help begins. A new flag needs a row.
+#: One that other commands have must have the same row, and one that means something else another name.
+FLAGS = {
+    # Where to, how many, by what.
+    "--output": ("-o/--output", "PATH", "Where to: a folder or, with a suffix, a file. Default: "),
+    "--force": ("--force", None, "Replace what is there."),
+    "--runs": ("-n/--runs", "N", "How many results."),
+    "--particles": ("--particles", "N|LIST", "Of a population."),
+    "--seed": ("--seed", "N", "The random stream. Default: a new one, which is printed."),
+    "--threads": ("--threads", "N", "Default: all cores. Results do not depend on it."),
+    "--max-steps": ("--max-steps", "N", "Most calls and loop steps of one run."),
+    "--max-memory": ("--max-memory", "MB", "Most memory of a run or a population"),
+    "--resume": ("--resume", "PATH", "Go on with what was stopped or killed: the "),
+    "--json": ("--json", None, "Print JSON"),
+    # Which files.
+    "--format": ("--format", "LIST", "Which files, with commas: "),
+    "--scale": ("--scale", "MM", "stl, 3mf: millimetres"),
+    "--fuse": ("--fuse", "GAP", "stl, 3mf: close gaps"),
+    "--frames": ("--frames", "N", "gif, apng: most frames."),
+    "--size": ("--size", "WxH", "gif, apng: pixels."),
+    "--width": ("--width", "N", "Pixels of the picture"),
+    "--side": ("--side", "N", "Pixels of the longer side of each PNG."),
+    "--pixels": ("--pixels", "N", "Longer side of a drawing when it is "),
+    "--export": ("--export", "LIST", "Files of these results, too"),
+    "--picture": ("--picture/--no-picture", None, "Draw best.png, sheet.png and what was matched."),
+    "--quick": ("--quick", None, "Small pictures with one ray for each pixel"),
+    "--choices": ("--choices", None, "In the table, the choices"),
+    # The model, and results to begin from.
+    "--preset": ("--preset", "FILE", "A TOML file with arguments of the model"),
+    "--model": ("--model", "FILE", "The Python file with the model's host functions; it is run."),
+    "--trust": ("--trust", None, "Run the Python files that results name, where unchanged"),
+    "--anyway": ("--anyway", None, "Run the model's file as it is now"),
+    "--try": ("--try", "MODEL", "Another version"),
+    "--choice": ("--choice", "ADDRESS", "The choice to change"),
+    "--core": ("--core", None, "Print the core form."),
+    "--bytecode": ("--bytecode", None, "Print the bytecode."),
+    "--from": ("--from", "RUN.JSON", "A result to go on from"),
+    "--run": ("--run", "N", "Which result, #N"),
+    "--hold": ("--hold", "PATTERN|ADDRESS=VALUE", "Keep what this matches"),
+    "--reroll": ("--reroll", "PATTERN", "Grow the parts that this matches again"),
+    # What a scene should be like.
+    "--target": ("--target", "FILE", "A mesh to fill"),
+    "--targets": ("--targets", "FOLDER|NAME", "A folder of drawings or of meshes"),
+    "--avoid": ("--avoid", "FILE", "A mesh to avoid"),
+    "--floor": ("--floor", "Y", "A height to stay above."),
+    "--within": ("--within", "X,Y,Z,X,Y,Z", "Low and high corner of a box"),
+    "--window": ("--window", "X,Y,X,Y", "Low and high corner of what a drawing shows."),
+    "--match-image": ("--match-image", "FILE", "A silhouette to match"),
+    "--match-shadow": ("--match-shadow", "FILE", "A shadow to cast"),
+    "--camera": ("--camera", "FILE", "The camera that sees"),
+    "--weight-image": ("--weight-image", "FILE", "An image, white where"),
+    "--weight": ("--weight", "NUMBER", "How much more a white pixel counts."),
+    "--light": ("--light", "X,Y,Z", "The direction in which the light travels."),
+    "--receiver": ("--receiver", "FILE", "A mesh that the shadow falls on."),
+    "--voxel": ("--voxel", "SIZE", "Cell size."),
+    "--sigma": ("--sigma", "NUMBER", "Strictness of the match; smaller is stricter."),
+    "--rule": ("--rule", "solid|surface", "Which parts count as intersecting."),
+    "--rules": ("--rules", "FILE", "Rules for the regions"),
+    "--strictness": ("--strictness", "NUMBER", "Of the rules; larger is stricter."),
+    "--style": ("--style", "vines|lightning", "The model that writes."),
+    "--font": ("--font", "FILE", "A TrueType or OpenType file."),
+    # How to search: a flag for each setting of the methods.
+    "--method": ("--method", "NAME", "improve, smc, ais, particle-gibbs, pimh."),
+    "--guide": ("--guide", "FILE|shipped|none", "A guide, which draws choices"),
+    "--polish": ("--polish", "STEPS", "Continue from the best result"),
+    "--polish-kernel": ("--polish-kernel", "KERNEL", "With --polish: the kernel of the chain"),
+    "--regrow": ("--regrow", "N", "Particles that grow a part again"),
+    "--power": ("--power", "NUMBER", "The power of the score"),
+    "--rounds": ("--rounds", "N", "Most rounds"),
+    "--seconds": ("--seconds", "SECONDS", "No round begins after so many seconds"),
+    "--diverse": ("--diverse", "N", "Give so many results that differ"),
+    "--order": ("--order", "NAME", '"stochastic"'),
+    "--weights": ("--weights", "NAME", '"ratio"'),
+    "--resampling": ("--resampling", "NAME", '"systematic"'),
+    "--ess": ("--ess", "NUMBER", "Resample only when"),
+    "--anneal": ("--anneal", "LIST", "The schedule of powers"),
+    "--populations": ("--populations", "N", "So many independent populations"),
+    "--look-ahead": ("--look-ahead", "NUMBER", "Let weights count this share"),
+    "--rejuvenate": ("--rejuvenate", "KERNEL", "A kernel of niwaki.kernels that moves each particle"),
+    "--moves": ("--moves", "N", "Proposals for each particle"),
+    "--at": ("--at", "NAME", "When: "),
+    "--draws": ("--draws", "N", "Once all have ended, follow chains of them"),
+    "--chains": ("--chains", "N", ("How many, side by side", "Once all have ended, follow chains of them")),
+    "--powers": ("--powers", "LIST", "How many rungs the ladder has"),
+    "--kernel": ("--kernel", "KERNEL", "How "),
+    "--tries": ("--tries", "N", "Most forward runs for "),
+    "--sweeps": ("--sweeps", "N", "How many; one sample each."),
+    "--ancestors": ("--ancestors/--no-ancestors", None, "Whether the past of the held run"),
+    "--steps": ("--steps", "N", "Proposals of each chain"),
+    "--strategy": ("--strategy", "NAME", "How much of the model is run again"),
+    "--thin": ("--thin", "N", "Proposals between two samples"),
+    "--keep": ("--keep", "N", "About how many samples of each chain"),
+    "--warmup": ("--warmup", "N", "Proposals before the first sample"),
+    # Searches of which another thing is made; batches; the studio.
+    "--searches": ("--searches", "N|LIST", "How many for each "),
+    "--searches-ahead": ("--searches-ahead", "N", "Then teach it to look ahead"),
+    "--objective": ("--objective", "examples|bound|particles", "Learn from the best runs"),
+    "--start": ("--start", "FILE", "A guide to go on with."),
+    "--mirror": ("--mirror/--no-mirror", None, "Learn from mirrored drawings, too."),
+    "--processes": ("--processes", "N", "How many. Default: the processors of the machine."),
+    "--shard": ("--shard", "I/N", "Only this part of the batch"),
+    "--engine": ("--engine", "local|ray|dask", "Where searches run."),
+    "--cluster": ("--cluster", "URL", "One that runs."),
+    "--chunk": ("--chunk", "SECONDS", "Searches that a worker gets at once."),
+    "--session": ("--session", "FOLDER", "Where the session is stored"),
+    "--port": ("--port", "N", "Default: a free one."),
+    "--browser": ("--browser/--no-browser", None, "Open the page."),
+}
+
+#: What stands for the words after a command, and how their help begins.
+WORDS = {
+    "MODEL": "A gallery name, or file.py:function; the file is run.",
+    "[NAME=VALUE]...": "Arguments of the model; its defaults where left out.",
+    "RUN.JSON": "The file that `niwaki grow` wrote.",
+    "DRAWING": "An SVG",
+    "TEXT": "What to write.",
+    "SPEC": "A TOML file: the model, seeds, and what varies.",
+    "FOLDER": "The folder of a batch.",
+    "FILE": "A guide's file.",
+    "[MODEL.PY]...": "Files of models",
+}
+
+
+def commands(group: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """All commands, by their full names."""
+    for word, one in group.commands.items():
+        yield from commands(one, f"{name}{word} ") if hasattr(one, "commands") else [(f"{name}{word}", one)]
+
+
+@pytest.fixture(scope="module")
+def all_commands() -> dict[str, Any]:
+    for name in COMMANDS:
+        import_module(f"niwaki.shell.{name}")
+    return dict(commands(typer.main.get_group(app)))
+
+
+def deviations(name: str, option: Any) -> Iterator[str]:
+    """What an option of a command does not share with the table."""
+    flag = next(one for one in option.opts if one.startswith("--"))
+    if flag not in FLAGS:
+        yield f"{name} {flag}: not in the table"
+        return
+    names, metavar, meaning = FLAGS[flag]
+    if "/".join([*option.opts, *option.secondary_opts]) != names:
+        yield f"{name} {flag}: {option.opts} {option.secondary_opts}, and not {names}"
+    if option.metavar not in (metavar, *(metavar or "").split("|")):
+        yield f"{name} {flag}: {option.metavar}, and not {metavar}"
+    # A setting of some methods begins with their names.
+    text = option.help
+    owners, colon, rest = text.partition(": ")
+    if colon and set(owners.split(", ")) <= {"improve", "smc", "ais", "particle-gibbs", "pimh"}:
+        text = rest
+    if not text.startswith(meaning):
+        yield f"{name} {flag}: {text!r}, and not {meaning!r}"
+
+
+def test_every_flag_is_that_of_the_table(all_commands: dict[str, Any]) -> None:
+    found = [
+        line
+        for name, command in all_commands.items()
+        for one in command.params
+        if one.param_type_name == "option" and one.name != "help"
+        for line in deviations(name, one)
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_every_word_is_that_of_the_table(all_commands: dict[str, Any]) -> None:
+    found = [
+        f"{name} {one.metavar}: {one.help}"
+        for name, command in all_commands.items()
+        for one in command.params
+        if one.param_type_name == "argument" and not one.help.startswith(WORDS.get(one.metavar, "?"))
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_the_table_has_no_flag_twice_and_none_that_is_gone(all_commands: dict[str, Any]) -> None:
+    used = {flag for command in all_commands.values() for one in command.params for flag in one.opts}
+    assert not set(FLAGS) - used
+    shorts = [short for names, _, _ in FLAGS.values() for short in names.split("/") if len(short) == 2]
+    assert sorted(shorts) == ["-n", "-o"]
+    # Of two flags that begin alike one is another name of the other; a default says nothing about the meaning.
+    meanings = [meaning for _, _, meaning in FLAGS.values() if not str(meaning).startswith("Default")]
+    alike = {one for one in meanings for two in meanings if one is not two and str(two).startswith(str(one))}
+    assert not alike - {"How many for each ", "How "}
+
+
+def test_commands_that_write_have_the_same_three(all_commands: dict[str, Any]) -> None:
+    writing = {name for name, command in all_commands.items() for one in command.params if "-o" in one.opts}
+    assert writing == {
+        *("show", "grow", "replay", "sample", "color", "letters", "explain"),
+        *("batch run", "batch export", "guide train"),
+    }
+    for name in writing - {"batch run"}:
+        # A batch is gone on with, and never replaced.
+        assert "--force" in {flag for one in all_commands[name].params for flag in one.opts}, name
+
+
+def run(*words: object) -> Any:
+    return CliRunner().invoke(app, [str(word) for word in words])
+
+
+MODEL = """
+from niwaki import box, emit, model, uniform
+
+@model
+def tower():
+    emit(box((0, 1, 0), (1, uniform(1, 2), 1)))
+"""
+SPEC = "model = 'garden.py:tower'\nseeds = 2\n[grow]\ntarget = 'pillar.obj'\nparticles = 5\n"
+TRAIN = ("guide", "train", "lightning", "--targets", "pages", "--searches", "4", "--seed", "1")
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    from niwaki import box
+    from niwaki.draw.scene import Scene
+
+    monkeypatch.chdir(tmp_path)
+    Path("garden.py").write_text(MODEL)
+    Path("ships.toml").write_text(SPEC)
+    Scene([("pillar", [box((0, 1, 0), (1, 2, 1))])]).export("pillar.obj")
+    Path("pages").mkdir()
+    for number in range(4):
+        page = Image.new("L", (60, 60), 255)
+        page.paste(0, (20 + 3 * number, 5, 30 + 3 * number, 55))
+        page.save(f"pages/{number}.png")
+    return tmp_path
+
+
+#: A call of each command that writes, its usual file in a folder, and files that it can write alone.
+CALLS: dict[str, tuple[tuple[str, ...], str, tuple[str, ...]]] = {
+    "show": (
+        ("show", "garden.py:tower", "-n", "1", "--quick", "--seed", "1"),
+        "show.png",
+        ("a.png", "a.jpg"),
+    ),
+    "grow": (
+        ("grow", "garden.py:tower", "--target", "pillar.obj", "--seed", "1", "--particles", "5", "--quick"),
+        "run.json",
+        ("a.png", "a.json", "a.stl", "a.gif"),
+    ),
+    "replay": (("replay", "first/run.json", "--quick"), "run.json", ("a.png", "a.json", "a.obj")),
+    "sample": (
+        ("sample", "garden.py:tower", "--steps", "20", "--seed", "1", "--quick"),
+        "samples.csv",
+        ("a.csv", "a.json", "a.glb", "a.png"),
+    ),
+    "color": (
+        ("color", "bug", "-n", "1", "--side", "64", "--pixels", "64", "--seed", "1"),
+        "colors.json",
+        ("a.svg", "a.png", "a.json", "a.csv"),
+    ),
+    "letters": (
+        ("letters", "I", "--seed", "1", "--particles", "4", "--searches", "1", "--width", "64"),
+        "word.svg",
+        ("a.svg", "a.png"),
+    ),
+    "explain": (("explain", "hmm", "--choice", "n[2]/state"), "explain.svg", ("a.svg", "a.png")),
+    "batch export": (("batch", "export", "ships", "--format", "csv"), "results.csv", ()),
+    "batch export alone": (("batch", "export", "ships"), "", ("a.csv", "a.png")),
+    "guide train": (TRAIN, "lightning.guide", ("a.guide",)),
+}
+
+
+def done(*words: object) -> Any:
+    found = run(*words)
+    assert found.exit_code == 0, (found.output, found.exception)
+    return found
+
+
+def refused(*words: object) -> InputError:
+    found = run(*words)
+    assert isinstance(found.exception, InputError), (words, found.output, found.exception)
+    return found.exception
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_o_is_a_folder_or_with_a_suffix_a_file_and_nothing_is_replaced(place: Path, name: str) -> None:
+    call, usual, files = CALLS[name]
+    if name == "replay":
+        done(*CALLS["grow"][0], "-o", "first")
+    if name.startswith("batch"):
+        done("batch", "ships.toml", "--processes", "1")
+    before = set(place.iterdir())
+    for file in files:
+        done(*call, "-o", f"alone/{file}")
+        assert {one.name for one in (place / "alone").iterdir()} >= {file}
+        first = Path("alone", file).read_bytes()
+        assert first
+        error = refused(*call, "-o", f"alone/{file}")
+        assert error.code == "already-there" and f"alone/{file}" in str(error) and "--force" in str(error)
+        Path("alone", file).write_bytes(b"mine")
+        refused(*call, "-o", f"alone/{file}")
+        assert Path("alone", file).read_bytes() == b"mine"
+        done(*call, "-o", f"alone/{file}", "--force")
+        assert Path("alone", file).read_bytes() != b"mine"
+    assert len(list(place.glob("alone/*"))) == len(files)
+    if usual:
+        for folder in ("folder", "v1.2/"):
+            done(*call, "-o", folder)
+            assert (place / folder / usual).is_file()
+            if name != "replay":
+                error = refused(*call, "-o", folder)
+                assert error.code == "already-there" and "--force" in str(error)
+                assert str(Path(folder)) in str(error)
+            done(*call, "-o", folder, "--force")
+    # A format that the command does not write, and no folder of that name.
+    assert refused(*call, "-o", "what.xyz").code == "bad-setting"
+    assert {one.name for one in set(place.iterdir()) - before} <= {"alone", "folder", "v1.2", "__pycache__"}
+
+
+def test_without_o_the_next_name_is_taken(place: Path) -> None:
+    for name in ("show", "explain", "guide train"):
+        call, usual, _ = CALLS[name]
+        done(*call)
+        first = Path(usual).read_bytes()
+        Path(usual).write_bytes(b"mine")
+        done(*call)
+        assert Path(usual).read_bytes() == b"mine"
+        assert Path(usual).with_stem(f"{Path(usual).stem}-2").is_file() and first
+        done(*call, "--force")
+        assert Path(usual).read_bytes() != b"mine"
+
+
+def test_a_file_alone_is_what_the_folder_would_have(place: Path) -> None:
+    call = CALLS["grow"][0]
+    done(*call, "--format", "glb,stl", "-o", "out")
+    for file in ("best.stl", "best.png"):
+        done(*call, "-o", f"a{Path(file).suffix}")
+        assert Path(f"a{Path(file).suffix}").read_bytes() == Path("out", file).read_bytes()
+    done(*call, "-o", "a.json")
+    assert (
+        json.loads(Path("a.json").read_text())["hash"] == json.loads(Path("out/run.json").read_text())["hash"]
+    )
+    done("replay", "a.json", "-o", "again.stl")
+    assert Path("again.stl").read_bytes() == Path("out/best.stl").read_bytes()
+    assert refused(*call, "-o", "b.stl", "--format", "glb").code == "flags-exclude"
+
+
+def test_a_replay_joins_its_own_run_alone(place: Path) -> None:
+    call = CALLS["grow"][0]
+    done(*call)
+    done(*call, "--seed", "2")
+    done("replay", "out/run.json", "--format", "obj", "--quick")
+    assert Path("out/best.obj").is_file()
+    # `out` has another run, and `out-2` this one.
+    done("replay", "out-2/run.json", "--format", "obj", "--quick")
+    assert Path("out-2/best.obj").is_file() and not Path("out-3").exists()
+    assert refused("replay", "out-2/run.json", "-o", "out").code == "already-there"
+
+
+def test_a_batch_is_a_folder(place: Path) -> None:
+    assert refused("batch", "ships.toml", "-o", "ships.csv").code == "bad-setting"
+    done(*CALLS["grow"][0], "-o", "used")
+    error = refused("batch", "ships.toml", "-o", "used")
+    assert error.code == "already-there" and "--force" not in str(error)
