@@ -64,7 +64,8 @@ def trained(pictures: Path) -> tuple[Path, Any]:
 def test_a_guide_is_trained_on_a_folder(trained: tuple[Path, Any]) -> None:
     out, made = trained
     assert made.exit_code == 0, made.output
-    lines = made.stderr.splitlines()
+    # On a slow machine there are lines of progress, too.
+    lines = [line for line in made.stderr.splitlines() if not line.startswith("training ")]
     assert [line.partition(":")[0] for line in lines] == ["round 1", "round 2"]
     assert re.fullmatch(
         r".*lines\.guide: <guide of lightning: 5 choices, .*> *, \d+ kB, \d+ s, seed 1\n", made.stdout
