@@ -24,7 +24,7 @@ from niwaki.color.model import coloring
 from niwaki.color.rules import Rules
 from niwaki.color.settle import settled
 from niwaki.errors import FileError, InputError
-from niwaki.errors.settings import bad, is_number
+from niwaki.errors.settings import real
 from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
 from niwaki.once import cached_property
@@ -178,8 +178,7 @@ def color(
         drawing = Drawing.load(drawing)
     if not isinstance(rules, Rules):
         rules = Rules.load(rules)
-    if not is_number(weight) or not 0 < weight < float("inf"):
-        raise bad("weight", weight, "a number above 0", "100")
+    real("weight", weight, 0, usual="100")
     given = arguments(drawing, rules, weight)
     if all(name in rules.pinned for name in drawing.names):
         raise FileError("rules-pin-all", rules.place, count=len(drawing.names))

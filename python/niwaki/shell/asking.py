@@ -8,6 +8,7 @@ from typing import Any
 
 from niwaki import Search, gallery, search
 from niwaki.errors import InputError
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS
 from niwaki.shell import controls, settings
 from niwaki.shell.references import ModelReference
 
@@ -36,8 +37,8 @@ class Asked:
     polish_kernel: str | None = None
     runs: int = 1
     seed: int | None = None
-    max_steps: int = 20_000_000
-    max_memory: int = 1024
+    max_steps: int = MAX_STEPS
+    max_memory: int = MAX_MEMORY >> 20
     given: Mapping[str, Any] = field(default_factory=dict)
 
     def search(

@@ -17,6 +17,7 @@ from niwaki import shell
 from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS
 from niwaki.shell import (
     arguments,
     asking,
@@ -74,8 +75,8 @@ def grow(
     threads: Annotated[
         int | None, typer.Option(help="Default: all cores. Results do not depend on it.")
     ] = None,
-    max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = 20_000_000,
-    max_memory: Megabytes = 1024,
+    max_steps: Annotated[int, typer.Option(help="Most calls and loop steps of one run.")] = MAX_STEPS,
+    max_memory: Megabytes = MAX_MEMORY >> 20,
     resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,

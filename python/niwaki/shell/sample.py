@@ -18,6 +18,7 @@ from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.errors.settings import MAX_MEMORY
 from niwaki.methods import Mh
 from niwaki.shell import arguments, folders, pictures, resuming, settings
 from niwaki.shell.app import Folder, Megabytes, app
@@ -43,7 +44,7 @@ def sample(
     sigma: Annotated[float, typer.Option(help="Strictness of the match.")] = 0.02,
     seed: Annotated[int | None, typer.Option(help="Default: a new one, which run.json keeps.")] = None,
     threads: Annotated[int | None, typer.Option(help="Default: all cores.")] = None,
-    max_memory: Megabytes = 1024,
+    max_memory: Megabytes = MAX_MEMORY >> 20,
     resume: resuming.Resume = None,
     output: Folder = None,
     force: folders.Force = False,
