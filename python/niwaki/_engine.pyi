@@ -315,7 +315,7 @@ class Task:
         program: Program,
         args: Sequence[Any] = ...,
         sketches: Sequence[SketchSpec] = ...,
-        max_steps: int = 20000000,
+        max_steps: int = ...,
         max_memory: int = ...,
     ) -> Task: ...
     def search(

@@ -1,11 +1,16 @@
-// Bundles the page into the package. The same sources give the same bytes.
+// Bundles the page into the package: `view.js` is the stage with three.js, `app.js` the rest, which imports it. The same
+// sources give the same bytes.
 import { build } from "esbuild";
 import { copyFileSync, mkdirSync } from "node:fs";
 
 const out = process.argv[2] ?? "../../python/niwaki/studio/page";
 mkdirSync(out, { recursive: true });
+const view = {
+  name: "view",
+  setup: ({ onResolve }) => onResolve({ filter: /^\.\.?\/view$/ }, () => ({ path: "/view.js", external: true })),
+};
 await build({
-  entryPoints: { app: "src/main.tsx" },
+  entryPoints: { app: "src/main.tsx", view: "src/view.ts" },
   outdir: out,
   bundle: true,
   minify: true,
@@ -14,18 +19,8 @@ await build({
   jsx: "automatic",
   jsxImportSource: "preact",
   legalComments: "eof",
-  loader: { ".css": "css" },
   external: ["/inter.woff2"],
-});
-// The stage alone, for notebooks and for pages of one file.
-await build({
-  entryPoints: { view: "src/view.ts" },
-  outdir: out,
-  bundle: true,
-  minify: true,
-  format: "esm",
-  target: "es2022",
-  legalComments: "eof",
+  plugins: [view],
 });
 copyFileSync("src/index.html", `${out}/index.html`);
 copyFileSync("node_modules/@fontsource-variable/inter/files/inter-latin-wght-normal.woff2", `${out}/inter.woff2`);

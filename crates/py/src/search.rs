@@ -157,7 +157,7 @@ pub struct PyTask {
 impl PyTask {
     /// ``max_steps`` bounds one run, ``max_memory`` (bytes) a run, a whole population or several chains together.
     #[new]
-    #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=20_000_000, max_memory=1 << 30))]
+    #[pyo3(signature = (program, args=Vec::new(), sketches=Vec::new(), max_steps=Limits::default().steps, max_memory=Limits::default().bytes))]
     fn new(
         py: Python<'_>,
         program: Py<PyProgram>,

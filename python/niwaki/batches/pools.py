@@ -19,7 +19,7 @@ from multiprocessing.util import Finalize
 from niwaki.batches.working import Chunk, Done, work
 from niwaki.errors import InputError
 from niwaki.errors.processes import end_group, lead
-from niwaki.errors.settings import bad, count, is_number
+from niwaki.errors.settings import bad, count, real
 
 #: The most processes of a pool of ours.
 MOST = 512
@@ -94,9 +94,7 @@ class Workers:
                 "an executor of `concurrent.futures`",
                 "None, for processes of this machine",
             )
-        if not is_number(seconds) or not 0.0 <= seconds <= 3600.0:
-            raise bad("chunk", seconds, "seconds from 0 to 3600", str(TARGET))
-        self.seconds = seconds
+        self.seconds = real("chunk", seconds, 0, 3600, "[]", str(TARGET))
         known = getattr(executor, "_max_workers", None)
         self.count = count("processes", processes or known or cores(), most=1 << 20 if executor else MOST)
         self._given, self._own = executor, None if executor else self._started()

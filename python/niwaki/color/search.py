@@ -24,7 +24,7 @@ from niwaki.color.model import coloring
 from niwaki.color.rules import Rules
 from niwaki.color.settle import settled
 from niwaki.errors import FileError, InputError
-from niwaki.errors.settings import bad, is_number
+from niwaki.errors.settings import real
 from niwaki.lang.residuals import Residuals, residuals
 from niwaki.methods import Method, at_least_one, explore
 from niwaki.once import cached_property
@@ -178,8 +178,7 @@ def color(
         drawing = Drawing.load(drawing)
     if not isinstance(rules, Rules):
         rules = Rules.load(rules)
-    if not is_number(strictness) or not 0 < strictness < float("inf"):
-        raise bad("strictness", strictness, "a number above 0", "100")
+    real("strictness", strictness, 0, usual="100")
     given = arguments(drawing, rules, strictness)
     if all(name in rules.held for name in drawing.names):
         raise FileError("rules-hold-all", rules.place, count=len(drawing.names))

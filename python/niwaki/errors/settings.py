@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
+from math import inf, isfinite
 from typing import Any, NoReturn
 
 from niwaki.errors.kinds import InputError
 
 #: The largest count: the engine counts in 64 bits.
 MOST = 2**63 - 1
+
+#: What a run may use where nobody says otherwise: calls and loop steps, and bytes.
+MAX_STEPS, MAX_MEMORY = 20_000_000, 1 << 30
 
 #: The most threads of a search, and the variable in the environment that names their number.
 THREADS, VARIABLE = 1024, "RAYON_NUM_THREADS"
@@ -66,6 +70,43 @@ def count(name: str, value: Any, least: int = 1, most: int = MOST, usual: str | 
     expected = {0: "a whole number, 0 or more", 1: "a whole number above 0"}
     suggestion = usual or ("0" if least == 0 else f"{least} or more")
     raise bad(name, value, expected.get(least, f"a whole number, at least {least}"), suggestion)
+
+
+def real(
+    name: str,
+    value: Any,
+    low: float = -inf,
+    high: float = inf,
+    ends: str = "()",
+    usual: str = "such a number",
+) -> float:
+    """The value as a real number, where it is finite and within these bounds; else the error about it.
+
+    Parameters
+    ----------
+    name
+        The setting, as the person wrote it.
+    value
+        What was given.
+    low, high
+        The bounds.
+    ends
+        Whether they are allowed: "[]" for both, "()" for none.
+    usual
+        A value that makes sense, for the message.
+    """
+    if is_number(value) and isfinite(value):
+        above = value >= low if ends[0] == "[" else value > low
+        if above and (value <= high if ends[1] == "]" else value < high):
+            return float(value)
+    if high < inf:
+        form = {"()": "between {} and {}", "(]": "above {}, at most {}", "[)": "from {} to below {}"}
+        expected = f"a number {form.get(ends, 'from {} to {}').format(f'{low:g}', f'{high:g}')}"
+    elif low > -inf:
+        expected = f"a finite number {'above {:g}' if ends[0] == '(' else 'from {:g} on'}".format(low)
+    else:
+        expected = "a finite number"
+    raise bad(name, value, expected, usual)
 
 
 def usual_threads() -> int | None:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
 from typing import Any
 
-from niwaki.errors.settings import bad, is_number, is_whole
+from niwaki.errors.settings import bad, count, is_whole, real
 from niwaki.methods import at_least_one
 from niwaki.methods.checks import one_of
 
@@ -70,10 +69,8 @@ class Training:
         one_of("objective", self.objective, ("examples", "bound", "particles"))
         if self.architecture == "dissertation" and self.objective != "examples":
             raise bad("objective", self.objective, "'examples' with the dissertation's network", "'examples'")
-        if not is_whole(self.runs) or self.runs < 2:
-            raise bad(
-                "runs", self.runs, "a whole number above 1: the others are the baseline of each run", "16"
-            )
+        # The others are the baseline of each run.
+        count("runs", self.runs, 2, usual="16")
         images = ("target", "scene") if self.architecture == "dissertation" else ()
         if not isinstance(self.looks, bool) and self.looks not in images:
             expected = "True or False, or one image with the dissertation's network"
@@ -83,18 +80,10 @@ class Training:
         for name in ("components", "batch", "steps"):
             if getattr(self, name) is not None:
                 at_least_one(name, getattr(self, name))
-        for name, low, high in (
-            ("share", 0.0, 1.0),
-            ("rate", 0.0, inf),
-            ("passes", 0.0, inf),
-            ("averaging", -1e-9, 1.0),
-        ):
-            value = getattr(self, name)
-            if not is_number(value) or not low < value < high:
-                expected = (
-                    "a number above 0" if high == inf else f"a number between {max(low, 0.0):g} and {high:g}"
-                )
-                raise bad(name, value, expected, str(type(self).__dataclass_fields__[name].default))
+        real("share", self.share, 0, 1, usual="0.02")
+        real("rate", self.rate, 0, usual="0.002")
+        real("passes", self.passes, 0, usual="6.0")
+        real("averaging", self.averaging, 0, 1, "[)", "0.998")
 
     @classmethod
     def dissertation(cls, **changes: Any) -> Training:

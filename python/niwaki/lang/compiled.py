@@ -12,7 +12,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.messages import MESSAGES
-from niwaki.errors.settings import MOST, bad, is_whole
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count
 from niwaki.lang import vocabulary
 from niwaki.lang.blame import Blame, marked
 from niwaki.lang.core import Core
@@ -54,14 +54,13 @@ def task(
     args: Sequence[Any] = (),
     kwargs: Mapping[str, Any] | None = None,
     sketches: Sequence[_engine.SketchSpec] = (),
-    max_steps: int = 20_000_000,
-    max_memory: int = 1 << 30,
+    max_steps: int = MAX_STEPS,
+    max_memory: int = MAX_MEMORY,
     hold: Mapping[str, Any] | None = None,
 ) -> _engine.Task:
     """A model with its arguments and sketches, ready to be searched; `hold` has the values of held choices."""
-    for name, found, least in (("max_steps", max_steps, 1), ("max_memory", max_memory, 1 << 20)):
-        if not is_whole(found) or not least <= found <= MOST:
-            raise bad(name, found, f"a whole number, at least {least}", f"{least} or more")
+    count("max_steps", max_steps)
+    count("max_memory", max_memory, 1 << 20)
     program = model.program()
     given = arguments(model, args, kwargs or {})
     try:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad, count, is_number, is_whole, shown
+from niwaki.errors.settings import bad, count, is_whole, real, shown
 from niwaki.methods import kernels
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
@@ -51,14 +50,13 @@ def look_ahead(strength: float | None, proposal: Kernel | None, moves: bool = Fa
     """The checked strength of a look-ahead; `moves` says that particles are moved while they run."""
     if strength is None:
         return None
-    if not is_number(strength) or not 0 < strength < inf:
-        raise bad("look_ahead", strength, "a number above 0, or None", "0.2")
+    strength = real("look_ahead", strength, 0, usual="0.2")
     if not any(guide.looks_ahead for guide in _guides(proposal)):
         raise InputError("guide-ahead", detail="no guide of this search has learned to look ahead")
     if moves:
         expected = "None beside `rejuvenate` of particles that still run: moves would have to know it"
         raise bad("look_ahead", strength, expected, 'None, or `at="end"`')
-    return float(strength)
+    return strength
 
 
 def _guides(kernel: Kernel | None) -> Iterator[Guide]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.errors.settings import bad, is_number
+from niwaki.errors.settings import real
 from niwaki.methods.checks import at_least_one, samples
 from niwaki.methods.checks import guided as with_guide
 from niwaki.methods.guide import Guide
@@ -39,9 +39,7 @@ class EnumerateAll(Method):
         """Check the settings."""
         at_least_one("max_runs", self.max_runs)
         self._set("likely", bool(self.likely))
-        if not is_number(self.rest) or not abs(self.rest) < float("inf"):
-            raise bad("rest", self.rest, "a number of nats", "0")
-        self._set("rest", float(self.rest))
+        self._set("rest", real("rest", self.rest, usual="0"))
 
 
 @dataclass(frozen=True)
@@ -65,10 +63,8 @@ class Rejection(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        if not is_number(self.bound) or not abs(self.bound) < float("inf"):
-            raise bad("bound", self.bound, "a number of nats", "0")
+        self._set("bound", real("bound", self.bound, usual="0"))
         samples(self.n)
-        self._set("bound", float(self.bound))
         at_least_one("max_tries", self.max_tries)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from niwaki.errors.settings import bad, count, is_number
+from niwaki.errors.settings import bad, count, real
 from niwaki.methods.checks import at_least_one, one_of
 from niwaki.methods.method import Method
 
@@ -74,8 +74,7 @@ class Hmc(Method):
     def __post_init__(self) -> None:
         """Check the settings."""
         _check(self)
-        if not is_number(self.jitter) or not 0 <= self.jitter <= 1:
-            raise bad("jitter", self.jitter, "a share in [0, 1]", "0.5")
+        real("jitter", self.jitter, 0, 1, "[]", "0.5")
         count("steps", self.steps, most=MOST, usual="100")
 
 
@@ -137,11 +136,9 @@ def _check(method: Hmc | Nuts) -> None:
     """Check what both have in common."""
     for name, usual in (("warmup", "1000"), ("climb", "100")):
         count(name, getattr(method, name), 0, MOST, usual)
-    if not is_number(method.target_accept) or not 0 < method.target_accept < 1:
-        raise bad("target_accept", method.target_accept, "a share between 0 and 1", "0.8")
-    step = method.step_size
-    if step is not None and (not is_number(step) or not 0 < step < float("inf")):
-        raise bad("step_size", step, "a number above 0", "0.1, or leave it out")
+    real("target_accept", method.target_accept, 0, 1, usual="0.8")
+    if method.step_size is not None:
+        real("step_size", method.step_size, 0, usual="0.1, or leave it out")
     _check_metric(method)
     for name in ("draws", "thin"):
         count(name, getattr(method, name), most=MOST, usual="1000")

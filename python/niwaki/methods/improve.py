@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.errors.settings import bad, count, is_number
+from niwaki.errors.settings import bad, count, real
 from niwaki.methods.checks import at_least_one, guided
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
@@ -60,18 +60,15 @@ class Improve(Method):
         """Check the settings."""
         at_least_one("particles", self.particles)
         count("regrow", self.regrow, 2, usual="20")
-        if not is_number(self.power) or not 0 < self.power < float("inf"):
-            raise bad("power", self.power, "a number above 0", "16")
+        self._set("power", real("power", self.power, 0, usual="16"))
         for name in ("rounds", "diverse"):
             if getattr(self, name) is not None:
                 at_least_one(name, getattr(self, name))
-        if self.seconds is not None and (not is_number(self.seconds) or not 0 < self.seconds < float("inf")):
-            raise bad("seconds", self.seconds, "a number of seconds above 0", "10")
-        if self.seconds is not None and self.diverse is not None:
-            raise bad("seconds", self.seconds, "None together with `diverse`", "`rounds`")
+        if self.seconds is not None:
+            self._set("seconds", real("seconds", self.seconds, 0, usual="10"))
+            if self.diverse is not None:
+                raise bad("seconds", self.seconds, "None together with `diverse`", "`rounds`")
         self._set("proposal", guided(self.proposal, guide))
-        self._set("power", float(self.power))
-        self._set("seconds", None if self.seconds is None else float(self.seconds))
 
 
 improve = Improve

@@ -25,7 +25,7 @@ from msgspec import Struct
 
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
-from niwaki.errors.settings import MOST, bad, count, is_number
+from niwaki.errors.settings import MOST, bad, count, real
 from niwaki.methods.guide import Guide
 
 __all__ = [
@@ -197,12 +197,12 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
     target
         The acceptance to which the step is adapted during the warm-up.
     """
-    if not _number(share) or not 0 < share <= 1:
-        raise bad("share", share, "a number above 0 and up to 1", "0.5")
-    return Kernel(
-        "block",
-        {"step": _positive("step", step), "share": float(share), "target": _share("target", target)},
-    )
+    settings = {
+        "step": _positive("step", step),
+        "share": real("share", share, 0, 1, "(]", "0.5"),
+        "target": _share("target", target),
+    }
+    return Kernel("block", settings)
 
 
 def regenerate(levels: int = 0) -> Kernel:
@@ -242,8 +242,7 @@ def regrow(
     guide
         Draws the new values in place of their priors; weights make up for it.
     """
-    if not _number(turn) or not 0 <= turn <= 1:
-        raise bad("turn", turn, "a share in [0, 1]", "0.5")
+    turn = real("turn", turn, 0, 1, "[]", "0.5")
     if pick not in ("size", "choice"):
         raise bad("pick", pick, 'one of "size", "choice"', '"size"')
     named = [parts] if isinstance(parts, str) else parts
@@ -253,7 +252,7 @@ def regrow(
         "regrow",
         {
             "particles": _whole("particles", particles, 2),
-            "turn": float(turn),
+            "turn": turn,
             "pick": pick if named is None else {"parts": list(named)},
         },
         function=None if guide is None else _guide(guide),
@@ -279,12 +278,10 @@ def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: fl
     target
         The acceptance to which the step is adapted.
     """
-    if not _number(jitter) or not 0 <= jitter <= 1:
-        raise bad("jitter", jitter, "a share in [0, 1]", "0.5")
     settings = {
         "steps": _whole("steps", steps, 1, _MOST),
         "step": _positive("step", step),
-        "jitter": float(jitter),
+        "jitter": real("jitter", jitter, 0, 1, "[]", "0.5"),
         "target": _share("target", target),
     }
     return Kernel("hmc_step", settings)
@@ -541,27 +538,17 @@ def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
     return tuple(kernels)
 
 
-def _number(value: Any) -> bool:
-    return is_number(value) and math.isfinite(value)
-
-
 def _positive(name: str, value: Any) -> float:
-    if not _number(value) or value <= 0:
-        raise bad(name, value, "a number above 0", "0.5")
-    return float(value)
+    return real(name, value, 0, usual="0.5")
 
 
 def _weight(name: str, value: Any) -> float:
-    if not _number(value) or value < 0:
-        raise bad(name, value, "selection weights, which are numbers of 0 or more", "1.0")
-    return float(value)
+    return real(name, value, 0, ends="[)", usual="1.0")
 
 
 def _share(name: str, value: Any) -> float:
-    if not _number(value) or not 0 < value < 1:
-        raise bad(name, value, "a number between 0 and 1", "0.44")
-    return float(value)
+    return real(name, value, 0, 1, usual="0.44")
 
 
-def _whole(name: str, value: int, least: int, most: int | None = None) -> int:
-    return count(name, value, least, MOST if most is None else most, str(least))
+def _whole(name: str, value: int, least: int, most: int = MOST) -> int:
+    return count(name, value, least, most, str(least))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.errors.settings import bad, count, is_number
+from niwaki.errors.settings import bad, count, real
 from niwaki.methods.checks import at_least_one, one_of
 from niwaki.methods.gradients import MOST
 from niwaki.methods.method import Method
@@ -63,8 +63,7 @@ class Vi(Method):
         one_of("start", self.start, STARTS)
         if self.family == "pathfinder" and self.start != "pathfinder":
             raise bad("start", self.start, 'the default, because the family is "pathfinder"', '"pathfinder"')
-        if not is_number(self.tolerance) or not 0 < self.tolerance < float("inf"):
-            raise bad("tolerance", self.tolerance, "a number above 0, nats", "0.02")
+        real("tolerance", self.tolerance, 0, usual="0.02")
         count("steps", self.steps, most=MOST, usual="10000")
         for name in ("draws", "samples", "paths", "tries"):
             at_least_one(name, getattr(self, name))

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from math import isfinite
 from typing import Any
 
 from msgspec import Struct
 
 from niwaki.errors.schema import fitted
-from niwaki.errors.settings import bad, is_number
+from niwaki.errors.settings import real
 
 #: The largest number of an order, either sign: beyond it the other futures have no chance that a search could see.
 LARGEST = 50.0
@@ -58,8 +57,7 @@ class FutureOrder:
         """Check the numbers."""
         own = {"depth": self.depth, "turns": self.turns, "waited": self.waited, "stay": self.stay}
         for name, value in (*own.items(), *self.functions.items()):
-            if not is_number(value) or not isfinite(value) or abs(value) > LARGEST:
-                raise bad(name, value, "a number between -50 and 50", "0")
+            real(name, value, -LARGEST, LARGEST, "[]", "0")
 
     def data(self) -> dict[str, Any]:
         """The order as plain data."""

@@ -7,7 +7,7 @@ from dataclasses import InitVar, dataclass
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.errors.settings import MOST, bad, is_number, is_whole, shown
+from niwaki.errors.settings import MOST, bad, is_number, is_whole, real, shown
 from niwaki.methods.checks import at_least_one, look_ahead, one_of
 from niwaki.methods.checks import guided as with_guide
 from niwaki.methods.checks import particles as check_particles
@@ -112,13 +112,11 @@ class Smc(Method):
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
         if self.seconds is not None:
-            if not is_number(self.seconds) or not 0 < self.seconds < float("inf"):
-                raise bad("seconds", self.seconds, "a number of seconds above 0", "10")
+            self._set("seconds", real("seconds", self.seconds, 0, usual="10"))
             for name in ("populations", "particles"):
                 given = getattr(self, name)
                 if given is not None and not (name == "particles" and is_whole(given)):
                     raise bad(name, given, "no number of populations beside `seconds`", "None")
-            self._set("seconds", float(self.seconds))
         if isinstance(self.particles, (list, tuple, range)):
             self._set("particles", tuple(self.particles))
         sizes: Any = self.particles if isinstance(self.particles, tuple) else (self.particles,)

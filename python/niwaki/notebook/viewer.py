@@ -1,7 +1,7 @@
 """Scenes to turn and look at: meshes and the studio's stage, together in one page that asks for nothing from elsewhere.
 
 In a notebook the page is the content of a frame, so that no server and no extension is needed, and a notebook that is
-saved as HTML still shows it. Each page has the stage in it, 0.6 MB.
+saved as HTML still shows it. Each page has the stage in it, 0.6 MB: the script that the studio's page imports.
 """
 
 from __future__ import annotations

@@ -13,6 +13,7 @@ from typing import Any
 
 from niwaki import _engine
 from niwaki.errors import InputError
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS
 from niwaki.lang.compiled import arguments, task, translated
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import Forward, Improve, Method, Mh, Smc
@@ -46,8 +47,8 @@ def run(
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
     hold: Hold | None = None,
-    max_steps: int = 20_000_000,
-    max_memory: int = 1 << 30,
+    max_steps: int = MAX_STEPS,
+    max_memory: int = MAX_MEMORY,
     threads: int | None = None,
     progress: Watch | None = None,
     checkpoint: Checkpoint | str | PathLike[str] | None = None,
@@ -127,8 +128,8 @@ def grow(
     runs: int = 1,
     seed: int | None = None,
     hold: Hold | None = None,
-    max_steps: int = 20_000_000,
-    max_memory: int = 1 << 30,
+    max_steps: int = MAX_STEPS,
+    max_memory: int = MAX_MEMORY,
     threads: int | None = None,
     progress: Watch | None = None,
     checkpoint: Checkpoint | str | PathLike[str] | None = None,
@@ -208,8 +209,8 @@ def asked(
     runs: int = 1,
     seed: int | None = None,
     hold: Hold | None = None,
-    max_steps: int = 20_000_000,
-    max_memory: int = 1 << 30,
+    max_steps: int = MAX_STEPS,
+    max_memory: int = MAX_MEMORY,
     **kwargs: Any,
 ) -> Search:
     """The search that `grow` makes of its arguments, which it then runs."""
@@ -276,7 +277,7 @@ def explain(
     choice: str,
     *args: Any,
     seed: int = 0,
-    max_steps: int = 20_000_000,
+    max_steps: int = MAX_STEPS,
     **kwargs: Any,
 ) -> dict[str, Any]:
     """What each strategy does for one proposal from the prior, in the first state of a seed.

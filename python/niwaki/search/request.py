@@ -28,7 +28,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.schema import Unfit, decoded, fitted, shown
-from niwaki.errors.settings import bad, count, is_whole
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count, is_whole
 from niwaki.inputs.modules import files, public, run_files
 from niwaki.lang.compiled import arguments, task
 from niwaki.lang.core import Core
@@ -110,8 +110,8 @@ class Search:
     runs: int = 1
     keep: str = "all"
     polish: Mh | None = None
-    max_steps: int = 20_000_000
-    max_memory: int = 1 << 30
+    max_steps: int = MAX_STEPS
+    max_memory: int = MAX_MEMORY
 
     def __post_init__(self) -> None:
         """Check the fields."""

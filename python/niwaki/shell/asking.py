@@ -10,6 +10,7 @@ import typer
 
 from niwaki import Search, gallery, search, targets
 from niwaki.errors import InputError
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS
 from niwaki.shell import settings
 from niwaki.shell.app import Megabytes, Runs, Seed
 from niwaki.shell.references import ModelReference
@@ -28,8 +29,8 @@ class How:
     seed: Seed = None
     max_steps: Annotated[
         int, typer.Option("--max-steps", metavar="N", help="Most calls and loop steps of one run.")
-    ] = 20_000_000
-    max_memory: Megabytes = 1024
+    ] = MAX_STEPS
+    max_memory: Megabytes = MAX_MEMORY >> 20
 
 
 def searched(

@@ -18,6 +18,7 @@ from niwaki.draw import finite
 from niwaki.errors.files import write_whole
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
+from niwaki.errors.settings import MAX_MEMORY
 from niwaki.methods import Mh
 from niwaki.shell import arguments, controls, folders, pictures, resuming, settings, writing
 from niwaki.shell.app import Megabytes, Seed, Threads, app
@@ -35,7 +36,7 @@ def sample(
     wish: Annotated[dict[str, Any], controls.flags("target", "voxel", "sigma")],
     seed: Seed = None,
     threads: Threads = None,
-    max_memory: Megabytes = 1024,
+    max_memory: Megabytes = MAX_MEMORY >> 20,
     *,
     out: folders.Out,
     drawn: pictures.Pictures,

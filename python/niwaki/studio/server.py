@@ -1,6 +1,6 @@
 """The server: the page's files, the socket, uploads and exported files. It never imports a model.
 
-GET  /            the page (and /app.js, /app.css)
+GET  /            the page (and /app.js, /view.js, /app.css)
 GET  /open        the link that the terminal shows (`niwaki.studio.security`)
 GET  /socket      a websocket: JSON both ways, geometry as frames
 POST /upload      a mesh or a drawing; `?name=ship.obj` says its format
@@ -35,7 +35,7 @@ from niwaki.studio.session import Session, obey
 from niwaki.studio.window import Window
 
 #: The page's files: no other path is read.
-PAGE = {"/": "index.html", "/app.js": "app.js", "/app.css": "app.css", "/inter.woff2": "inter.woff2"}
+PAGE = {"/": "index.html"} | {f"/{name}": name for name in ("app.js", "view.js", "app.css", "inter.woff2")}
 TYPES = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript",

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from niwaki import _engine, targets
 from niwaki.errors import InputError
 from niwaki.errors.schema import Unfit, shown
-from niwaki.errors.settings import bad, is_number
+from niwaki.errors.settings import bad, real
 from niwaki.targets.camera import Camera
 from niwaki.targets.target import Receiver, Target
 
@@ -204,8 +204,8 @@ def match_volume(target: Target | Place, voxel: float | None = None, sigma: floa
         Standard deviation of the share of cells that may be wrong: smaller is stricter.
     """
     solid = Target.of(target)
-    size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
-    check_positive("sigma", sigma)
+    size = real("voxel", automatic_voxel(solid) if voxel is None else voxel, 0)
+    real("sigma", sigma, 0)
     with geometry_errors(solid, size):
         grid = _engine.Target(solid.vertices, solid.faces, size)
     given = {"target": solid, "voxel": size, "sigma": sigma}
@@ -237,9 +237,9 @@ def match_image(
     """
     seen_by = Camera.of(camera)
     on, greys = _wish(image, weight_image)
-    check_positive("sigma", sigma)
+    real("sigma", sigma, 0)
     with picture_errors():
-        picture = _engine.Picture(seen_by.lens(), on, greys, check_not_negative("weight", weight))
+        picture = _engine.Picture(seen_by.lens(), on, greys, real("weight", weight, 0, ends="[)"))
     given = {"image": on, "camera": seen_by, "weight_image": greys, "weight": weight, "sigma": sigma}
     return _score("match_image", given, {"sigma": sigma}, view=View("image", seen_by, on, picture))
 
@@ -269,7 +269,7 @@ def match_shadow(
         receiver and shows its whole extent along x.
     """
     on, greys = _wish(image, weight_image)
-    check_positive("sigma", sigma)
+    real("sigma", sigma, 0)
     floor = Receiver.of(receiver)
     direction = _direction("light", light)
     seen_by = floor.camera(direction, on.shape[1] / on.shape[0]) if camera is None else Camera.of(camera)
@@ -278,7 +278,7 @@ def match_shadow(
             seen_by.lens(),
             on,
             greys,
-            check_not_negative("weight", weight),
+            real("weight", weight, 0, ends="[)"),
             (floor.vertices, floor.faces),
             direction,
         )
@@ -320,7 +320,7 @@ def match_drawing(
     """
     shown = check_window(window)
     greys = targets.images.ink(image, None if pixels is None else check_count("pixels", pixels))
-    check_positive("sigma", sigma)
+    real("sigma", sigma, 0)
     drawing = _engine.Drawing(greys, *shown)
     given = {"image": greys, "window": shown, "pixels": None, "sigma": sigma}
     view = View("drawing", None, greys < 255, drawing, window=shown)
@@ -351,10 +351,9 @@ def fill_drawing(
     """
     shown = check_window(window)
     columns, rows = (check_count("size", number) for number in size)
-    check_positive("sigma", sigma)
-    if not is_number(share) or not 0.0 < share <= 1.0:
-        raise bad("share", share, "a number above 0, at most 1", "such a number")
-    given = {"window": shown, "size": (columns, rows), "share": float(share), "sigma": sigma}
+    real("sigma", sigma, 0)
+    share = real("share", share, 0, 1, "(]")
+    given = {"window": shown, "size": (columns, rows), "share": share, "sigma": sigma}
     return _score("fill_drawing", given, given)
 
 
@@ -370,7 +369,7 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
         when left out.
     """
     solid = Target.of(obstacle)
-    size = check_positive("voxel", automatic_voxel(solid) if voxel is None else voxel)
+    size = real("voxel", automatic_voxel(solid) if voxel is None else voxel, 0)
     with geometry_errors(solid, size):
         grid = _engine.Target(solid.vertices, solid.faces, size)
     return _score("avoid", {"obstacle": solid, "voxel": size}, {}, grid=grid)
@@ -378,7 +377,7 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
 
 def floor(y: float = 0.0) -> Score:
     """Forbids scenes that reach below a height; standing on it is free."""
-    given = {"y": check_finite("y", y)}
+    given = {"y": real("y", y)}
     return _score("floor", given, given)
 
 
@@ -396,7 +395,7 @@ def overshoot(
     sigma
         Standard deviation of the lengths outside, summed over the six sides, as shares of the box.
     """
-    check_positive("sigma", sigma)
+    real("sigma", sigma, 0)
     corners = domain.bounds if isinstance(domain, Target) else domain
     try:
         low, high = (_direction("domain", corner, zero=True) for corner in corners)
@@ -494,13 +493,6 @@ def automatic_voxel(target: Target) -> float:
     return float(f"{(x * y * z / CELLS) ** (1 / 3):.2g}")
 
 
-def check_positive(name: str, value: float) -> float:
-    """The number, when it is finite and above zero."""
-    if not is_number(value) or not 0 < value < float("inf"):
-        raise bad(name, value, "a finite number above 0", "a positive number")
-    return float(value)
-
-
 def check_count(name: str, value: int) -> int:
     """The number, when it is a whole number above zero."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
@@ -523,20 +515,6 @@ def check_window(window: Any) -> Window:
             "such corners, for instance ((-12, -2), (12, 22))",
         )
     return (left, low), (right, high)
-
-
-def check_finite(name: str, value: float) -> float:
-    """The number, when it is finite."""
-    if not is_number(value) or not abs(value) < float("inf"):
-        raise bad(name, value, "a finite number", "such a number")
-    return float(value)
-
-
-def check_not_negative(name: str, value: float) -> float:
-    """The number, when it is finite and not below zero."""
-    if check_finite(name, value) < 0:
-        raise bad(name, value, "0 or more", "0 or more")
-    return float(value)
 
 
 @contextmanager

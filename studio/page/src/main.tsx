@@ -4,7 +4,6 @@ import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import "./style.css";
 import { easel, placeOf, plan } from "./pictures";
-import { later, warm } from "./stage/thumbs";
 import * as store from "./store";
 import { Bar } from "./ui/bar";
 import { Canvas, drag, shown, stage } from "./ui/canvas";
@@ -15,6 +14,7 @@ import { Inspector } from "./ui/inspector";
 import { Palette } from "./ui/palette";
 import { ruling } from "./ui/rules";
 import { Setup } from "./ui/setup";
+import { later, warm } from "./view";
 
 function App() {
   const [isDropping, setDropping] = useState(false);

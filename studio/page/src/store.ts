@@ -4,8 +4,7 @@ import { computed, effect, signal, untracked } from "@preact/signals";
 import { connect, Refused } from "./link";
 import type { Frame } from "./link";
 import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Offer, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
-import type { Order } from "./stage/growth";
-import type { Mode } from "./stage/things";
+import type { Mode, Order } from "./view";
 
 export const view = signal<View | null>(null);
 export const isOpen = signal(false);

@@ -1,7 +1,16 @@
-// The studio's stage alone, to look at results: in a notebook (an anywidget) or in a page that is one file.
+// The studio's stage: a script of its own, with all of three.js. The studio's page imports it; by itself it shows results in
+// a notebook (an anywidget) or in a page that is one file.
 
 import type { Shape } from "./messages";
 import { Stage } from "./stage/stage";
+
+export { KINDS, pixels } from "./stage/cells";
+export type { Order } from "./stage/growth";
+export { isBelow } from "./stage/meshes";
+export { kindOf, MODES, type Mode, numberOf } from "./stage/things";
+export { HEIGHT, later, thumbnail, warm, WIDTH } from "./stage/thumbs";
+export { Vector3 } from "three";
+export { Stage };
 
 interface Model {
   get(name: "frames"): DataView[];

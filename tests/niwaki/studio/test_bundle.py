@@ -28,3 +28,9 @@ def test_the_page_is_built_from_its_sources(tmp_path):
 def test_the_page_asks_for_nothing_from_elsewhere():
     text = (BUILT / "index.html").read_text() + (BUILT / "app.css").read_text()
     assert "http" not in text and "//" not in text.replace("/*", "").replace("*/", "")
+
+
+def test_three_js_is_in_the_page_once():
+    scripts = {name: (BUILT / name).read_text() for name in ("app.js", "view.js")}
+    assert [name for name, text in scripts.items() if "Three.js Authors" in text] == ["view.js"]
+    assert '"/view.js"' in scripts["app.js"]

@@ -2,11 +2,10 @@
 
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { Drag } from "../stage/drag";
-import { isBelow } from "../stage/meshes";
-import { Stage } from "../stage/stage";
 import type { Key } from "../messages";
 import * as store from "../store";
+import { isBelow, Stage } from "../view";
+import { Drag } from "./drag";
 import { shapeOf } from "./gallery";
 import { Sides, sideShapes } from "./compare";
 import { Legend } from "./difference";

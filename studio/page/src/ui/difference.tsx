@@ -1,7 +1,7 @@
 // The legend of the difference to what is wanted: colours, cells, and the two shares.
 
-import { KINDS } from "../stage/cells";
 import * as store from "../store";
+import { KINDS } from "../view";
 
 const NAMES = ["covered", "missing", "outside"] as const;
 const css = (color: number): string => `#${color.toString(16).padStart(6, "0")}`;

@@ -1,10 +1,10 @@
 // The strip of results: pictures from one direction, scores, stars.
 
 import { useEffect, useRef } from "preact/hooks";
-import { HEIGHT, later, thumbnail, WIDTH } from "../stage/thumbs";
 import type { Outcome, Shape } from "../messages";
 import { onPictureOf, pictureOf } from "../pictures";
 import * as store from "../store";
+import { HEIGHT, later, thumbnail, WIDTH } from "../view";
 import { Icon } from "./icons";
 
 /** Shapes by result, and what waits for them. */

@@ -3,7 +3,7 @@
 import { effect, signal } from "@preact/signals";
 import { stage } from "./canvas";
 import * as store from "../store";
-import type { Order } from "../stage/growth";
+import type { Order } from "../view";
 import { Icon } from "./icons";
 
 /** Seconds of the whole. */

@@ -1,9 +1,9 @@
 // The right side: the part that is selected, its place in the source, its choices.
 
 import { useState } from "preact/hooks";
-import { isBelow } from "../stage/meshes";
 import type { ChoiceInfo, Place } from "../messages";
 import * as store from "../store";
+import { isBelow } from "../view";
 import { Balance } from "./balance";
 import { Field } from "./fields";
 import { Icon } from "./icons";

@@ -1,8 +1,8 @@
 // The objects of the scene beside its target, a row each: the floor, what to keep away from, light and camera of a sketch.
 
 import { useRef, useState } from "preact/hooks";
-import { kindOf, MODES, type Mode, numberOf } from "../stage/things";
 import * as store from "../store";
+import { kindOf, MODES, type Mode, numberOf } from "../view";
 import { stage } from "./canvas";
 import { Field } from "./fields";
 import { Icon } from "./icons";

@@ -2,8 +2,8 @@
 
 import { useEffect, useRef } from "preact/hooks";
 import type { Difference, Eye, Sketch, Stroke } from "../messages";
-import { KINDS, pixels } from "../stage/cells";
 import * as store from "../store";
+import { KINDS, pixels } from "../view";
 import { stage } from "./canvas";
 
 const near = (a: number[], b: number[]): boolean => a.every((one, k) => Math.abs(one - b[k]) < 1e-6 * (1 + Math.abs(one)));

@@ -1,10 +1,9 @@
 // A pointer that drags the selected part: in the plane through the held point that faces the camera. While the part cannot
 // follow, a line goes from it to the pointer, and a quiet line of text says why. Esc ends the drag with nothing changed.
 
-import { Vector3 } from "three";
 import type { Shape } from "../messages";
 import * as store from "../store";
-import type { Stage } from "./stage";
+import { type Stage, Vector3 } from "../view";
 
 /** Pixels that a pointer moves before a press becomes a drag. */
 const SLACK = 4;
