@@ -1,4 +1,4 @@
-"""Claim: a warning names the line of the user's code that called the package, however deep in the package it is found."""
+"""Claim: a warning names the user's line that called the package, however deep in the package it is found."""
 
 from __future__ import annotations
 
