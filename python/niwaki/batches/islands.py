@@ -26,7 +26,8 @@ from niwaki.result.info import Count, Losses, PopulationInfo
 from niwaki.result.invalid import merged
 from niwaki.result.search_like import SearchLike
 from niwaki.search import Search
-from niwaki.search.searching import Clock, carried_out, different
+from niwaki.search.carrying import carried_out
+from niwaki.search.searching import Clock, different
 
 #: The fault of a population whose particles have all become impossible: it counts, with an estimate of zero.
 DIED = "everything-impossible"

@@ -6,12 +6,11 @@ Many programs and formats keep numbers of 32 bits, about seven digits. A scene t
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from niwaki.draw.assembly import Assembly
+from niwaki.errors.warned import warn
 
 #: The distance from the origin at which a scene is far, in longest sides of it: 32 bits keep 170,000 steps of it there.
 FAR = 100.0
@@ -36,10 +35,9 @@ def is_far(bounds: ArrayLike) -> bool:
 def warn_of(scene: Assembly) -> None:
     """Warn that a file of plain coordinates has more digits than some programs read."""
     if is_far(scene.bounds):
-        warnings.warn(
+        warn(
             f"the scene is {distance(scene.bounds):.2g} times as far from the origin as it is large: the file has all "
             f"digits, but programs that keep 32 bits of a number, such as Blender, lose some; .glb has an offset "
             f"that they keep, and a scene near the origin needs none",
             FarSceneWarning,
-            stacklevel=3,
         )

@@ -8,7 +8,6 @@ millimetres and have z up, so the solid is scaled, turned and moved to where all
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +20,7 @@ from niwaki.draw.far import is_far
 from niwaki.draw.finite import finite, floats
 from niwaki.errors import FileError
 from niwaki.errors.extras import optional
+from niwaki.errors.warned import warn
 
 #: Details of the union below this share of its longest side are removed: slivers that a float cannot represent.
 SMALLEST = 1e-6
@@ -105,11 +105,10 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
     faces = np.asarray(mesh.tri_verts, dtype=np.int64)
     pieces = _pieces(vertices, faces)
     if pieces > 1:
-        warnings.warn(
+        warn(
             f"the solid is in {pieces} pieces that do not touch, and a printer prints each of them alone; "
             "a larger `fuse` closes gaps",
             PrintWarning,
-            stacklevel=2,
         )
     volume = float(finite(placed.volume(), "the solid", "its volume"))
     return Solid(finite(vertices, "the solid").astype(np.float32), faces, volume, pieces)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
 from dataclasses import asdict, dataclass, replace
@@ -17,6 +16,7 @@ from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.memory import check_room
 from niwaki.errors.settings import bad, is_whole
+from niwaki.errors.warned import warn
 from niwaki.guides.memory import Memory
 from niwaki.guides.report import Round
 from niwaki.guides.settings import Training
@@ -381,11 +381,10 @@ class _Fit:
         if told["diverged"] is not None:
             step, label = told["diverged"]
             where = f"step {step}" + ("" if label is None else f", at the choice `{label}`")
-            warnings.warn(
+            warn(
                 f"training met a number that is not finite in {where}: the best weights before are kept; "
                 "lower `rate`",
                 SearchWarning,
-                stacklevel=5,
             )
         return engine, told
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,6 +11,7 @@ from numpy.typing import NDArray
 
 from niwaki import _engine
 from niwaki.errors import ModelFault
+from niwaki.errors.warned import warn
 from niwaki.lang.compiled import as_fault
 from niwaki.methods import Hmc, Nuts
 from niwaki.result import diagnostics
@@ -32,10 +31,7 @@ class GradientWarning(UserWarning):
 
 def say(text: str) -> None:
     """Warn at the line of the user's code that started the search."""
-    depth, frame = 1, sys._getframe()
-    while frame.f_back is not None and frame.f_globals["__name__"].startswith("niwaki."):
-        depth, frame = depth + 1, frame.f_back
-    warnings.warn(text, GradientWarning, stacklevel=depth)
+    warn(text, GradientWarning)
 
 
 def listed(paths: Sequence[str]) -> str:

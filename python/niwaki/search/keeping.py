@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import time
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import FileError
 from niwaki.errors.schema import fitted
+from niwaki.errors.warned import warn
 from niwaki.result.progress import EngineWatch
 from niwaki.search.checkpoint import Checkpoint, opened, understood
 
@@ -97,7 +97,7 @@ class Keeper:
             if not self._has_failed:
                 self._has_failed = True
                 first = str(error).splitlines()[0]
-                warnings.warn(f"the checkpoint `{self.path}` is not written any more: {first}", stacklevel=2)
+                warn(f"the checkpoint `{self.path}` is not written any more: {first}", UserWarning)
         now = time.monotonic()
         self.next = now + max(self.checkpoint.every, SHARE * (now - began + cost))
 

@@ -37,7 +37,7 @@ from niwaki.methods import Forward, Guide, Method, Mh
 from niwaki.once import cached_property
 from niwaki.result import Result, Sample, parts
 from niwaki.result.progress import Watch, watcher
-from niwaki.search import drag, searching
+from niwaki.search import carrying, drag, searching
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads, check_values, fresh
 from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
@@ -173,8 +173,8 @@ class Search:
         InputError
             The checkpoint is damaged, or of another search or version.
         """
-        keeper = None if checkpoint is None else searching.keeper(self, Checkpoint.of(checkpoint))
-        return searching.carried_out(self, check_threads(threads), progress, keeper)
+        keeper = None if checkpoint is None else carrying.keeper(self, Checkpoint.of(checkpoint))
+        return carrying.carried_out(self, check_threads(threads), progress, keeper)
 
     def with_seed(self, seed: int) -> Search:
         """The same search with another seed; both share what the engine has compiled."""

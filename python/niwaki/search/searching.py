@@ -1,25 +1,18 @@
-"""Running a search on the engine, timed: one run after the other, each by its method."""
+"""One run of a search on the engine, timed, by its method; chains that go on from it, and parts grown again."""
 
 from __future__ import annotations
 
 import time
-import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import astuple, replace
-from math import exp
-from typing import Any
-
-from msgspec import Struct
+from dataclasses import replace
 
 from niwaki import _engine
-from niwaki.errors import InputError, ModelFault
 from niwaki.errors.memory import check_room
-from niwaki.errors.schema import Unfit, fitted
 from niwaki.errors.settings import bad
+from niwaki.errors.warned import warn
 from niwaki.lang.compiled import translated
 from niwaki.lang.models import as_model
-from niwaki.methods import Forward, Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
-from niwaki.methods.room import PARTICLE, RUN, check_method
+from niwaki.methods import Guide, Hmc, Method, Mh, Nuts, ParticleGibbs, Vi, at_least_one
+from niwaki.methods.room import PARTICLE, check_method
 from niwaki.result import Result, Sample
 from niwaki.result.chains import MhInfo, Running
 from niwaki.result.drawn import Drawn, DrawnInfo
@@ -29,220 +22,14 @@ from niwaki.result.info import (
     ImproveInfo,
     Info,
     PopulationInfo,
-    restored_info,
-    stored_info,
-    without_evidence,
 )
-from niwaki.result.invalid import Invalid, merged
+from niwaki.result.invalid import Invalid
 from niwaki.result.normals import ViInfo
-from niwaki.result.progress import EngineWatch, Watch, watcher
+from niwaki.result.progress import EngineWatch
 from niwaki.result.search_like import SearchLike
-from niwaki.search.checkpoint import Checkpoint, understood
 from niwaki.search.checks import check_polish, check_seed, check_threads
-from niwaki.search.keeping import Keeper, Stage
-from niwaki.search.worth import SearchWarning, check_kinds, check_reach, check_worth
-
-#: So many of the things that a guide has lost are named.
-SHOWN = 6
-
-#: Of so many samples or more, fewer effective ones than this are a collapse of their weights.
-MANY, COLLAPSED = 20, 2.0
-
-
-class Left(Struct):
-    """What a run gave, in a checkpoint: runs as data with their seconds, and what a `Result` has beside them."""
-
-    samples: list[tuple[str, float, float]]
-    info: dict[str, Any] | None
-    invalid: list[tuple[str, str, int, int, str, str]]
-    seconds: tuple[float, float]
-
-
-def keeper(search: SearchLike, checkpoint: Checkpoint) -> Keeper:
-    """What keeps the checkpoint of a search; an error where the file is of another one."""
-    return Keeper(checkpoint, "search", search.about, search.data())
-
-
-def carried_out(
-    search: SearchLike,
-    threads: int | None,
-    progress: Watch | None,
-    keeper: Keeper | None = None,
-    once: Callable[[SearchLike, int, int | None, EngineWatch, Stage | None], Result] | None = None,
-) -> Result:
-    """Run a search, run by run, each by `once`: on the engine here, when it is left out.
-
-    With a `keeper` it goes on from its checkpoint, which has a stage for each run and each polishing, and what a run
-    gave that is done.
-
-    Runs in which every particle became impossible are left out with a warning, and are an error when there is no other.
-    """
-    if search.choices is not None and not starts(search.method):
-        return given(search)
-    once = once or searched
-    if search.runs > 1:
-        check_room("runs", search.runs, RUN, "run")
-    guides = [one for one in search.method.text()[1] if isinstance(one, Guide)]
-    for guide in guides:
-        _check_guide(search, guide)
-    if not isinstance(search.method, Forward):
-        check_kinds(search.task, search.seed)
-    if search.runs == 1 and search.keep == "all" and search.polish is None:
-        result = once(search, search.seed, threads, watcher(progress, search), _stage(keeper, "0/search"))
-        if guides:
-            _check_weights(result)
-        if keeper is not None:
-            keeper.finish(result.interrupted)
-        return result
-    found: list[Sample] = []
-    failed: list[InputError | ModelFault] = []
-    invalid: tuple[Invalid, ...] = ()
-    spent, interrupted = 0.0, False
-    info = Info()
-    for number in range(search.runs):
-        watch = watcher(progress, search, number, search.runs)
-        seed = (search.seed + number) % 2**64
-        try:
-            done = _left(keeper, f"{number}/done", search, seed)
-            begun = None if done is not None else _left(keeper, f"{number}/begun", search, seed)
-            one = begun if done is None else done
-            if one is None:
-                one = once(search, seed, threads, watch, _stage(keeper, f"{number}/search"))
-        except (InputError, ModelFault) as error:
-            if error.code != "everything-impossible" and not error.values.get("invalid"):
-                raise
-            failed.append(error)
-            continue
-        except KeyboardInterrupt:
-            # Ctrl-C between two checks of the engine.
-            if not found:
-                raise
-            interrupted = True
-            break
-        # Several runs share the statistics of the last one, without evidence; runs of chains have none.
-        if not isinstance(one.info, MhInfo | DrawnInfo):
-            info = without_evidence(one.info)
-        interrupted = one.interrupted
-        invalid = merged(invalid, one.invalid)
-        if interrupted and found and not any(sample.has_ended for sample in one):
-            spent += one.seconds
-            break
-        if search.polish is not None and not interrupted and done is None:
-            if begun is None:
-                begun = one
-                _leave(keeper, f"{number}/begun", one, [one.best])
-            stage = _stage(keeper, f"{number}/polish")
-            one = polished(begun, search.polish, one.seed, threads, watch, stage)
-            invalid = merged(invalid, one.invalid)
-            one.invalid = merged(begun.invalid, one.invalid)
-            interrupted = one.interrupted
-        spent += one.seconds
-        is_diverse = getattr(search.method, "diverse", None) is not None
-        samples = list(one.samples) if is_diverse or search.keep == "all" else [one.best]
-        found.extend(samples)
-        if interrupted:
-            break
-        if done is None:
-            _leave(keeper, f"{number}/done", one, samples, info)
-    if failed and not found:
-        raise failed[0]
-    if failed:
-        warnings.warn(
-            f"{len(failed)} of {search.runs} runs became impossible and are left out{_lost(failed[0])}",
-            SearchWarning,
-            stacklevel=4,
-        )
-    if search.score.asks and search.keep == "best":
-        check_worth(search.task, search.score, max(found, key=lambda sample: sample.log_score))
-    seconds = spent, sum(sample.cpu_seconds for sample in found)
-    if keeper is not None:
-        keeper.finish(interrupted)
-    return Result(
-        search, found, search.seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds
-    )
-
-
-def _stage(keeper: Keeper | None, name: str) -> Stage | None:
-    return None if keeper is None else keeper.stage(name)
-
-
-def _leave(
-    keeper: Keeper | None, name: str, result: Result, samples: Sequence[Sample], info: Info | None = None
-) -> None:
-    """Keep what a run gave in its checkpoint, in place of what it needed to go on."""
-    if keeper is None:
-        return
-    keeper.drop(f"{name.partition('/')[0]}/")
-    keeper.put(
-        name,
-        {
-            "samples": [(one._run.data(), one.seconds, one.cpu_seconds) for one in samples],
-            "info": stored_info(result.info if info is None else info),
-            "invalid": [astuple(one) for one in result.invalid],
-            "seconds": (result.seconds, result.cpu_seconds),
-        },
-    )
-    keeper.write_if_due()
-
-
-def _left(keeper: Keeper | None, name: str, search: SearchLike, seed: int) -> Result | None:
-    """What a run gave, in the checkpoint; None where it is not there."""
-    data = None if keeper is None else keeper.get(name)
-    if keeper is None or data is None:
-        return None
-    with understood(keeper.path):
-        left = fitted(data, Left)
-        runs = [Sample(search.task.run_of_data(run), search, seed, *spent) for run, *spent in left.samples]
-        if not runs:
-            raise Unfit("$.samples", "at least one run", "none")
-        for one in runs:
-            # Whether it is a run of this model.
-            _ = one.choices
-        info = restored_info(left.info)
-        invalid = [Invalid(*one) for one in left.invalid]
-    return Result(search, runs, seed, info=info, invalid=invalid, seconds=left.seconds)
-
-
-def _lost(error: InputError | ModelFault) -> str:
-    """What made a run impossible, where, and what helps."""
-    if not isinstance(error, InputError):
-        return f": {error.message}"
-    said = error.values.get("often") or error.values.get("constraint", "")
-    return f": {said}; {error.values.get('cure', '')}"
-
-
-def _check_guide(search: SearchLike, guide: Guide) -> None:
-    """Warn where a guide is of another version of the model."""
-    with translated(search.model.name):
-        lost = guide._engine.lost(search.task)
-    if lost:
-        shown = "; ".join([*lost[:SHOWN], *([f"and {len(lost) - SHOWN} more"] if len(lost) > SHOWN else [])])
-        warnings.warn(
-            f"the guide of `{guide.model}` was trained for another version of the model, and only what matches is "
-            f"used: {shown}",
-            SearchWarning,
-            stacklevel=5,
-        )
-
-
-def _check_weights(result: Result) -> None:
-    """Warn where one of many samples has all the weight.
-
-    Each choice's weight is bounded, their product is not. Resampling brings the weights back, so this happens where a
-    method does not resample, or does so seldom.
-    """
-    if len(result) < MANY or result.interrupted:
-        return
-    logs = [sample.log_weight for sample in result]
-    shares = [exp(one - max(logs)) for one in logs]
-    effective = sum(shares) ** 2 / sum(share**2 for share in shares)
-    if effective < COLLAPSED:
-        warnings.warn(
-            f"{effective:.1f} of {len(result)} samples are effective: what a guide drew weighs too unevenly. Resample "
-            '(`smc` with `resampling="tempered"` and without `ess`), or train the guide with a larger `share`',
-            SearchWarning,
-            stacklevel=5,
-        )
+from niwaki.search.keeping import Stage
+from niwaki.search.worth import SearchWarning, check_reach
 
 
 def starts(method: Method) -> bool:
@@ -336,11 +123,7 @@ def different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine.
             count = info.searches if isinstance(info, ImproveInfo) else 1
             cure = "give another `seed`, or accept that the model has few"
             where = f"{count} search{'' if count == 1 else 'es'}"
-        warnings.warn(
-            f"{len(chosen)} of {wanted} results that differ are in {where}; {cure}",
-            SearchWarning,
-            stacklevel=6,
-        )
+        warn(f"{len(chosen)} of {wanted} results that differ are in {where}; {cure}", SearchWarning)
     return chosen
 
 

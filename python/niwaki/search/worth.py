@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 from niwaki import _engine
 from niwaki.draw.scene import Scene
+from niwaki.errors.warned import warn
 from niwaki.methods.kernels import Kernel
 from niwaki.result import Sample
 from niwaki.targets.sketches import Score
@@ -28,7 +28,7 @@ def check_worth(task: _engine.Task, score: Score, best: Sample) -> None:
     if score.target is not None and best.primitives:
         found += [_size(score.target, best.scene), _distance(score.target, best)]
     for text in filter(None, found):
-        warnings.warn(text, SearchWarning, stacklevel=6)
+        warn(text, SearchWarning)
 
 
 def check_kinds(task: _engine.Task, seed: int) -> None:
@@ -40,12 +40,11 @@ def check_kinds(task: _engine.Task, seed: int) -> None:
     first, second = f"{Path(path).name}:{line}", f"{Path(other).name}:{density}"
     where = f"at {first} has" if first == second else f"has (at {first})"
     there = "" if first == second else f" (at {second})"
-    warnings.warn(
+    warn(
         f"an observation {where} the probability of a single value in some runs, and in others a density{there}. "
         "Their weights cannot be compared: in other units the results would be others. Observe it by a density in all "
         "runs, with a narrow `Gaussian` in place of a single value, or by a discrete distribution in all runs",
         SearchWarning,
-        stacklevel=6,
     )
 
 
@@ -54,12 +53,11 @@ def check_reach(task: _engine.Task, kernel: Kernel | None, seed: int) -> None:
     leaves = [] if kernel is None else [leaf.first("regrow") for leaf in kernel.leaves()]
     if not leaves or not all(_grows_choices(leaf) for leaf in leaves) or not task.is_apart(seed):
         return
-    warnings.warn(
+    warn(
         '`kernels.regrow(pick="choice")` alone does not reach all runs of this model: which parts there are depends on '
         'choices in other parts, and a chain keeps those of its first run. Use `pick="size"`, or add a kernel such as '
         "`kernels.prior()` by `kernels.cycle`",
         SearchWarning,
-        stacklevel=6,
     )
 
 

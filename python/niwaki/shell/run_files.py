@@ -7,7 +7,6 @@ the model's file with a hash of its bytes, and the files beside it that show one
 
 from __future__ import annotations
 
-import warnings
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
@@ -19,6 +18,7 @@ from niwaki.draw import finite
 from niwaki.errors import InputError
 from niwaki.errors.files import is_file
 from niwaki.errors.schema import Unfit, decoded, fitted, inside, shown
+from niwaki.errors.warned import warn
 from niwaki.inputs import bytes_of
 from niwaki.lang.compiled import translated
 from niwaki.result import Result, Sample
@@ -239,5 +239,5 @@ def _searched(data: dict[str, Any], trust: tuple[str, ...]) -> Search:
         if error.code not in ("file-missing", "changed-mesh"):
             raise
         message = f"{str(error).splitlines()[0]}; the picture is without its target"
-        warnings.warn(message, TargetWarning, stacklevel=4)
+        warn(message, TargetWarning)
         return Search.of_data({**data, "score": []}, trust)

@@ -6,8 +6,6 @@ with several objects is one target; its closed parts may overlap. What is enclos
 
 from __future__ import annotations
 
-import sys
-import warnings
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -20,6 +18,7 @@ from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
 from niwaki.errors.settings import bad
+from niwaki.errors.warned import warn
 from niwaki.inputs.guard import reason_of
 from niwaki.targets.camera import Camera
 from niwaki.targets.memory import BYTES_PER_TRIANGLE, check_memory
@@ -150,12 +149,11 @@ class Target(Mesh):
         self._freeze()
         self.open_edges = _open_edges(self.faces)
         if self.open_edges:
-            warnings.warn(
+            warn(
                 f"{name}: the mesh is not closed: {self.open_edges} open edges; "
                 "through a hole wider than a voxel the outside comes in, and only the surface is filled; "
                 "close the holes if the fill looks wrong",
                 TargetWarning,
-                stacklevel=_outside(),
             )
 
     @classmethod
@@ -339,12 +337,3 @@ def _open_edges(faces: NDArray[np.int64]) -> int:
     uses = np.diff(ends, prepend=-1)
     # Two closed parts may share an edge; an odd count is a hole.
     return int((uses % 2 == 1).sum())
-
-
-def _outside() -> int:
-    """How far up the caller's own code is, for a warning's place."""
-    depth = 2
-    frame = sys._getframe(2)
-    while frame is not None and frame.f_globals.get("__name__") == __name__ and frame.f_back is not None:
-        depth, frame = depth + 1, frame.f_back
-    return depth

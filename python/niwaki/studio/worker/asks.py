@@ -39,28 +39,28 @@ PRIMITIVES = {
 def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
     """The model, and the settings of `niwaki.grow` that say what is asked of it."""
     found = reference(question.model)
-    ask, entry = question.ask, found.entry
-    score, start, guide = nw.Score(), dict[str, Any](), None
-    if ask.floor is not None:
-        score *= nw.floor(ask.floor)
-    for obstacle in ask.obstacles:
-        score *= nw.avoid(placed(obstacle))
-    if ask.sketch is not None and ask.sketch.camera is not None:
-        score *= _seen(ask, ask.sketch)
-    elif entry is not None and entry.draws is not None and entry.window is not None:
-        score, start = _drawn(found, ask)
-        guide = shipped(found.model)
-    aim = None if ask.sketch is not None else ask.target or usual(found)
-    voxel = entry.voxel if entry is not None and aim == usual(found) else None
-    asked = {"target": target(aim), "score": score, "voxel": voxel, "guide": guide}
-    return found, {**asked, **start, **question.arguments}
+    ask = question.ask
+    options: dict[str, Any] = {"floor": ask.floor, "avoid": [placed(one) for one in ask.obstacles]}
+    if ask.sketch is not None:
+        options |= _drawn(ask, ask.sketch)
+    elif ask.target is not None and ask.target != usual(found):
+        options["target"] = placed(ask.target)
+    asked = found.asked(options)
+    guide = shipped(found.model) if found.style is not None and "camera" not in options else None
+    return found, {
+        "score": targets.asks.score(asked),
+        "guide": guide,
+        **found.start(asked),
+        **question.arguments,
+    }
 
 
 def arguments(question: Question) -> tuple[Any, ...]:
     """The model's arguments by position: those that are set, and those that a drawing gives."""
-    found, settings = search(question)
-    given = {name: settings[name] for name in settings if name not in ("target", "score", "voxel", "guide")}
-    return tuple(positional(found.model, (), given))
+    found = reference(question.model)
+    given = search(question)[1] if found.follows else question.arguments
+    own = {name: value for name, value in given.items() if name not in ("score", "guide")}
+    return tuple(positional(found.model, (), own))
 
 
 def usual(found: ModelReference) -> TargetAsk | None:
@@ -69,32 +69,17 @@ def usual(found: ModelReference) -> TargetAsk | None:
     return None if entry is None or entry.target_name is None else TargetAsk(f"gallery:{entry.target_name}")
 
 
-def _drawn(found: ModelReference, ask: Ask) -> tuple[nw.Score, dict[str, Any]]:
-    """The score of a model that draws in the plane, and where it starts."""
-    entry = found.entry
-    assert entry is not None and entry.window is not None
-    if ask.sketch is not None:
-        drawing = targets.drawing.Drawing.load(mask(ask.sketch, DRAWING_SIDE), None)
-    elif entry.drawing_name is not None:
-        drawing = targets.drawings.find(entry.drawing_name)
-    else:
-        assert entry.score is not None
-        return entry.score(), {}
-    start: dict[str, Any] = {}
-    if {one for one in ("x", "y", "ahead")} <= set(found.model.core().parameters):
-        start = dict(zip(("x", "y", "ahead"), drawing.place(entry.window), strict=True))
-    return drawing.score(entry.window), start
-
-
-def _seen(ask: Ask, sketch: Sketch) -> nw.Score:
-    """The score of a silhouette, or of a shadow on the floor."""
+def _drawn(ask: Ask, sketch: Sketch) -> dict[str, Any]:
+    """The options of a drawing in the plane, of a silhouette, or of a shadow on the floor."""
+    if sketch.camera is None:
+        return {"match_image": mask(sketch, DRAWING_SIDE)}
     wanted, seen_by = mask(sketch, MASK_HEIGHT), camera(sketch)
     if sketch.kind == "silhouette":
-        return nw.match_image(wanted, seen_by)
+        return {"match_image": wanted, "camera": seen_by}
     # As far as the camera can see it well.
     (x, _, z), reach = seen_by.look_at, 4.0 * dist(seen_by.position, seen_by.look_at)
     ground = nw.Receiver.floor(ask.floor or 0.0, (x - reach, z - reach), (x + reach, z + reach))
-    return nw.match_shadow(wanted, ask.light, ground, seen_by)
+    return {"match_shadow": wanted, "camera": seen_by, "light": ask.light, "receiver": ground}
 
 
 def mask(sketch: Sketch, height: int) -> NDArray[np.bool_]:
@@ -118,11 +103,6 @@ def camera(sketch: Sketch) -> nw.Camera:
     eye = sketch.camera
     assert eye is not None
     return nw.Camera.perspective(eye.position, eye.look_at, eye.up, fov_degrees=eye.fov)
-
-
-def target(ask: TargetAsk | None) -> nw.Target | None:
-    """A target where it is placed; the very one that was named where it has not been moved."""
-    return None if ask is None else placed(ask)
 
 
 def placed(ask: TargetAsk) -> nw.Target:

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 import niwaki as nw
+from niwaki import targets
 from niwaki.result import Result
 from niwaki.search import Search
 from niwaki.search.data import Reader
@@ -24,14 +25,13 @@ def grow(job: GrowValues, send: Any, check: Callable[[], None]) -> Answer:
     """Search for results that differ."""
     found, read = models.reference(job.model), Reader()
     target = None if job.target is None else read(job.target)
-    score, voxel = nw.Score.of_data(job.score, read), None
-    if target is None and not job.score and found.entry is not None:
-        target, voxel = found.entry.target(), found.entry.voxel
+    score = nw.Score.of_data(job.score, read)
+    if target is None and not job.score:
+        score = targets.asks.score(found.asked({}))
     result = nw.grow(
         found.model,
         target,
         score=score,
-        voxel=voxel,
         rounds=max(1, round(jobs.ROUNDS * job.settings.effort)),
         diverse=job.settings.count if job.settings.count > 1 else None,
         seed=job.seed,
