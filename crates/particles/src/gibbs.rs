@@ -47,13 +47,14 @@ use crate::many::Watch;
 use crate::partial_run::{FollowSettings, PartialRun, Step, follow};
 use crate::population::Population;
 use crate::settings::{Anneal, Settings, Weights};
-use crate::smc::{Outcome, Progress, outcome, run};
+use crate::smc::{Progress, run, run_of};
 use niwaki_math::streams::RngCore;
 use niwaki_propose::particle::Particle;
 use niwaki_run::log::Entry;
 use niwaki_run::order::Order;
 use niwaki_run::record::Record;
 use niwaki_run::resampling::conditional_multinomial;
+use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
@@ -65,7 +66,7 @@ use rayon::prelude::*;
 #[derive(Default)]
 pub struct Chain {
     /// Its state after each sweep, from the first one that had a possible run; weights are equal.
-    pub states: Vec<Outcome>,
+    pub states: Vec<Run>,
     /// How many moves were tried: ancestors drawn for the held run, or proposals.
     pub tries: usize,
     /// How many moves changed the state: ancestors of another particle, or accepted proposals.
@@ -165,7 +166,7 @@ pub fn particle_gibbs(
                 chain.interrupted = true;
                 return Ok(chain);
             };
-            held(&first.record.log.entries())?
+            held(&first.log.entries())?
         }
     };
     for sweep in 1..=sweeps {
@@ -174,7 +175,7 @@ pub fn particle_gibbs(
             chain.interrupted = true;
             break;
         };
-        let next = held(&state.record.log.entries())?;
+        let next = held(&state.log.entries())?;
         chain.renewed.push(next.renewed(&now));
         chain.states.push(state);
         now = next;
@@ -207,7 +208,7 @@ fn first_run(
     sweeps: usize,
     chain: &mut Chain,
     watch: &mut Watch<'_>,
-) -> Result<Option<Outcome>, Failure> {
+) -> Result<Option<Run>, Failure> {
     let mut seed = settings.seed;
     loop {
         match run(task, &Settings { seed, ..settings.clone() }, false, watch) {
@@ -232,7 +233,7 @@ fn conditional(
     run: &PartialRun,
     chain: &mut Chain,
     watch: &mut Watch<'_>,
-) -> Result<Option<Outcome>, Failure> {
+) -> Result<Option<Run>, Failure> {
     let mut population = Population::start(task, settings, false)?;
     let task = population.task.clone();
     let mut machine = task.machine();
@@ -268,8 +269,7 @@ fn conditional(
     }
     population.finish();
     let index = draw_index(&population.weights, settings.seed, 0);
-    let chosen = outcome(population.particles.swap_remove(index));
-    Ok(Some(Outcome { log_weight: 0.0, ..chosen }))
+    Ok(Some(Run { log_weight: 0.0, ..run_of(population.particles.swap_remove(index)) }))
 }
 
 /// Draws the particle whose past the held run gets; returns its index.

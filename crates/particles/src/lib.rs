@@ -60,4 +60,4 @@ pub use many::{AT_ONCE, Share, Watch, population_seed, populations, side_by_side
 pub use pimh::pimh;
 pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
 pub use settings::{Anneal, Settings, Weights, When};
-pub use smc::{Outcome, Progress, Result, smc};
+pub use smc::{Progress, Result, smc};

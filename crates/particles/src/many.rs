@@ -41,7 +41,7 @@
 
 use crate::rejuvenation::MoveCounts;
 use crate::settings::Settings;
-use crate::smc::{Outcome, Progress, Result, run};
+use crate::smc::{Progress, Result, run};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::streams::RngCore;
 use niwaki_run::losses::Losses;
@@ -291,7 +291,7 @@ fn combine(
         powers: std::mem::take(&mut lived[0].1.powers),
     };
     for ((_, mut one), shift) in lived.into_iter().zip(shifts) {
-        one.particles.iter_mut().for_each(|p: &mut Outcome| p.log_weight += shift);
+        one.particles.iter_mut().for_each(|p| p.log_weight += shift);
         whole.particles.append(&mut one.particles);
         whole.barriers = whole.barriers.max(one.barriers);
         whole.steps += one.steps;

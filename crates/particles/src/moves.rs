@@ -239,7 +239,7 @@ pub(super) fn chain_from(
 }
 
 /// The record of the run that a chain is at.
-pub(super) fn record_of(state: &mut ChainState, program: &Program) -> Record {
+fn record_of(state: &mut ChainState, program: &Program) -> Record {
     let totals = state.trace.totals();
     Record {
         log: state.choices(program).collect(),

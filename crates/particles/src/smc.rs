@@ -5,48 +5,14 @@ use crate::rejuvenation::MoveCounts;
 use crate::settings::{Anneal, Settings, Weights};
 use niwaki_propose::particle::Particle;
 use niwaki_run::losses::Losses;
-use niwaki_run::record::Record;
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::value::Value;
 
-/// A particle of the final set.
-pub struct Outcome {
-    /// Its choices and score.
-    pub record: Record,
-    /// What the program returned (`None` for one that was interrupted or is impossible).
-    pub value: Value,
-    /// Its log weight, nats; equal weights after a last resampling.
-    pub log_weight: f64,
-    /// Whether it has ended.
-    pub has_ended: bool,
-    /// Its lineage: equal for particles that are copies of each other since the last barrier at most once.
-    pub lineage: u64,
-}
-
-impl Outcome {
-    /// A copy.
-    pub(super) fn copy(&mut self) -> Outcome {
-        Outcome {
-            record: self.record.fork(),
-            value: self.value.clone(),
-            log_weight: self.log_weight,
-            has_ended: self.has_ended,
-            lineage: self.lineage,
-        }
-    }
-}
-
-impl From<Outcome> for Run {
-    fn from(outcome: Outcome) -> Run {
-        Run::of(outcome.record, outcome.value, outcome.log_weight, outcome.has_ended)
-    }
-}
-
 /// The result of SMC.
 pub struct Result {
-    /// The final set.
-    pub particles: Vec<Outcome>,
+    /// The final set; equal weights after a last resampling.
+    pub particles: Vec<Run>,
     /// Estimate of the log of the final law's normalising constant, the scores raised to the declared power,
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
@@ -135,7 +101,7 @@ pub(super) fn run(
         },
         particles: match chains {
             Some((states, _)) => states,
-            None => population.particles.into_iter().map(outcome).collect(),
+            None => population.particles.into_iter().map(run_of).collect(),
         },
     })
 }
@@ -171,13 +137,9 @@ pub(super) fn grow(
     Ok(whole)
 }
 
-pub(super) fn outcome(p: Particle) -> Outcome {
+/// The run of a particle.
+pub(super) fn run_of(p: Particle) -> Run {
     let has_ended = p.state.has_ended();
-    Outcome {
-        value: if has_ended { p.state.result() } else { Value::None },
-        log_weight: p.log_weight,
-        has_ended,
-        lineage: p.lineage,
-        record: p.record,
-    }
+    let value = if has_ended { p.state.result() } else { Value::None };
+    Run::of(p.record, value, p.log_weight, has_ended)
 }

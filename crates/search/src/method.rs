@@ -400,8 +400,8 @@ impl Method {
                     }
                     None => populations(task, &settings, &own.plan(), &mut progress)?,
                 };
-                let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
-                let (runs, lost) = (runs.collect(), std::mem::take(&mut result.losses).explained(task));
+                let runs = std::mem::take(&mut result.particles);
+                let lost = std::mem::take(&mut result.losses).explained(task);
                 Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
             }
             Method::ParticleGibbs(own) => {
@@ -637,7 +637,7 @@ fn ahead(strength: Option<f64>, proposal: Option<&Proposal>) -> Result<Option<Lo
 }
 
 fn of_chain(mut chain: niwaki_particles::Chain) -> Results {
-    let runs = std::mem::take(&mut chain.states).into_iter().map(Run::from).collect();
+    let runs = std::mem::take(&mut chain.states);
     Results { runs, interrupted: chain.interrupted, info: Info::Chain(chain) }
 }
 

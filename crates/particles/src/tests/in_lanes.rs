@@ -173,17 +173,12 @@ fn said(task: &Task, settings: &Settings) -> String {
                 result.losses,
             );
             for p in &result.particles {
-                let choices: Vec<_> =
-                    p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect();
-                let sums = [p.log_weight, p.record.log_prior.value(), p.record.log_factors.value()];
+                let choices: Vec<_> = p.log.entries().iter().map(|e| (e.address(), written(e))).collect();
+                let sums = [p.log_weight, p.log_prior, p.log_score];
                 let value = repr(&p.value).unwrap();
-                let record = (&p.record.cause, p.record.invalid.is_some(), p.record.primitives);
-                text += &format!(
-                    "{value} {:?} {} {} {choices:?} {record:?}\n",
-                    sums.map(f64::to_bits),
-                    p.has_ended,
-                    p.lineage
-                );
+                let record = (&p.cause, p.invalid.is_some(), p.primitives);
+                text +=
+                    &format!("{value} {:?} {} {choices:?} {record:?}\n", sums.map(f64::to_bits), p.has_ended);
             }
             text
         }

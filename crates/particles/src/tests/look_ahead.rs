@@ -126,7 +126,7 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
         left >= 0
     });
     let one = &stopped.unwrap().particles[0];
-    assert!(!one.has_ended && (one.log_weight - one.record.log_score()).abs() < 1e-12);
+    assert!(!one.has_ended && (one.log_weight - one.log_score).abs() < 1e-12);
 }
 
 #[test]

@@ -89,7 +89,7 @@ fn every_order_is_as_likely_as_any_other() {
     let own = Settings { particles: 6000, seed: 3, ..Settings::default() };
     let mut counts: HashMap<Vec<usize>, f64> = HashMap::new();
     for p in smc(&task, &own, &mut |_| true).unwrap().particles {
-        let picks = p.record.log.entries().iter().filter_map(niwaki_run::log::Entry::which).collect();
+        let picks = p.log.entries().iter().filter_map(niwaki_run::log::Entry::which).collect();
         *counts.entry(picks).or_insert(0.0) += 1.0;
     }
     let statistic: f64 = counts.values().map(|n| (n - 1000.0).powi(2) / 1000.0).sum();
@@ -106,11 +106,8 @@ fn threads_change_nothing() {
         pool.install(|| {
             let run = smc(&task, &settings, &mut |_| true).unwrap();
             let values: Vec<String> = run.particles.iter().map(|p| repr(&p.value).unwrap()).collect();
-            let logs: Vec<Vec<u128>> = run
-                .particles
-                .iter()
-                .map(|p| p.record.log.entries().iter().map(|e| e.address()).collect())
-                .collect();
+            let logs: Vec<Vec<u128>> =
+                run.particles.iter().map(|p| p.log.entries().iter().map(|e| e.address()).collect()).collect();
             (run.log_evidence.unwrap().to_bits(), values, logs)
         })
     };
@@ -183,7 +180,7 @@ fn each_loss_is_counted_once() {
     // Without resampling those that died are in the final set.
     let settings = Settings { when: When::EffectiveBelow(0.0), ..Settings::default() };
     let result = smc(&task, &settings, &mut |_| true).unwrap();
-    let dead = result.particles.iter().filter(|p| p.record.score().is_impossible()).count();
+    let dead = result.particles.iter().filter(|p| p.log_score == f64::NEG_INFINITY).count();
     assert!(0 < dead && dead < 100);
     let lost = result.losses.explained(&task);
     assert_eq!((lost.causes, lost.looked_at), (vec![("`condition` at line 0".to_string(), dead)], dead));

@@ -251,7 +251,7 @@ fn a_future_may_begin_after_its_call_is_left() {
     for seed in 0..1500 {
         let settings = Settings { particles: 8, seed, ..Settings::default() };
         let found = smc(&locked, &settings, &mut |_| true).expect("particles");
-        assert!(found.particles.iter().all(|one| one.record.cause.is_none()), "none has lost it");
+        assert!(found.particles.iter().all(|one| one.cause.is_none()), "none has lost it");
         let log_evidence = found.log_evidence.expect("an estimate");
         estimates.push((log_evidence, weighed(found.particles.iter().map(|p| (&p.value, p.log_weight)))));
     }
@@ -293,7 +293,7 @@ fn chains_of_whole_runs_give_the_law_given_what_is_held() {
         for (method, chain) in chains {
             let states = chain.expect("a chain").states;
             let log_evidence = log_sum_exp(exact.values().copied());
-            let stretch = |some: &[niwaki_particles::Outcome]| {
+            let stretch = |some: &[niwaki_run::run::Run]| {
                 (log_evidence, weighed(some.iter().map(|state| (&state.value, 0.0))))
             };
             let estimates: Vec<_> = states.chunks_exact(STRETCH).map(stretch).collect();
