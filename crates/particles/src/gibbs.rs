@@ -50,10 +50,10 @@ use crate::settings::{Anneal, Settings, Weights};
 use crate::smc::{Progress, run, run_of};
 use niwaki_math::streams::RngCore;
 use niwaki_propose::particle::Particle;
+use niwaki_propose::sweep::{Particles, sweep};
 use niwaki_run::log::Entry;
 use niwaki_run::order::Order;
 use niwaki_run::record::Record;
-use niwaki_run::resampling::conditional_multinomial;
 use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
@@ -234,42 +234,73 @@ fn conditional(
     chain: &mut Chain,
     watch: &mut Watch<'_>,
 ) -> Result<Option<Run>, Failure> {
-    let mut population = Population::start(task, settings, false)?;
+    let population = Population::start(task, settings, false)?;
     let task = population.task.clone();
-    let mut machine = task.machine();
-    let segments = run.segments();
-    // The index of the particle that holds the run.
-    let mut held = 0;
-    while population.count().0 > 0 {
-        population.advance(Some(held))?;
-        if let Some(segment) = segments.get(population.barriers) {
-            let last = population.barriers + 1 == segments.len();
-            let (proposal, ahead) = (settings.proposal.as_deref(), settings.look_ahead.as_ref());
-            let particle = &mut population.particles[held];
-            if follow(particle, &mut machine, &task, segment, last, proposal, ahead)?.is_none() {
-                return Err(Failure::no_start());
-            }
-        }
-        let seen = population.weigh()?;
-        if !watch(Progress { barriers: population.barriers, ended: seen.ended, best: seen.best }) {
-            return Ok(None);
-        }
-        if !population.is_low() {
-            continue;
-        }
-        let mut parent = held;
-        if ancestors == Ancestors::Sampled {
-            parent = sample_ancestor(&mut population, &segments, held)?;
-            chain.tries += 1;
-            chain.moves += usize::from(parent != held);
-        }
-        population.resample_by(|weights, random| conditional_multinomial(weights, parent, random));
-        // The first copy keeps the index of its parent: it is the held run.
-        held = parent;
+    let (machine, segments) = (task.machine(), run.segments());
+    let mut own = Conditional { population, task: &task, machine, segments, ancestors, chain };
+    if !sweep(&mut own, Some(0), &mut |_, now| watch(now))? {
+        return Ok(None);
     }
+    let mut population = own.population;
     population.finish();
     let index = draw_index(&population.weights, settings.seed, 0);
     Ok(Some(Run { log_weight: 0.0, ..run_of(population.particles.swap_remove(index)) }))
+}
+
+/// A population of which one particle follows the present run of a chain.
+struct Conditional<'a> {
+    population: Population<'a>,
+    task: &'a Task,
+    machine: Machine<'a>,
+    /// The run, from barrier to barrier.
+    segments: Vec<&'a [Step]>,
+    ancestors: Ancestors,
+    /// Counts the ancestors that are drawn.
+    chain: &'a mut Chain,
+}
+
+impl Particles for Conditional<'_> {
+    type Seen = Progress;
+
+    fn running(&mut self) -> usize {
+        self.population.running()
+    }
+
+    fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
+        let Conditional { population, task, machine, segments, .. } = self;
+        population.advance(held)?;
+        if let (Some(held), Some(segment)) = (held, segments.get(population.barriers)) {
+            let last = population.barriers + 1 == segments.len();
+            let settings = population.settings;
+            let (proposal, ahead) = (settings.proposal.as_deref(), settings.look_ahead.as_ref());
+            let particle = &mut population.particles[held];
+            if follow(particle, machine, task, segment, last, proposal, ahead)?.is_none() {
+                return Err(Failure::no_start());
+            }
+        }
+        Ok(())
+    }
+
+    fn weigh(&mut self) -> Result<Progress, Failure> {
+        self.population.weigh()
+    }
+
+    fn is_low(&self) -> bool {
+        self.population.is_low()
+    }
+
+    fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
+        let parent = match (held, self.ancestors) {
+            (Some(held), Ancestors::Sampled) => {
+                let parent = sample_ancestor(&mut self.population, &self.segments, held)?;
+                self.chain.tries += 1;
+                self.chain.moves += usize::from(parent != held);
+                Some(parent)
+            }
+            _ => held,
+        };
+        self.population.resample(parent)
+    }
 }
 
 /// Draws the particle whose past the held run gets; returns its index.

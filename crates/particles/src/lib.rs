@@ -1,7 +1,7 @@
 //! Sequential Monte Carlo over the barriers that `emit`, `factor` and `observe` make.
 //!
 //! With `s(r_n)` the score of a run at its n-th barrier and `T` the power, particles target
-//! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step:
+//! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step of a [`sweep`](niwaki_propose::sweep):
 //!
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`particle`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.

@@ -1,5 +1,5 @@
-//! The population and its steps: advance, weigh, resample. [`smc`](crate::smc()) takes them in turn; so does
-//! conditional SMC, with one particle held.
+//! The population and its steps: advance, weigh, resample. A [`sweep`](niwaki_propose::sweep) takes them in turn; so does
+//! one of conditional SMC, with one particle held.
 
 use crate::copies::{Copies, Indexed, copy};
 use crate::in_lanes::{InLanes, LEAST};
@@ -7,11 +7,13 @@ use crate::rejuvenation::{MoveCounts, Mover};
 use crate::resident::{Growth, Resident, counted, too_large};
 use crate::settings::{Anneal, Settings, Weights, When};
 use crate::shared::share;
+use crate::smc::Progress;
 use crate::tempered::Tempered;
-use niwaki_math::{Stream, Total};
+use niwaki_math::Total;
 use niwaki_propose::guide::bound::Sight;
 use niwaki_propose::particle::Particle;
 use niwaki_propose::proposal::ByProposal;
+use niwaki_propose::sweep::Particles;
 use niwaki_run::blame::RUNS;
 use niwaki_run::chooser::Prior;
 use niwaki_run::failure::Dead;
@@ -45,6 +47,8 @@ pub(super) struct Population<'a> {
     pub lineages: u64,
     pub barriers: usize,
     pub steps: u64,
+    /// How many particles were possible before they ran to this barrier.
+    possible: usize,
     pub resampled: usize,
     /// Log of the estimate of the normalising constant so far.
     pub log_normaliser: f64,
@@ -100,12 +104,6 @@ impl Rest {
             if stayed > self.length { 1 } else { (2 * self.length).clamp(Rest::SHORTEST, Rest::LONGEST) };
         self.until = barrier + self.length;
     }
-}
-
-/// The best score and the ended particles at a barrier.
-pub(super) struct BarrierSummary {
-    pub best: f64,
-    pub ended: usize,
 }
 
 impl<'a> Population<'a> {
@@ -167,6 +165,7 @@ impl<'a> Population<'a> {
             lineages: n as u64,
             barriers: 0,
             steps: 0,
+            possible: n,
             resampled: 0,
             log_normaliser: power * score.value(),
             power,
@@ -240,8 +239,91 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// Runs every particle to its next barrier, except the one whose index is `held`.
-    pub fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
+    /// Makes the copies of the last resampling.
+    pub fn settle(&mut self) {
+        self.part();
+        self.copies.make(&mut self.particles, self.settings.seed);
+    }
+
+    /// How many run, and how many have ended. One pass, because a population does not fit into the cache.
+    pub fn count(&self) -> (usize, usize) {
+        if let Some(lanes) = &self.lanes {
+            return if lanes.have_ended() { (0, lanes.len()) } else { (lanes.len(), 0) };
+        }
+        self.particles.iter().enumerate().fold((0, 0), |(running, ended), (index, p)| {
+            let times = self.copies.count(index);
+            (running + times * usize::from(p.is_running()), ended + times * usize::from(p.state.has_ended()))
+        })
+    }
+
+    /// The power at this barrier.
+    fn next_power(&self) -> f64 {
+        match &self.settings.anneal {
+            Anneal::Constant => self.power,
+            Anneal::Schedule(powers) => powers[(self.barriers - 1).min(powers.len() - 1)],
+            Anneal::Adaptive(share) => self.adapted(*share),
+        }
+    }
+
+    /// The largest power up to the declared one with which this barrier's step keeps the conditional effective
+    /// sample size at `share`; never below the power now.
+    fn adapted(&self, share: f64) -> f64 {
+        let keeps = |next: f64| {
+            let old = self.particles.iter().map(|p| p.log_weight);
+            let steps = self.particles.iter().map(|p| step(p, next, &p.record.score(), self.power));
+            conditional_share(old, steps) >= share
+        };
+        let (mut low, mut high) = (self.power, self.settings.power);
+        if high <= low || keeps(high) {
+            return high.max(low);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if keeps(middle) { low = middle } else { high = middle }
+        }
+        low
+    }
+
+    /// Weighs the final set by the declared power, and reads its weights; false when no particle is possible.
+    pub fn finish(&mut self) -> bool {
+        self.settle();
+        // Those that ended have no twist; of a search that was stopped others are left.
+        for p in self.particles.iter_mut().filter(|p| p.is_running() && p.foreseen != 0.0) {
+            p.log_weight -= self.power * std::mem::take(&mut p.foreseen);
+        }
+        if self.power != self.settings.power {
+            let change = self.settings.power - self.power;
+            for p in &mut self.particles {
+                if !p.weighed.is_impossible() {
+                    p.log_weight += change * p.weighed.value();
+                }
+            }
+            self.power = self.settings.power;
+        }
+        let possible = self.weights.read(self.particles.iter().map(|p| p.log_weight));
+        if possible {
+            self.log_normaliser += self.weights.log_mean;
+        }
+        possible
+    }
+
+    /// How many particles of the first barrier the final set descends from.
+    pub fn ancestors(&self) -> usize {
+        self.ancestor.iter().collect::<HashSet<_>>().len()
+    }
+}
+
+impl Particles for Population<'_> {
+    type Seen = Progress;
+
+    fn running(&mut self) -> usize {
+        let (running, ended) = self.count();
+        self.possible = running + ended;
+        running
+    }
+
+    /// The `held` one is left to its caller.
+    fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
         if held.is_none() && self.advance_together() {
             return Ok(());
         }
@@ -319,28 +401,7 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// Makes the copies of the last resampling.
-    pub fn settle(&mut self) {
-        self.part();
-        self.copies.make(&mut self.particles, self.settings.seed);
-    }
-
-    /// How many run, and how many have ended. One pass, because a population does not fit into the cache.
-    pub fn count(&self) -> (usize, usize) {
-        if let Some(lanes) = &self.lanes {
-            return if lanes.have_ended() { (0, lanes.len()) } else { (lanes.len(), 0) };
-        }
-        self.particles.iter().enumerate().fold((0, 0), |(running, ended), (index, p)| {
-            let times = self.copies.count(index);
-            (running + times * usize::from(p.is_running()), ended + times * usize::from(p.state.has_ended()))
-        })
-    }
-
-    /// Counts the scores at this barrier in the weights.
-    ///
-    /// # Errors
-    /// Every particle is impossible.
-    pub fn weigh(&mut self) -> Result<BarrierSummary, Failure> {
+    fn weigh(&mut self) -> Result<Progress, Failure> {
         self.barriers += 1;
         // The ratios of proposed choices since the last barrier. They are not raised to a power, as the prior is not; the
         // power is chosen after they count.
@@ -380,39 +441,12 @@ impl<'a> Population<'a> {
             AllInvalid::check_all(self.particles.iter().map(|p| p.record.invalid.as_ref()))?;
             return Err(impossible(&self.particles, self.barriers));
         }
-        Ok(BarrierSummary { best, ended })
+        // Particles that ended now reached no barrier.
+        self.steps += (self.possible - ended) as u64;
+        Ok(Progress { barriers: self.barriers, ended, best })
     }
 
-    /// The power at this barrier.
-    fn next_power(&self) -> f64 {
-        match &self.settings.anneal {
-            Anneal::Constant => self.power,
-            Anneal::Schedule(powers) => powers[(self.barriers - 1).min(powers.len() - 1)],
-            Anneal::Adaptive(share) => self.adapted(*share),
-        }
-    }
-
-    /// The largest power up to the declared one with which this barrier's step keeps the conditional effective
-    /// sample size at `share`; never below the power now.
-    fn adapted(&self, share: f64) -> f64 {
-        let keeps = |next: f64| {
-            let old = self.particles.iter().map(|p| p.log_weight);
-            let steps = self.particles.iter().map(|p| step(p, next, &p.record.score(), self.power));
-            conditional_share(old, steps) >= share
-        };
-        let (mut low, mut high) = (self.power, self.settings.power);
-        if high <= low || keeps(high) {
-            return high.max(low);
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if keeps(middle) { low = middle } else { high = middle }
-        }
-        low
-    }
-
-    /// Whether to resample now.
-    pub fn is_low(&self) -> bool {
+    fn is_low(&self) -> bool {
         match self.settings.when {
             _ if self.settings.weights == Weights::Absolute => true,
             When::Always => true,
@@ -420,22 +454,16 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// Resamples by the declared method. Moves of the particles follow directly.
-    pub fn resample(&mut self) {
-        let method = self.settings.resampling;
-        self.resample_by(|weights, random| method.copies(weights, random));
-    }
-
-    /// Resamples: particle `i` survives as often as `draw` says, given the weights to draw by. Weights are reset, to what
-    /// tempering leaves of them. The copies themselves wait for [`Population::settle`].
-    pub fn resample_by(&mut self, draw: impl FnOnce(&[f64], &mut Stream) -> Vec<usize>) {
+    /// Resamples by the declared method; the `held` particle survives at its index. Weights are reset, to what tempering
+    /// leaves of them. The copies themselves wait for [`Population::settle`].
+    fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
         let mut random = Reserved::Resampling.stream(self.settings.seed, self.barriers as u128, 0);
         let tempered = match self.settings.resampling {
             Resampling::Tempered => Tempered::of(self.logs.iter().copied()),
             _ => None,
         };
         let weights = tempered.as_ref().map_or(&self.weights, |tempered| &tempered.weights);
-        let copies = draw(&weights.relative, &mut random);
+        let copies = self.settings.resampling.copies_with(held, &weights.relative, &mut random);
         let log_mean = self.weights.log_mean;
         let carried = |log_weight| tempered.as_ref().map_or(0.0, |own| own.carried(log_weight, log_mean));
         match &mut self.lanes {
@@ -451,34 +479,12 @@ impl<'a> Population<'a> {
         } else if self.parallel {
             self.copies.share_out(&mut self.particles, self.apart.len());
         }
+        // The first copy keeps the index of its parent.
+        Ok(held)
     }
 
-    /// Weighs the final set by the declared power, and reads its weights; false when no particle is possible.
-    pub fn finish(&mut self) -> bool {
-        self.settle();
-        // Those that ended have no twist; of a search that was stopped others are left.
-        for p in self.particles.iter_mut().filter(|p| p.is_running() && p.foreseen != 0.0) {
-            p.log_weight -= self.power * std::mem::take(&mut p.foreseen);
-        }
-        if self.power != self.settings.power {
-            let change = self.settings.power - self.power;
-            for p in &mut self.particles {
-                if !p.weighed.is_impossible() {
-                    p.log_weight += change * p.weighed.value();
-                }
-            }
-            self.power = self.settings.power;
-        }
-        let possible = self.weights.read(self.particles.iter().map(|p| p.log_weight));
-        if possible {
-            self.log_normaliser += self.weights.log_mean;
-        }
-        possible
-    }
-
-    /// How many particles of the first barrier the final set descends from.
-    pub fn ancestors(&self) -> usize {
-        self.ancestor.iter().collect::<HashSet<_>>().len()
+    fn rejuvenate(&mut self, resampled: bool) -> Result<(), Failure> {
+        self.move_particles(Some(resampled))
     }
 }
 

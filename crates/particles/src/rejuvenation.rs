@@ -184,7 +184,7 @@ impl Mover {
 impl Population<'_> {
     /// Moves the particles where they are due. `resampled` says whether they were just resampled; `None` means that all
     /// have ended and are weighed by the declared power.
-    pub fn rejuvenate(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
+    pub fn move_particles(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(()) };
         let due = match (rejuvenation.at, resampled) {
             (_, None) => true,

@@ -4,6 +4,7 @@ use crate::population::Population;
 use crate::rejuvenation::MoveCounts;
 use crate::settings::{Anneal, Settings, Weights};
 use niwaki_propose::particle::Particle;
+use niwaki_propose::sweep::sweep;
 use niwaki_run::losses::Losses;
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
@@ -79,7 +80,7 @@ pub(super) fn run(
     let chains = if interrupted { None } else { population.final_chains(watch)? };
     let stopped = chains.as_ref().is_some_and(|(_, stopped)| *stopped);
     if chains.is_none() {
-        population.rejuvenate(None)?;
+        population.move_particles(None)?;
     }
     let log_normaliser =
         (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
@@ -112,27 +113,7 @@ pub(super) fn grow(
     population: &mut Population<'_>,
     watch: &mut dyn FnMut(&mut Population<'_>, Progress) -> bool,
 ) -> std::result::Result<bool, Failure> {
-    let mut whole = true;
-    loop {
-        let (running, had_ended) = population.count();
-        if running == 0 {
-            break;
-        }
-        population.advance(None)?;
-        let seen = population.weigh()?;
-        // Particles that ended now reached no barrier.
-        population.steps += (running + had_ended - seen.ended) as u64;
-        let now = Progress { barriers: population.barriers, ended: seen.ended, best: seen.best };
-        if !watch(population, now) {
-            whole = false;
-            break;
-        }
-        let resampled = population.is_low();
-        if resampled {
-            population.resample();
-        }
-        population.rejuvenate(Some(resampled))?;
-    }
+    let whole = sweep(population, None, watch)?;
     population.finish();
     Ok(whole)
 }

@@ -232,10 +232,10 @@ fn particles_stay_together_where_nothing_parts_them() {
             (task(text), Settings { particles: 40, order: Order::DepthFirst, ..Settings::default() });
         let mut population = Population::start(&task, &settings, true).unwrap();
         let (mut in_lanes, mut all) = (0, 0);
-        while population.count().0 > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {
+        while population.running() > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {
             in_lanes += usize::from(population.is_in_lanes());
             all += 1;
-            population.resample();
+            population.resample(None).unwrap();
         }
         (in_lanes, all + usize::from(population.count().0 > 0))
     };

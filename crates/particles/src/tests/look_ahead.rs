@@ -109,7 +109,7 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
         Settings { when: When::EffectiveBelow(0.0), ..ahead(1, Order::DepthFirst, Resampling::Systematic) };
     let mut population = Population::start(&task, &own, true).unwrap();
     let mut seen = 0;
-    while population.count().0 > 0 {
+    while population.running() > 0 {
         population.advance(None).unwrap();
         population.weigh().unwrap();
         let p = &population.particles[0];

@@ -10,6 +10,7 @@ use crate::copies::{Copies, copy};
 use crate::population::Population;
 use crate::*;
 use niwaki_propose::particle::Particle;
+use niwaki_propose::sweep::Particles;
 use niwaki_run::enumeration::enumerate;
 use niwaki_run::order::{Order, Policy};
 use niwaki_run::resampling::Resampling;

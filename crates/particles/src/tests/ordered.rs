@@ -251,7 +251,7 @@ fn a_copy_has_the_past_of_its_parent() {
     for _ in 0..3 {
         population.advance(None).unwrap();
         population.weigh().unwrap();
-        population.resample();
+        population.resample(None).unwrap();
         population.settle();
         for p in &mut population.particles {
             p.past.look(&task.program, &p.state);

@@ -118,9 +118,9 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
     }
     assert!((mass - 1.0).abs() < 1e-9, "forward runs found {mass} of all");
     assert!(population.weights.read(population.particles.iter().map(|p| p.log_weight)));
-    population.resample();
+    population.resample(None).unwrap();
     population.power = settings.power;
-    population.rejuvenate(Some(true)).unwrap();
+    population.rejuvenate(true).unwrap();
     // Particles that ended earlier are not moved here; the law includes them.
     let n = population.particles.len() as f64;
     let total: f64 = law.values().sum();

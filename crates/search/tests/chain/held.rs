@@ -403,7 +403,7 @@ fn what_is_held_is_in_every_run_to_the_bit() {
     };
     let found = smc(&locked, &Settings::default(), &mut |_| true).expect("particles");
     let alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
-    assert!(alive.map(Run::from).all(|run| has(&run)));
+    assert!(alive.all(|run| has(&run)));
     for (kind, kernel) in kernels() {
         let settings = ChainSettings { kernel, ..ChainSettings::default() };
         let mut chain: Chain = Chain::start(&locked, &settings, 0, None).expect("a chain");
