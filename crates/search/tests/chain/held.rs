@@ -402,7 +402,7 @@ fn what_is_held_is_in_every_run_to_the_bit() {
         held.iter().all(|(path, value)| values.get(path).is_some_and(|own| same(own, value)))
     };
     let found = smc(&locked, &Settings::default(), &mut |_| true).expect("particles");
-    let alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
+    let mut alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
     assert!(alive.all(|run| has(&run)));
     for (kind, kernel) in kernels() {
         let settings = ChainSettings { kernel, ..ChainSettings::default() };
