@@ -17,15 +17,6 @@ use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use rayon::prelude::*;
 
-/// Chains from a few particles of the final set, instead of moves of all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FinalChains {
-    /// How many chains.
-    pub chains: usize,
-    /// States of each that are kept, `moves` proposals apart.
-    pub draws: usize,
-}
-
 impl Population<'_> {
     /// The states of final chains, where these are set, and whether `watch` stopped them. The states of the first chain
     /// come first; all have equal weight. `watch` is called after every state of each chain.
@@ -37,18 +28,20 @@ impl Population<'_> {
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<Option<(Vec<Run>, bool)>, Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(None) };
-        let (Some(wanted), Some(mover)) = (rejuvenation.final_chains, &self.mover) else { return Ok(None) };
-        if self.weights.relative.is_empty() {
+        let (Some(wanted), Some(mover)) = (rejuvenation.final_chains, &self.moves.mover) else {
+            return Ok(None);
+        };
+        if self.estimate.weights.relative.is_empty() {
             return Ok(None);
         }
         let (seed, moves) = (self.settings.seed, rejuvenation.moves);
         let mut chains: Vec<(Chain, Vec<Run>)> = Vec::with_capacity(wanted.chains);
         for (number, index) in self.starts(wanted.chains).into_iter().enumerate() {
-            let record = &mut self.particles[index].record;
+            let record = &mut self.swarm.alone()[index].record;
             let seed = Reserved::ChainSeed.stream(seed, u128::from(u64::MAX), number as u64).next_u64();
             let sketches = record.sketches.fork();
             let mut chain = chain_from(record, sketches, &self.task, mover, seed)?;
-            chain.restrict(self.power, None);
+            chain.restrict(self.powers.now, None);
             chains.push((chain, Vec::with_capacity(wanted.draws)));
         }
         let task = &self.task;
@@ -61,24 +54,24 @@ impl Population<'_> {
         };
         let mut stopped = false;
         for _ in 0..wanted.draws {
-            if self.parallel && chains.len() > 1 {
+            if self.swarm.is_parallel() && chains.len() > 1 {
                 chains.par_iter_mut().map(next).collect::<Result<Vec<()>, _>>()?;
             } else {
                 chains.iter_mut().try_for_each(next)?;
             }
             let best = chains.iter().map(|(chain, _)| chain.best.score()).fold(f64::NEG_INFINITY, f64::max);
-            stopped = !watch(Progress { barriers: self.barriers, ended: self.particles.len(), best });
+            stopped = !watch(Progress { barriers: self.barriers, ended: self.settings.particles, best });
             if stopped {
                 break;
             }
         }
-        chains.iter().for_each(|(chain, _)| self.moved.ended += chain.counts.all());
+        chains.iter().for_each(|(chain, _)| self.moves.counts.ended += chain.counts.all());
         Ok(Some((chains.into_iter().flat_map(|(_, states)| states).collect(), stopped)))
     }
 
     /// Particle indices drawn by weight, evenly spread (systematic resampling to another number of particles).
     fn starts(&self, chains: usize) -> Vec<usize> {
         let u = Reserved::ChainStart.stream(self.settings.seed, 0, 0).uniform();
-        (0..chains).map(|number| self.weights.index((number as f64 + u) / chains as f64)).collect()
+        (0..chains).map(|number| self.estimate.weights.index((number as f64 + u) / chains as f64)).collect()
     }
 }

@@ -60,7 +60,6 @@ use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
-use rayon::prelude::*;
 
 /// The runs that a chain of whole runs went through.
 #[derive(Default)]
@@ -243,8 +242,8 @@ fn conditional(
     }
     let mut population = own.population;
     population.finish();
-    let index = draw_index(&population.weights, settings.seed, 0);
-    Ok(Some(Run { log_weight: 0.0, ..run_of(population.particles.swap_remove(index)) }))
+    let index = draw_index(&population.estimate.weights, settings.seed, 0);
+    Ok(Some(Run { log_weight: 0.0, ..run_of(population.settled().swap_remove(index)) }))
 }
 
 /// A population of which one particle follows the present run of a chain.
@@ -273,7 +272,7 @@ impl Particles for Conditional<'_> {
             let last = population.barriers + 1 == segments.len();
             let settings = population.settings;
             let (proposal, ahead) = (settings.proposal.as_deref(), settings.look_ahead.as_ref());
-            let particle = &mut population.particles[held];
+            let particle = &mut population.swarm.alone()[held];
             if follow(particle, machine, task, segment, last, proposal, ahead)?.is_none() {
                 return Err(Failure::no_start());
             }
@@ -310,7 +309,7 @@ fn sample_ancestor(
     held: usize,
 ) -> Result<usize, Failure> {
     let rest = segments.get(population.barriers..).unwrap_or(&[]);
-    let (task, settings, power) = (&population.task, population.settings, population.power);
+    let (task, settings, power) = (&population.task, population.settings, population.powers.now);
     let log_weight = |machine: &mut Machine<'_>, p: &mut Particle| -> Result<f64, Failure> {
         if p.log_weight == f64::NEG_INFINITY {
             return Ok(f64::NEG_INFINITY);
@@ -338,15 +337,12 @@ fn sample_ancestor(
         };
         Ok(p.log_weight - power * p.foreseen + log_prior + log_order + log_scores)
     };
-    let logs: Vec<f64> = if population.parallel {
-        let particles = population.particles.par_iter_mut();
-        particles.map_init(|| task.machine(), log_weight).collect::<Result<_, _>>()?
-    } else {
+    let logs = population.swarm.in_batches(|particles| {
         let mut machine = task.machine();
-        population.particles.iter_mut().map(|p| log_weight(&mut machine, p)).collect::<Result<_, _>>()?
-    };
+        particles.iter_mut().map(|p| log_weight(&mut machine, p)).collect::<Result<Vec<f64>, _>>()
+    })?;
     let mut weights = Normalised::default();
-    if !weights.read(logs.iter().copied()) {
+    if !weights.read(logs.iter().flatten().copied()) {
         return Ok(held);
     }
     let mut random = Reserved::Ancestor.stream(settings.seed, population.barriers as u128, 0);

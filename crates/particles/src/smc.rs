@@ -2,7 +2,7 @@
 
 use crate::population::Population;
 use crate::rejuvenation::MoveCounts;
-use crate::settings::{Anneal, Settings, Weights};
+use crate::settings::{Settings, Weights};
 use niwaki_propose::particle::Particle;
 use niwaki_propose::sweep::sweep;
 use niwaki_run::losses::Losses;
@@ -83,26 +83,23 @@ pub(super) fn run(
         population.move_particles(None)?;
     }
     let log_normaliser =
-        (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
+        (settings.weights == Weights::Ratio && !interrupted).then_some(population.estimate.log_normaliser);
     Ok(Result {
         log_normaliser,
         log_evidence: log_normaliser.filter(|_| settings.power == 1.0),
         barriers: population.barriers,
-        steps: population.steps,
-        resampled: population.resampled,
-        ancestors: population.ancestors(),
+        steps: population.counts.steps,
+        resampled: population.counts.resampled,
+        ancestors: population.ancestry.ancestors(),
         interrupted: interrupted || stopped,
         plan: vec![settings.particles],
         died: 0,
-        moved: population.moved,
+        moved: population.moves.counts,
         losses: population.losses,
-        powers: match settings.anneal {
-            Anneal::Constant => Vec::new(),
-            Anneal::Schedule(_) | Anneal::Adaptive(_) => population.powers,
-        },
+        powers: population.powers.each,
         particles: match chains {
             Some((states, _)) => states,
-            None => population.particles.into_iter().map(run_of).collect(),
+            None => population.swarm.into_particles().into_iter().map(run_of).collect(),
         },
     })
 }

@@ -8,6 +8,7 @@ use niwaki_run::forward::Forward;
 use niwaki_run::order::Past;
 use niwaki_run::record::Record;
 use niwaki_run::task::Task;
+use niwaki_run::weights::log_step;
 use niwaki_vm::machine::state::{FutureId, State};
 use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Census;
@@ -125,6 +126,13 @@ impl Particle {
             Ok(stop) => Ok(stop == Stop::Paused),
             Err(met) => self.record.forgive(task, met).map(|()| false),
         }
+    }
+
+    /// The log weight of its step from the score weighed before at a power to a score at the next power, nats: its forecast is
+    /// counted, and the one before taken back.
+    #[inline(always)]
+    pub fn log_step(&self, next: f64, score: &Total, power: f64) -> f64 {
+        log_step(next, score, power, &self.weighed) + (next * self.ahead - power * self.foreseen)
     }
 
     /// Counts the values that it holds, and its choices.

@@ -13,7 +13,7 @@ use niwaki_run::record::Record;
 use niwaki_run::resampling::{Resampling, further_copies, pair};
 use niwaki_run::select::Selection;
 use niwaki_run::streams::Reserved;
-use niwaki_run::weights::{Normalised, log_step};
+use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
@@ -298,7 +298,7 @@ impl Particles for Growing<'_, '_> {
         for Grown { particle: p, .. } in &mut self.set.grown {
             let score = p.record.score();
             p.log_weight += std::mem::take(&mut p.pending);
-            p.log_weight += log_step(beta, &score, beta, &p.weighed);
+            p.log_weight += p.log_step(beta, &score, beta);
             p.weighed = score;
         }
         Ok(self.set.weights.read(self.set.grown.iter().map(|one| one.particle.log_weight)))

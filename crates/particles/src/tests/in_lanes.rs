@@ -233,11 +233,11 @@ fn particles_stay_together_where_nothing_parts_them() {
         let mut population = Population::start(&task, &settings, true).unwrap();
         let (mut in_lanes, mut all) = (0, 0);
         while population.running() > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {
-            in_lanes += usize::from(population.is_in_lanes());
+            in_lanes += usize::from(population.swarm.lanes().is_some());
             all += 1;
             population.resample(None).unwrap();
         }
-        (in_lanes, all + usize::from(population.count().0 > 0))
+        (in_lanes, all + usize::from(population.running() > 0))
     };
     for (name, text) in TOGETHER {
         let (in_lanes, all) = barriers_in_lanes(text);

@@ -112,7 +112,7 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
     while population.running() > 0 {
         population.advance(None).unwrap();
         population.weigh().unwrap();
-        let p = &population.particles[0];
+        let p = &population.swarm.alone()[0];
         let run = Paused { task: &task, record: &p.record, state: &p.state };
         let rise = Wave.rise(run, &mut task.machine(), &mut Sight::default());
         let expected = if p.is_running() { 0.8 * rise } else { 0.0 };

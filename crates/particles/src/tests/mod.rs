@@ -6,7 +6,7 @@
 //! fixed seeds and compares with a z-score. A z beyond 5 happens once in 1.7 million runs of a correct program
 //! (normal approximation); with about 60 quantities looked at, a re-seeded suite fails once in 29,000 runs.
 
-use crate::copies::{Copies, copy};
+use crate::copies::{Ancestry, Copies, copy};
 use crate::population::Population;
 use crate::*;
 use niwaki_propose::particle::Particle;
@@ -126,17 +126,16 @@ fn copies_are_the_same_in_batches() {
     let copied = |batches: Option<(usize, usize)>| {
         let mut population = Population::start(&task, &settings, true).unwrap();
         population.advance(None).unwrap();
-        let (mut ancestor, mut lineages) = ((0..40).collect::<Vec<_>>(), 40);
-        let mut copies = Copies::plan(&counts, &mut ancestor, &mut lineages);
+        let mut ancestry = Ancestry::of(40);
+        let particles = population.swarm.alone();
+        let mut copies = Copies::plan(&counts, &mut ancestry);
         match batches {
-            None => copies.make(&mut population.particles, 5),
+            None => copies.make(particles, 5),
             Some((size, threads)) => {
-                population.particles.iter_mut().enumerate().for_each(|(index, p)| p.home = index % threads);
-                copies.share_out(&mut population.particles, threads);
+                particles.iter_mut().enumerate().for_each(|(index, p)| p.home = index % threads);
+                copies.share_out(particles, threads);
                 let mut indices = Vec::new();
-                for mut batch in
-                    copies.batches(&mut population.particles, 5, size, threads).into_iter().flatten()
-                {
+                for mut batch in copies.batches(particles, 5, size, threads).into_iter().flatten() {
                     assert!(batch.len() <= size);
                     copy(&mut batch, 5);
                     indices.extend(batch.iter().map(|one| one.index));
@@ -149,7 +148,7 @@ fn copies_are_the_same_in_batches() {
             let own = p.record.log.entries();
             (p.lineage, own.iter().map(|e| (e.address(), written(e))).collect::<Vec<_>>())
         };
-        (population.particles.iter().map(one).collect::<Vec<_>>(), ancestor, lineages)
+        (particles.iter().map(one).collect::<Vec<_>>(), ancestry.first, ancestry.lineages)
     };
     for batches in [(1, 2), (4, 1), (4, 3), (16, 2)] {
         assert_eq!(copied(None), copied(Some(batches)));

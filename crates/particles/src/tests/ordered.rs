@@ -252,8 +252,7 @@ fn a_copy_has_the_past_of_its_parent() {
         population.advance(None).unwrap();
         population.weigh().unwrap();
         population.resample(None).unwrap();
-        population.settle();
-        for p in &mut population.particles {
+        for p in population.settled() {
             p.past.look(&task.program, &p.state);
             let logs = p.past.logs(&p.state).unwrap();
             let own: Vec<_> = p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect();
