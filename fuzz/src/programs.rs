@@ -2,7 +2,7 @@
 
 use crate::core_text::on_stack_for;
 use niwaki_chain::Settings;
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_geom::{Aabb, Rule, no_overshoot, no_self_intersection, vec3};
 use niwaki_particles::{Moment, Rejuvenation, smc};

@@ -8,10 +8,9 @@
 use super::board::furthest;
 use super::programs::{leaf, task};
 use super::regrown::PROGRAMS;
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::regrow::{Afresh, afresh};
-use niwaki_chain::walk::accept::MetropolisHastings;
 use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::{Dist, Stream};
@@ -356,7 +355,7 @@ fn chains_give_the_law_given_what_is_held() {
         for (kind, kernel) in kernels().into_iter().skip(1) {
             let settings = ChainSettings { seed: 7, kernel, thin: 0, ..ChainSettings::default() };
             // Enumeration of the same task is held to the oracle above.
-            let z = furthest::<MetropolisHastings>(&task, &task, &settings);
+            let z = furthest(&task, &task, &settings);
             assert!(z < 6.0, "{name}, {kind}: z = {z}");
         }
     }
@@ -430,7 +429,7 @@ fn what_cannot_be_held_is_named() {
     named(enumerate(&none, 10_000, &mut |_| true).err());
     named(smc(&none, &Settings::default(), &mut |_| true).err());
     named(importance(&none, None, 50, 1, &mut |_| true).err());
-    named(Chain::<MetropolisHastings>::start(&none, &ChainSettings::default(), 0, None).err());
+    named(Chain::start(&none, &ChainSettings::default(), 0, None).err());
     // A value outside of the support.
     let odd = hold(&task, vec![(y.0.replace("/y", "/x"), Value::Int(7))]).expect("addresses that exist");
     let text = enumerate(&odd, 10_000, &mut |_| true).err().expect("a failure").to_string();

@@ -1,7 +1,7 @@
 //! The claim: totals are exact for terms of any size. The totals of a chain equal those of a run from the start with its
 //! choices. Terms that cancel do not change a chain or particles.
 
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::many::Chains;
