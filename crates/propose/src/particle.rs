@@ -84,15 +84,27 @@ impl Particle {
         machine: &mut Machine<'_>,
         task: &Task,
         seed: u64,
-        mut chooser: impl Chooser,
+        chooser: impl Chooser,
     ) -> Result<bool, Failure> {
         self.was_ended = self.state.has_ended();
+        self.advance_by(machine, task, |own| own.pick(seed), chooser)
+    }
+
+    /// The same, where `pick` gives the place of the future that runs next among several.
+    #[inline(always)]
+    pub fn advance_by(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        mut pick: impl FnMut(&Particle) -> usize,
+        mut chooser: impl Chooser,
+    ) -> Result<bool, Failure> {
         while self.is_running() {
             self.past.look(machine.program(), &self.state);
             let which = match self.state.runnable().len() {
                 0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
                 1 => 0,
-                _ => self.pick(seed),
+                _ => pick(self),
             };
             if self.run(machine, task, which, &mut chooser)? {
                 return Ok(true);
