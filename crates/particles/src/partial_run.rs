@@ -16,7 +16,7 @@ use niwaki_run::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use niwaki_run::log::{Entry, Log};
 use niwaki_run::order::{Order, Past};
 use niwaki_run::record::check_factor;
-use niwaki_run::replay::{Picks, by_address, place};
+use niwaki_run::replay::{by_address, picks, place};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::address::join;
@@ -103,9 +103,8 @@ impl PartialRun {
         let values = by_address(entries);
         let otherwise = Refuse("start from a run of the same model with the same arguments");
         let mut chooser = Known { values: Some(&values), otherwise };
-        let mut picks = Picks::of(entries);
-        let mut pick =
-            |state: &State, past: &Past| picks.next(state).unwrap_or_else(|| past.pick(state, draw()));
+        let mut next = picks(entries);
+        let mut pick = |state: &State, past: &Past| next(state).unwrap_or_else(|| past.pick(state, draw()));
         PartialRun::run(with, machine, &mut chooser, None, &mut pick, barriers)
     }
 

@@ -3,8 +3,8 @@
 
 use crate::copies::{Ancestry, Copies};
 use crate::powers::Powers;
-use crate::rejuvenation::Moves;
-use crate::settings::{Settings, Weights, When};
+use crate::rejuvenation::{MoveCounts, Mover, Moves};
+use crate::settings::{Anneal, Settings, Weights, When};
 use crate::smc::Progress;
 use crate::swarm::Swarm;
 use crate::tempered::Tempered;
@@ -99,7 +99,7 @@ impl<'a> Population<'a> {
                 log_normaliser,
                 logs: Vec::with_capacity(n),
             },
-            moves: Moves::of(task, settings)?,
+            moves: Moves { mover: Mover::of(task, settings)?, counts: MoveCounts::default() },
             barriers: 0,
             counts: Counts { possible: n, ..Counts::default() },
             losses: Losses::default(),
@@ -174,7 +174,7 @@ impl Particles for Population<'_> {
         self.barriers += 1;
         self.estimate.logs.clear();
         let (next, best, ended);
-        if let Some(lanes) = self.swarm.lanes() {
+        if let Some(lanes) = &mut self.swarm.lanes {
             next = self.powers.next(self.settings, self.barriers, &[]);
             best = lanes.weigh(next, self.powers.now);
             ended = if lanes.have_ended() { lanes.len() } else { 0 };
@@ -189,7 +189,10 @@ impl Particles for Population<'_> {
             next = self.powers.next(self.settings, self.barriers, particles);
             (best, ended) = self.weigh_alone(next);
         }
-        self.powers.take(next, self.settings);
+        self.powers.now = next;
+        if self.settings.anneal != Anneal::Constant {
+            self.powers.each.push(next);
+        }
         if !self.estimate.weights.read(self.estimate.logs.iter().copied()) {
             let particles = self.swarm.alone();
             AllInvalid::check_all(particles.iter().map(|p| p.record.invalid.as_ref()))?;

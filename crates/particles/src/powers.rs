@@ -51,12 +51,4 @@ impl Powers {
         }
         low
     }
-
-    /// It is the power now.
-    pub fn take(&mut self, next: f64, settings: &Settings) {
-        self.now = next;
-        if settings.anneal != Anneal::Constant {
-            self.each.push(next);
-        }
-    }
 }

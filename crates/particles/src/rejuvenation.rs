@@ -52,12 +52,6 @@ pub(super) struct Moves {
     pub counts: MoveCounts,
 }
 
-impl Moves {
-    pub fn of(task: &Task, settings: &Settings) -> Result<Moves, Failure> {
-        Ok(Moves { mover: Mover::of(task, settings)?, counts: MoveCounts::default() })
-    }
-}
-
 /// A kernel ready to move particles.
 #[derive(Clone, Debug)]
 pub(super) struct Mover {
@@ -110,7 +104,7 @@ pub fn spreads(task: &Task, seed: u64) -> Result<HashMap<u128, f64>, Failure> {
 }
 
 impl Mover {
-    fn of(task: &Task, settings: &Settings) -> Result<Option<Mover>, Failure> {
+    pub fn of(task: &Task, settings: &Settings) -> Result<Option<Mover>, Failure> {
         let Some(rejuvenation) = &settings.rejuvenate else { return Ok(None) };
         let sites = task.program.functions.iter().flat_map(|f| &f.sites);
         let numbers: HashMap<u128, usize> = sites.enumerate().map(|(n, site)| (site.key, n)).collect();

@@ -99,7 +99,7 @@ pub(super) fn run(
         powers: population.powers.each,
         particles: match chains {
             Some((states, _)) => states,
-            None => population.swarm.into_particles().into_iter().map(run_of).collect(),
+            None => population.swarm.particles.into_iter().map(run_of).collect(),
         },
     })
 }

@@ -25,9 +25,9 @@ const PARTS: usize = 64;
 
 /// The particles of a population.
 pub(super) struct Swarm {
-    particles: Vec<Particle>,
+    pub particles: Vec<Particle>,
     /// The particles, while they run together; `particles` then means nothing.
-    lanes: Option<InLanes>,
+    pub lanes: Option<InLanes>,
     /// When they may line up next.
     rest: Rest,
     /// The copies of the last resampling that are not made yet.
@@ -67,11 +67,6 @@ impl Swarm {
         self.tasks.len() > 1
     }
 
-    /// The particles while they run together.
-    pub fn lanes(&mut self) -> Option<&mut InLanes> {
-        self.lanes.as_mut()
-    }
-
     /// The particles one by one, without the copies that are not made yet.
     pub fn alone(&mut self) -> &mut [Particle] {
         if let Some(lanes) = self.lanes.take() {
@@ -85,11 +80,6 @@ impl Swarm {
         self.alone();
         self.copies.make(&mut self.particles, seed);
         &mut self.particles
-    }
-
-    /// The particles, when nothing is left to do.
-    pub fn into_particles(self) -> Vec<Particle> {
-        self.particles
     }
 
     /// How many run, and how many have ended. One pass, because a population does not fit into the cache.
@@ -115,36 +105,31 @@ impl Swarm {
             return Ok(());
         }
         self.alone();
-        let (seed, limit) = (settings.seed, task.limits.bytes);
-        let met = Met::within(self.resident.room(limit));
-        let worker = |thread: usize| Worker {
-            task: &self.tasks[thread],
-            machine: self.tasks[thread].machine(),
-            sight: Sight::default(),
-            settings,
-            held,
-            limit,
-            met: &met,
-        };
-        if let [_] = self.tasks[..] {
+        let (seed, limit, tasks) = (settings.seed, task.limits.bytes, &self.tasks);
+        let (room, failed, met) = (self.resident.room(limit), AtomicUsize::new(usize::MAX), Mutex::default());
+        let step = Step { settings, held, limit, room, failed, met };
+        if let [own] = &tasks[..] {
             self.copies.make(&mut self.particles, seed);
-            worker(0).run(self.particles.iter_mut().enumerate());
+            let particles = self.particles.iter_mut().enumerate();
+            step.run(own, &mut own.machine(), &mut Sight::default(), particles);
         } else {
-            let threads = self.tasks.len();
-            let size = (self.particles.len() / (TASKS * threads)).clamp(1, BATCH);
-            share(self.copies.batches(&mut self.particles, seed, size, threads), |thread| {
-                let mut worker = worker(thread);
+            let size = (self.particles.len() / (TASKS * tasks.len())).clamp(1, BATCH);
+            let batches = self.copies.batches(&mut self.particles, seed, size, tasks.len());
+            share(batches, |thread| {
+                let (step, own) = (&step, &tasks[thread]);
+                let (mut machine, mut sight) = (own.machine(), Sight::default());
                 move |mut batch: Vec<Indexed<'_>>| {
                     copy(&mut batch, seed);
-                    worker.run(batch.into_iter().map(|Indexed { index, particle, .. }| {
+                    let particles = batch.into_iter().map(|Indexed { index, particle, .. }| {
                         particle.home = thread;
                         (index, particle)
-                    }));
+                    });
+                    step.run(own, &mut machine, &mut sight, particles);
                 }
             });
             self.copies.clear();
         }
-        self.resident.grown(met.growth(task)?, task, &self.particles)
+        self.resident.grown(step.growth(task)?, task, &self.particles)
     }
 
     /// Runs the particles together to the next barrier; false where they are, or have gone, apart.
@@ -249,85 +234,59 @@ impl Rest {
     }
 }
 
-/// What the batches of a step have met. Of several faults that of the first particle is reported, so that threads do not
-/// matter. Particles after a failed one need not run: an endless model would use up its budget once for each.
-struct Met {
-    /// By how much the particles may grow.
+/// A step of all particles to their next barriers, in batches. Of several faults that of the first particle is reported, so that
+/// threads do not matter. Particles after a failed one need not run: an endless model would use up its budget once for each.
+struct Step<'a> {
+    settings: &'a Settings,
+    held: Option<usize>,
+    /// The memory of all particles together, and by how much they may grow now, bytes.
+    limit: usize,
     room: usize,
     /// The first particle with a fault; the first of all where they have grown too much.
     failed: AtomicUsize,
-    fault: Mutex<Option<(usize, Failure)>>,
-    growth: Mutex<Growth>,
+    /// By how much they have grown, and the fault of the first particle with one.
+    met: Mutex<(Growth, Option<(usize, Failure)>)>,
 }
 
-impl Met {
-    fn within(room: usize) -> Met {
-        let (fault, growth) = (Mutex::default(), Mutex::default());
-        Met { room, failed: AtomicUsize::new(usize::MAX), fault, growth }
-    }
-
-    /// A particle had a fault.
-    #[cold]
-    fn fault(&self, index: usize, own: Failure) {
-        if self.failed.fetch_min(index, Ordering::Relaxed) > index {
-            let mut first = self.fault.lock().unwrap_or_else(PoisonError::into_inner);
-            if first.as_ref().is_none_or(|(before, _)| *before > index) {
-                *first = Some((index, own));
+impl Step<'_> {
+    /// Runs the particles of a batch, with their indices.
+    fn run<'p>(
+        &self,
+        task: &Task,
+        machine: &mut Machine<'_>,
+        sight: &mut Sight,
+        batch: impl Iterator<Item = (usize, &'p mut Particle)>,
+    ) {
+        let (mut growth, mut fault) = (Growth::default(), None);
+        for (index, particle) in batch {
+            let is_late = index > self.failed.load(Ordering::Relaxed) || growth.up > self.room;
+            if is_late || Some(index) == self.held {
+                continue;
+            }
+            let run =
+                |p: &mut Particle, machine: &mut Machine<'_>| advance(p, machine, task, self.settings, sight);
+            if let Err(own) = counted(particle, machine, self.limit, &mut growth, run)
+                && self.failed.fetch_min(index, Ordering::Relaxed) > index
+            {
+                fault = Some((index, own));
             }
         }
-    }
-
-    /// A batch has grown.
-    fn add(&self, growth: Growth) {
-        let mut all = self.growth.lock().unwrap_or_else(PoisonError::into_inner);
-        all.add(growth);
-        if all.up > self.room {
+        let mut met = self.met.lock().unwrap_or_else(PoisonError::into_inner);
+        met.0.add(growth);
+        met.1 = met.1.take().into_iter().chain(fault).min_by_key(|fault| fault.0);
+        if met.0.up > self.room {
             // The others need not run.
             self.failed.store(0, Ordering::Relaxed);
         }
     }
 
-    /// How much all have grown.
+    /// By how much all have grown.
     fn growth(self, task: &Task) -> Result<Growth, Failure> {
-        let growth = self.growth.into_inner().unwrap_or_else(PoisonError::into_inner);
-        if growth.up > self.room {
-            return Err(too_large(task));
+        match self.met.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            (growth, _) if growth.up > self.room => Err(too_large(task)),
+            (_, Some((_, own))) => Err(own),
+            (growth, None) => Ok(growth),
         }
-        match self.fault.into_inner().unwrap_or_else(PoisonError::into_inner) {
-            Some((_, own)) => Err(own),
-            None => Ok(growth),
-        }
-    }
-}
-
-/// What a thread runs its batches with.
-struct Worker<'a> {
-    task: &'a Task,
-    machine: Machine<'a>,
-    sight: Sight,
-    settings: &'a Settings,
-    held: Option<usize>,
-    /// The memory of all particles together, bytes.
-    limit: usize,
-    met: &'a Met,
-}
-
-impl Worker<'_> {
-    /// Runs the particles of a batch, with their indices, to their next barriers.
-    fn run<'p>(&mut self, batch: impl Iterator<Item = (usize, &'p mut Particle)>) {
-        let Worker { task, machine, sight, settings, held, limit, met } = self;
-        let mut growth = Growth::default();
-        for (index, particle) in batch {
-            if Some(index) == *held || index > met.failed.load(Ordering::Relaxed) || growth.up > met.room {
-                continue;
-            }
-            let run =
-                |p: &mut Particle, machine: &mut Machine<'_>| advance(p, machine, task, settings, sight);
-            if let Err(own) = counted(particle, machine, *limit, &mut growth, run) {
-                met.fault(index, own);
-            }
-        }
-        met.add(growth);
     }
 }
 

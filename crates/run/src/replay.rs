@@ -228,22 +228,11 @@ pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
     entries.iter().filter(|e| !e.is_order()).map(|e| (e.address(), e.value.clone())).collect()
 }
 
-/// The futures that ran at the order choices of a log, one after the other.
-pub struct Picks<'a>(&'a [Entry]);
-
-impl Picks<'_> {
-    /// Those of a whole log.
-    pub fn of(entries: &[Entry]) -> Picks<'_> {
-        Picks(entries)
-    }
-
-    /// The place of the next one among the futures that can run now; `None` where it cannot, or where the log has no more.
-    pub fn next(&mut self, state: &State) -> Option<usize> {
-        let at = self.0.iter().position(Entry::is_order)?;
-        let path = self.0[at].address();
-        self.0 = &self.0[at + 1..];
-        place(state, path)
-    }
+/// The futures that ran at the order choices of a log, one after the other: the place of the next one among those that can run
+/// now; `None` where it cannot, or where the log has no more.
+pub fn picks(entries: &[Entry]) -> impl FnMut(&State) -> Option<usize> {
+    let mut paths = entries.iter().filter(|e| e.is_order()).map(Entry::address);
+    move |state| paths.next().and_then(|path| place(state, path))
 }
 
 /// The place of the future with that path among those that can run.

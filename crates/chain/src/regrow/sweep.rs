@@ -271,11 +271,12 @@ impl Particles for Growing<'_, '_> {
     type Seen = bool;
 
     fn running(&mut self) -> usize {
-        self.set.running()
+        let running = self.set.grown.iter().filter(|one| one.particle.is_running()).count();
+        self.set.steps += running as u64;
+        running
     }
 
     fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
-        self.set.steps += self.set.running() as u64;
         for (index, one) in self.set.grown.iter_mut().enumerate() {
             self.sight.forget();
             let chooser = Grow {
@@ -306,7 +307,9 @@ impl Particles for Growing<'_, '_> {
 
     /// The last weights are those of [`Set::close`].
     fn is_low(&self) -> bool {
-        self.set.weights.effective < LOW * self.set.grown.len() as f64 && self.set.running() > 0
+        let grown = &self.set.grown;
+        self.set.weights.effective < LOW * grown.len() as f64
+            && grown.iter().any(|one| one.particle.is_running())
     }
 
     fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
@@ -325,10 +328,6 @@ impl Particles for Growing<'_, '_> {
 }
 
 impl Set {
-    fn running(&self) -> usize {
-        self.grown.iter().filter(|one| one.particle.is_running()).count()
-    }
-
     /// The choices of the particle with the highest score, of those with a run that can be drawn; `None` without any.
     pub fn best(&self, block: &Block<'_>) -> Option<HashMap<u128, Value>> {
         let possible = self.grown.iter().filter(|one| {

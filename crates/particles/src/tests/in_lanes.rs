@@ -233,7 +233,7 @@ fn particles_stay_together_where_nothing_parts_them() {
         let mut population = Population::start(&task, &settings, true).unwrap();
         let (mut in_lanes, mut all) = (0, 0);
         while population.running() > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {
-            in_lanes += usize::from(population.swarm.lanes().is_some());
+            in_lanes += usize::from(population.swarm.lanes.is_some());
             all += 1;
             population.resample(None).unwrap();
         }

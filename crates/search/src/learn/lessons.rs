@@ -17,7 +17,7 @@ use niwaki_run::checkpoint::{Checkpoint, unfit};
 use niwaki_run::chooser::{Chooser, Chosen, Context, Refuse};
 use niwaki_run::log::Entry;
 use niwaki_run::record::Record;
-use niwaki_run::replay::{Picks, by_address};
+use niwaki_run::replay::{by_address, picks};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
@@ -60,7 +60,7 @@ impl Chooser for Shown<'_, '_> {
 /// Follows a trace in its order, with its scene; `each` gets its choices.
 pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failure> {
     let Example { task, entries, .. } = example;
-    let (values, mut picks) = (by_address(entries), Picks::of(entries));
+    let (values, mut next) = (by_address(entries), picks(entries));
     let depth_first = !entries.iter().any(Entry::is_order);
     let mut machine = task.machine();
     let mut start = task.start(&machine, depth_first)?;
@@ -69,7 +69,7 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     record.sketches.expect_windows();
     let mut one = Particle::start(start, record, 0, 0);
     while one.is_running() {
-        let pick = |own: &Particle| picks.next(&own.state).unwrap_or(0);
+        let pick = |own: &Particle| next(&own.state).unwrap_or(0);
         one.advance_by(&mut machine, task, pick, Shown { values: &values, each })?;
     }
     Ok(())
