@@ -11,6 +11,7 @@ use niwaki_run::{Failure, Task};
 use niwaki_vm::value::Value;
 
 /// The result of SMC.
+#[derive(Default)]
 pub struct Result {
     /// The final set; equal weights after a last resampling.
     pub particles: Vec<Run>,

@@ -303,12 +303,8 @@ fn advance(
         None => particle.advance(machine, task, settings.seed, otherwise)?,
         Some(proposal) => {
             sight.recall(&particle.glance);
-            particle.advance(
-                machine,
-                task,
-                settings.seed,
-                ByProposal { proposal, stream, sight, otherwise },
-            )?
+            let chooser = ByProposal { proposal, stream, sight, otherwise };
+            particle.advance(machine, task, settings.seed, chooser)?
         }
     };
     particle.foresee(settings.look_ahead.as_ref(), task, machine, sight);

@@ -164,19 +164,10 @@ impl Particle {
         Particle {
             state: self.state.clone(),
             record: self.record.fork(),
-            lineage: self.lineage,
-            stream: self.stream,
-            picks: self.picks,
             past: self.past.clone(),
-            was_ended: self.was_ended,
             weighed: self.weighed.clone(),
-            log_weight: self.log_weight,
-            pending: self.pending,
             glance: self.glance.clone(),
-            ahead: self.ahead,
-            foreseen: self.foreseen,
-            home: self.home,
-            bytes: self.bytes,
+            ..*self
         }
     }
 
