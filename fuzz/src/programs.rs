@@ -2,7 +2,7 @@
 
 use crate::core_text::on_stack_for;
 use niwaki_chain::Settings;
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_geom::{Aabb, Rule, no_overshoot, no_self_intersection, vec3};
 use niwaki_particles::{Moment, Rejuvenation, smc};
@@ -100,7 +100,7 @@ pub fn run(plain: &Task, compiled: &Task, head: &[u8]) {
         Err(failure) => failure.to_string(),
         Ok(found) => {
             let all = found.particles.iter().map(|p| {
-                format!("{:?} {:?} {:?} {:?}", p.value, p.record.log_prior, p.record.score(), p.log_weight)
+                format!("{:?} {:?} {:?} {:?}", p.value, p.log_prior, p.log_score, p.log_weight)
             });
             format!("{:?} {:?}", all.collect::<Vec<_>>(), found.log_normaliser)
         }

@@ -12,7 +12,6 @@ use crate::drift::{Step, normal};
 use crate::neighbour::near;
 use crate::walk::Walk;
 use crate::walk::accept::Decision;
-use crate::walk::accept::Rules;
 use niwaki_math::{Family, Space, Stream};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::{Failure, Task};
@@ -70,7 +69,7 @@ pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<
     Some(Proposed { value: draw_to_value(new), forward, backward })
 }
 
-impl<R: Rules> Walk<R> {
+impl Walk {
     /// One proposal for a whole block.
     pub(super) fn block(
         &mut self,

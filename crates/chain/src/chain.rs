@@ -5,7 +5,6 @@ use crate::kernel::Kernel;
 use crate::leaf::{Proposer, Target};
 use crate::plan::Plan;
 use crate::trajectory::counts::TrajectoryCounts;
-use crate::walk::accept::{MetropolisHastings, Rules};
 use crate::walk::proposal::{FromPrior, Move};
 use crate::walk::samples::Samples;
 use crate::walk::state::State;
@@ -59,24 +58,24 @@ impl Default for Settings {
 }
 
 /// One chain; it can go on at any time.
-pub struct Chain<R: Rules = MetropolisHastings> {
+pub struct Chain {
     /// Its state, and what is noted of it.
-    pub(crate) walk: Walk<R>,
+    pub(crate) walk: Walk,
     pub(crate) plan: Plan,
 }
 
-impl<R: Rules> Deref for Chain<R> {
-    type Target = Walk<R>;
+impl Deref for Chain {
+    type Target = Walk;
 
     #[inline(always)]
-    fn deref(&self) -> &Walk<R> {
+    fn deref(&self) -> &Walk {
         &self.walk
     }
 }
 
-impl<R: Rules> DerefMut for Chain<R> {
+impl DerefMut for Chain {
     #[inline(always)]
-    fn deref_mut(&mut self) -> &mut Walk<R> {
+    fn deref_mut(&mut self) -> &mut Walk {
         &mut self.walk
     }
 }
@@ -84,7 +83,7 @@ impl<R: Rules> DerefMut for Chain<R> {
 /// Proposals between two calls of `watch`.
 const BLOCK: u64 = 1024;
 
-impl<R: Rules> Chain<R> {
+impl Chain {
     /// The `number`-th chain of a seed, in its first state. With `known`, choices start with those values.
     ///
     /// # Errors
@@ -94,7 +93,7 @@ impl<R: Rules> Chain<R> {
         settings: &Settings,
         number: u64,
         known: Option<&HashMap<u128, Value>>,
-    ) -> Result<Chain<R>, Failure> {
+    ) -> Result<Chain, Failure> {
         let (plan, streams) = (Plan::new(&settings.kernel)?, Streams::new(settings.seed, number));
         let (state, spreads) = State::start(task, streams, settings.tries, known)?;
         plan.check(&state, task)?;
@@ -112,7 +111,7 @@ impl<R: Rules> Chain<R> {
         mut plan: Plan,
         mut state: State,
         spreads: &HashMap<u128, f64>,
-    ) -> Result<Chain<R>, Failure> {
+    ) -> Result<Chain, Failure> {
         let (program, streams) = (&*task.program, Streams::new(settings.seed, number));
         if plan.leaves.iter().any(|leaf| leaf.proposer.looks()) {
             state.sketches.expect_windows();
@@ -196,7 +195,7 @@ impl<R: Rules> Chain<R> {
     }
 }
 
-impl<R: Rules> Target for Proposing<'_, '_, R> {
+impl Target for Proposing<'_, '_> {
     #[inline(always)]
     fn single<M: Move>(&mut self, proposer: &mut M) -> Result<(), Failure> {
         self.chain.single(self.task, self.machine, proposer, self.table, self.beta)

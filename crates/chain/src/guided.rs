@@ -20,7 +20,6 @@
 //!
 //! A scene that a sketch forbids shows nothing: which sketches have seen all of it depends on how it came about.
 
-use crate::walk::accept::Rules;
 use crate::walk::proposal::Move;
 use crate::walk::state::State;
 use crate::walk::{ChainMove, Proposing};
@@ -163,7 +162,7 @@ impl Move for Guided {
 }
 
 impl ChainMove for Guided {
-    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+    fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
         let done = chain.single(task, machine, self, table, beta);
         // Copies of sketches share what neither changes, as long as both exist.

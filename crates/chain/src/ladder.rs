@@ -4,7 +4,7 @@
 //! min(1, exp((beta_i - beta_j)(log score_j - log score_i))). The prior is not tempered. A search without tempering is a
 //! ladder of one rung.
 
-use crate::walk::accept::{MetropolisHastings, Rules};
+use crate::walk::accept::log_exchange;
 use crate::walk::streams::Streams;
 use crate::{Chain, Settings};
 use niwaki_run::{Failure, Task};
@@ -43,9 +43,9 @@ impl Pace {
 }
 
 /// Chains at falling powers of the score; the first follows the posterior.
-pub struct Ladder<R: Rules = MetropolisHastings> {
+pub struct Ladder {
     /// The rungs, coldest first.
-    pub rungs: Vec<Chain<R>>,
+    pub rungs: Vec<Chain>,
     number: u64,
     every: u64,
     streams: Streams,
@@ -57,7 +57,7 @@ pub struct Ladder<R: Rules = MetropolisHastings> {
     pub(super) invalid: Counts,
 }
 
-impl<R: Rules> Ladder<R> {
+impl Ladder {
     /// The `number`-th ladder of a seed.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl<R: Rules> Ladder<R> {
         settings: &Settings,
         number: u64,
         known: Option<&HashMap<u128, Value>>,
-    ) -> Result<Ladder<R>, Failure> {
+    ) -> Result<Ladder, Failure> {
         Ladder::start_at(task, settings, number, |_| known)
     }
 
@@ -80,7 +80,7 @@ impl<R: Rules> Ladder<R> {
         settings: &Settings,
         number: u64,
         known: impl Fn(usize) -> Option<&'a HashMap<u128, Value>>,
-    ) -> Result<Ladder<R>, Failure> {
+    ) -> Result<Ladder, Failure> {
         let mut ladder = Ladder::without_rungs(settings, number);
         for rung in 0..settings.powers.len() {
             ladder.add(rung, settings, |own, number| Chain::start(task, own, number, known(rung)))?;
@@ -89,7 +89,7 @@ impl<R: Rules> Ladder<R> {
     }
 
     /// The `number`-th ladder of a seed, before its chains.
-    pub(super) fn without_rungs(settings: &Settings, number: u64) -> Ladder<R> {
+    pub(super) fn without_rungs(settings: &Settings, number: u64) -> Ladder {
         Ladder {
             rungs: vec![],
             number,
@@ -109,7 +109,7 @@ impl<R: Rules> Ladder<R> {
         &mut self,
         rung: usize,
         settings: &Settings,
-        make: impl FnOnce(&Settings, u64) -> Result<Chain<R>, Failure>,
+        make: impl FnOnce(&Settings, u64) -> Result<Chain, Failure>,
     ) -> Result<(), Failure> {
         let mut own = settings.clone();
         if rung > 0 {
@@ -162,7 +162,7 @@ impl<R: Rules> Ladder<R> {
     }
 
     /// Tries to exchange states between every other pair of neighbours, alternating, where an exchange is due.
-    pub(super) fn exchange_if_due(&mut self) {
+    pub fn exchange_if_due(&mut self) {
         if !self.visit().is_multiple_of(self.every) {
             return;
         }
@@ -172,7 +172,7 @@ impl<R: Rules> Ladder<R> {
             let (below, above) = self.rungs.split_at_mut(low + 1);
             let (cold, hot) = (&mut below[low], &mut above[0]);
             let gain = hot.state.score().less(&cold.state.score()).value();
-            let log_ratio = R::log_exchange((cold.beta, hot.beta), gain);
+            let log_ratio = log_exchange((cold.beta, hot.beta), gain);
             self.exchanges[low].0 += 1;
             if rng.uniform().ln() < log_ratio {
                 self.exchanges[low].1 += 1;
@@ -192,7 +192,7 @@ impl<R: Rules> Ladder<R> {
     }
 
     /// The rung with the best state.
-    pub fn best(&self) -> Option<&Chain<R>> {
+    pub fn best(&self) -> Option<&Chain> {
         self.rungs.iter().max_by(|a, b| a.best.score().total_cmp(&b.best.score()))
     }
 }

@@ -7,11 +7,10 @@
 //! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
 //! * [`trajectory`]: the continuous choices move together along their gradient;
 //! * [`ladder`]: parallel tempering; [`many`]: several searches in parallel; `stored`: chains as data, to go on from;
-//! * [`agreement`]: the four strategies, compared to the bit; [`explain`]: what each of them does for one proposal.
+//! * [`explain`]: what each of the four strategies does for one proposal.
 //!
 //! A chain's states depend on its seed and number only: not on the strategy, not on the number of threads.
 
-pub mod agreement;
 pub mod block;
 pub(crate) mod by_family;
 mod chain;

@@ -2,7 +2,6 @@
 
 use crate::Settings;
 use crate::ladder::Ladder;
-use crate::walk::accept::{MetropolisHastings, Rules};
 use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::invalid::{Count, Counts, Place};
@@ -23,12 +22,12 @@ fn more(counts: Counts, before: &Counts) -> Counts {
 }
 
 /// Several chains.
-pub struct Chains<R: Rules = MetropolisHastings> {
+pub struct Chains {
     /// The chains.
-    pub chains: Vec<Ladder<R>>,
+    pub chains: Vec<Ladder>,
 }
 
-impl<R: Rules> Chains<R> {
+impl Chains {
     /// `count` chains in their first states.
     ///
     /// # Errors
@@ -38,7 +37,7 @@ impl<R: Rules> Chains<R> {
         settings: &Settings,
         count: usize,
         known: Option<&HashMap<u128, Value>>,
-    ) -> Result<Chains<R>, Failure> {
+    ) -> Result<Chains, Failure> {
         Chains::start_from(task, settings, count, known, None)
     }
 
@@ -52,7 +51,7 @@ impl<R: Rules> Chains<R> {
         count: usize,
         known: Option<&HashMap<u128, Value>>,
         checkpoint: Option<&Checkpoint>,
-    ) -> Result<Chains<R>, Failure> {
+    ) -> Result<Chains, Failure> {
         let task = &task.shared_by(count);
         let chains = (0..count as u64).into_par_iter().map(|number| {
             if let Some(stored) = checkpoint.map_or(Ok(None), |own| own.left(number))? {
@@ -64,7 +63,7 @@ impl<R: Rules> Chains<R> {
             ladder.invalid = own.invalid.counts();
             Ok(ladder)
         });
-        let chains: Vec<Ladder<R>> = chains.collect::<Result<_, _>>()?;
+        let chains: Vec<Ladder> = chains.collect::<Result<_, _>>()?;
         for chain in &chains {
             task.invalid.add(chain.invalid.iter().cloned());
         }
@@ -107,7 +106,7 @@ impl<R: Rules> Chains<R> {
         watch: &(dyn Fn(u64, f64) -> bool + Sync),
         checkpoint: Option<&Checkpoint>,
     ) -> Result<bool, Failure> {
-        let store = |number: usize, chain: &Ladder<R>| {
+        let store = |number: usize, chain: &Ladder| {
             let content = || chain.stored(&task.program, chain.invalid.clone());
             checkpoint.inspect(|own| own.store(number as u64, content));
         };

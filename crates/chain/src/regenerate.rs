@@ -5,7 +5,6 @@
 //! of all, before and after.
 
 use crate::walk::Walk;
-use crate::walk::accept::Rules;
 use crate::walk::streams::below;
 use crate::walk::{ChainMove, Proposing};
 use niwaki_run::Failure;
@@ -23,7 +22,7 @@ pub struct Regenerate {
 }
 
 impl ChainMove for Regenerate {
-    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+    fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let (levels, Proposing { chain, task, machine, table, beta }) = (self.levels, proposing);
         let (visit, program) = (chain.visit, &*task.program);
         chain.visit += 1;
@@ -45,7 +44,7 @@ impl ChainMove for Regenerate {
             Ok(change) => change,
             Err(met) => chain.give_up(task, met)?,
         };
-        let selection = |chain: &Walk<R>| {
+        let selection = |chain: &Walk| {
             let trace = &chain.state.trace;
             let after =
                 table.map_or(trace.len_after() as u64, |t| chain.tables[t].total_after(trace, program));
@@ -58,7 +57,7 @@ impl ChainMove for Regenerate {
     }
 }
 
-impl<R: Rules> Walk<R> {
+impl Walk {
     /// The weight of the choices that lead to an activation: those `levels` below it. The root also takes
     /// the choices that are nearer to it, because their activation would be above the root.
     fn leading(&self, program: &Program, activation: NodeId, levels: usize, table: Option<usize>) -> u64 {

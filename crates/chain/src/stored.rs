@@ -7,7 +7,6 @@
 use crate::ladder::Ladder;
 use crate::plan;
 use crate::plan::Plan;
-use crate::walk::accept::Rules;
 use crate::walk::best::Best;
 use crate::walk::counts::Count;
 use crate::walk::state::State;
@@ -89,7 +88,7 @@ pub(crate) struct StoredLadder<S> {
     invalid: Counts,
 }
 
-impl<R: Rules> Chain<R> {
+impl Chain {
     fn stored(&self, program: &Program) -> StoredChain<Vec<&Run>> {
         StoredChain {
             state: StoredState::of(&self.state, program),
@@ -111,7 +110,7 @@ impl<R: Rules> Chain<R> {
         settings: &Settings,
         number: u64,
         stored: StoredChain<Vec<Run>>,
-    ) -> Result<Chain<R>, Failure> {
+    ) -> Result<Chain, Failure> {
         let state = stored.state.state(task)?;
         let plan = Plan::new(&settings.kernel)?;
         let mut chain = Chain::at(task, settings, number, plan, state, &HashMap::new())?;
@@ -130,7 +129,7 @@ impl<R: Rules> Chain<R> {
     }
 }
 
-impl<R: Rules> Ladder<R> {
+impl Ladder {
     /// Its data; `invalid` are the invalid runs that it counted so far.
     pub(super) fn stored(&self, program: &Program, invalid: Counts) -> StoredLadder<Vec<&Run>> {
         let rungs = self.rungs.iter().map(|rung| rung.stored(program)).collect();
@@ -146,7 +145,7 @@ impl<R: Rules> Ladder<R> {
         settings: &Settings,
         number: u64,
         stored: StoredLadder<Vec<Run>>,
-    ) -> Result<Ladder<R>, Failure> {
+    ) -> Result<Ladder, Failure> {
         let StoredLadder { rungs, exchanges, end, invalid } = stored;
         let mut ladder = Ladder::without_rungs(settings, number);
         if rungs.len() != settings.powers.len() || exchanges.len() != ladder.exchanges.len() {

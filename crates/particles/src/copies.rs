@@ -2,7 +2,7 @@
 
 use niwaki_propose::particle::Particle;
 use niwaki_run::resampling::{further_copies, pair};
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 
 /// At least this many copies of one parent are given to another thread in advance.
 const FEW: usize = 4;
@@ -20,6 +20,26 @@ pub(super) struct Copies {
     lineage: u64,
 }
 
+/// Who descends from whom.
+pub(super) struct Ancestry {
+    /// The particle index at the first barrier that each particle descends from.
+    pub first: Vec<usize>,
+    /// The lineages so far.
+    pub lineages: u64,
+}
+
+impl Ancestry {
+    /// That of so many particles, each its own ancestor.
+    pub fn of(n: usize) -> Ancestry {
+        Ancestry { first: (0..n).collect(), lineages: n as u64 }
+    }
+
+    /// How many particles of the first barrier they descend from.
+    pub fn ancestors(&self) -> usize {
+        self.first.iter().collect::<HashSet<_>>().len()
+    }
+}
+
 /// A particle and its index.
 pub(super) struct Indexed<'a> {
     pub index: usize,
@@ -29,15 +49,14 @@ pub(super) struct Indexed<'a> {
 }
 
 impl Copies {
-    /// Particle `i` is to survive `counts[i]` times. `ancestor` becomes that of the survivors; `lineages` counts the
-    /// lineages so far.
-    pub fn plan(counts: &[usize], ancestor: &mut [usize], lineages: &mut u64) -> Copies {
+    /// Particle `i` is to survive `counts[i]` times. The ancestry becomes that of the survivors.
+    pub fn plan(counts: &[usize], ancestry: &mut Ancestry) -> Copies {
         let moves = further_copies(counts);
-        let lineage = *lineages;
+        let lineage = ancestry.lineages;
         // Lineages are assigned in this order, whatever thread copies.
-        *lineages += moves.len() as u64;
+        ancestry.lineages += moves.len() as u64;
         for &(parent, to) in &moves {
-            ancestor[to] = ancestor[parent];
+            ancestry.first[to] = ancestry.first[parent];
         }
         let threads = Vec::new();
         if moves.is_empty() {

@@ -47,25 +47,25 @@ use crate::many::Watch;
 use crate::partial_run::{FollowSettings, PartialRun, Step, follow};
 use crate::population::Population;
 use crate::settings::{Anneal, Settings, Weights};
-use crate::smc::{Outcome, Progress, outcome, run};
+use crate::smc::{Progress, run, run_of};
 use niwaki_math::streams::RngCore;
 use niwaki_propose::particle::Particle;
+use niwaki_propose::sweep::{Particles, sweep};
 use niwaki_run::log::Entry;
 use niwaki_run::order::Order;
 use niwaki_run::record::Record;
-use niwaki_run::resampling::conditional_multinomial;
+use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
-use rayon::prelude::*;
 
 /// The runs that a chain of whole runs went through.
 #[derive(Default)]
 pub struct Chain {
     /// Its state after each sweep, from the first one that had a possible run; weights are equal.
-    pub states: Vec<Outcome>,
+    pub states: Vec<Run>,
     /// How many moves were tried: ancestors drawn for the held run, or proposals.
     pub tries: usize,
     /// How many moves changed the state: ancestors of another particle, or accepted proposals.
@@ -165,7 +165,7 @@ pub fn particle_gibbs(
                 chain.interrupted = true;
                 return Ok(chain);
             };
-            held(&first.record.log.entries())?
+            held(&first.log.entries())?
         }
     };
     for sweep in 1..=sweeps {
@@ -174,7 +174,7 @@ pub fn particle_gibbs(
             chain.interrupted = true;
             break;
         };
-        let next = held(&state.record.log.entries())?;
+        let next = held(&state.log.entries())?;
         chain.renewed.push(next.renewed(&now));
         chain.states.push(state);
         now = next;
@@ -207,7 +207,7 @@ fn first_run(
     sweeps: usize,
     chain: &mut Chain,
     watch: &mut Watch<'_>,
-) -> Result<Option<Outcome>, Failure> {
+) -> Result<Option<Run>, Failure> {
     let mut seed = settings.seed;
     loop {
         match run(task, &Settings { seed, ..settings.clone() }, false, watch) {
@@ -232,44 +232,74 @@ fn conditional(
     run: &PartialRun,
     chain: &mut Chain,
     watch: &mut Watch<'_>,
-) -> Result<Option<Outcome>, Failure> {
-    let mut population = Population::start(task, settings, false)?;
+) -> Result<Option<Run>, Failure> {
+    let population = Population::start(task, settings, false)?;
     let task = population.task.clone();
-    let mut machine = task.machine();
-    let segments = run.segments();
-    // The index of the particle that holds the run.
-    let mut held = 0;
-    while population.count().0 > 0 {
-        population.advance(Some(held))?;
-        if let Some(segment) = segments.get(population.barriers) {
+    let (machine, segments) = (task.machine(), run.segments());
+    let mut own = Conditional { population, task: &task, machine, segments, ancestors, chain };
+    if !sweep(&mut own, Some(0), &mut |_, now| watch(now))? {
+        return Ok(None);
+    }
+    let mut population = own.population;
+    population.finish();
+    let index = draw_index(&population.estimate.weights, settings.seed, 0);
+    Ok(Some(Run { log_weight: 0.0, ..run_of(population.settled().swap_remove(index)) }))
+}
+
+/// A population of which one particle follows the present run of a chain.
+struct Conditional<'a> {
+    population: Population<'a>,
+    task: &'a Task,
+    machine: Machine<'a>,
+    /// The run, from barrier to barrier.
+    segments: Vec<&'a [Step]>,
+    ancestors: Ancestors,
+    /// Counts the ancestors that are drawn.
+    chain: &'a mut Chain,
+}
+
+impl Particles for Conditional<'_> {
+    type Seen = Progress;
+
+    fn running(&mut self) -> usize {
+        self.population.running()
+    }
+
+    fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
+        let Conditional { population, task, machine, segments, .. } = self;
+        population.advance(held)?;
+        if let (Some(held), Some(segment)) = (held, segments.get(population.barriers)) {
             let last = population.barriers + 1 == segments.len();
+            let settings = population.settings;
             let (proposal, ahead) = (settings.proposal.as_deref(), settings.look_ahead.as_ref());
-            let particle = &mut population.particles[held];
-            if follow(particle, &mut machine, &task, segment, last, proposal, ahead)?.is_none() {
+            let particle = &mut population.swarm.alone()[held];
+            if follow(particle, machine, task, segment, last, proposal, ahead)?.is_none() {
                 return Err(Failure::no_start());
             }
         }
-        let seen = population.weigh()?;
-        if !watch(Progress { barriers: population.barriers, ended: seen.ended, best: seen.best }) {
-            return Ok(None);
-        }
-        if !population.is_low() {
-            continue;
-        }
-        let mut parent = held;
-        if ancestors == Ancestors::Sampled {
-            parent = sample_ancestor(&mut population, &segments, held)?;
-            chain.tries += 1;
-            chain.moves += usize::from(parent != held);
-        }
-        population.resample_by(|weights, random| conditional_multinomial(weights, parent, random));
-        // The first copy keeps the index of its parent: it is the held run.
-        held = parent;
+        Ok(())
     }
-    population.finish();
-    let index = draw_index(&population.weights, settings.seed, 0);
-    let chosen = outcome(population.particles.swap_remove(index));
-    Ok(Some(Outcome { log_weight: 0.0, ..chosen }))
+
+    fn weigh(&mut self) -> Result<Progress, Failure> {
+        self.population.weigh()
+    }
+
+    fn is_low(&self) -> bool {
+        self.population.is_low()
+    }
+
+    fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
+        let parent = match (held, self.ancestors) {
+            (Some(held), Ancestors::Sampled) => {
+                let parent = sample_ancestor(&mut self.population, &self.segments, held)?;
+                self.chain.tries += 1;
+                self.chain.moves += usize::from(parent != held);
+                Some(parent)
+            }
+            _ => held,
+        };
+        self.population.resample(parent)
+    }
 }
 
 /// Draws the particle whose past the held run gets; returns its index.
@@ -279,7 +309,7 @@ fn sample_ancestor(
     held: usize,
 ) -> Result<usize, Failure> {
     let rest = segments.get(population.barriers..).unwrap_or(&[]);
-    let (task, settings, power) = (&population.task, population.settings, population.power);
+    let (task, settings, power) = (&population.task, population.settings, population.powers.now);
     let log_weight = |machine: &mut Machine<'_>, p: &mut Particle| -> Result<f64, Failure> {
         if p.log_weight == f64::NEG_INFINITY {
             return Ok(f64::NEG_INFINITY);
@@ -307,15 +337,12 @@ fn sample_ancestor(
         };
         Ok(p.log_weight - power * p.foreseen + log_prior + log_order + log_scores)
     };
-    let logs: Vec<f64> = if population.parallel {
-        let particles = population.particles.par_iter_mut();
-        particles.map_init(|| task.machine(), log_weight).collect::<Result<_, _>>()?
-    } else {
+    let logs = population.swarm.in_batches(|particles| {
         let mut machine = task.machine();
-        population.particles.iter_mut().map(|p| log_weight(&mut machine, p)).collect::<Result<_, _>>()?
-    };
+        particles.iter_mut().map(|p| log_weight(&mut machine, p)).collect::<Result<Vec<f64>, _>>()
+    })?;
     let mut weights = Normalised::default();
-    if !weights.read(logs.iter().copied()) {
+    if !weights.read(logs.iter().flatten().copied()) {
         return Ok(held);
     }
     let mut random = Reserved::Ancestor.stream(settings.seed, population.barriers as u128, 0);

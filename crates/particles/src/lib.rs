@@ -1,7 +1,7 @@
 //! Sequential Monte Carlo over the barriers that `emit`, `factor` and `observe` make.
 //!
 //! With `s(r_n)` the score of a run at its n-th barrier and `T` the power, particles target
-//! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step:
+//! `F_n = p_n(x_n) s(r_n)^T` (dissertation 5.3, with `T = 1`). A step of a [`sweep`](niwaki_propose::sweep):
 //!
 //! 1. *Advance*: each particle that has not ended runs to its next barrier (`particle`). After each barrier
 //!    and whenever a future returns, the order policy picks the future that runs next.
@@ -40,12 +40,14 @@ mod moves;
 mod partial_run;
 mod pimh;
 mod population;
+mod powers;
 pub mod rejuvenation;
 mod resident;
 pub mod rises;
 mod settings;
 mod shared;
 mod smc;
+mod swarm;
 mod tempered;
 
 // The judges of the tests name the crate from outside.
@@ -54,10 +56,9 @@ extern crate self as niwaki_particles;
 #[cfg(test)]
 mod tests;
 
-pub use final_chains::FinalChains;
 pub use gibbs::{Ancestors, Chain, particle_gibbs};
 pub use many::{AT_ONCE, Share, Watch, population_seed, populations, side_by_side, united, within};
 pub use pimh::pimh;
-pub use rejuvenation::{Moment, MoveCounts, Rejuvenation};
-pub use settings::{Anneal, Settings, Weights, When};
-pub use smc::{Outcome, Progress, Result, smc};
+pub use rejuvenation::MoveCounts;
+pub use settings::{Anneal, FinalChains, Moment, Rejuvenation, Settings, Weights, When};
+pub use smc::{Progress, Result, smc};

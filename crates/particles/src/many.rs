@@ -39,12 +39,10 @@
 //! A search that is stopped from outside keeps its particles, also those of an incomplete population. So it has no
 //! evidence.
 
-use crate::rejuvenation::MoveCounts;
 use crate::settings::Settings;
-use crate::smc::{Outcome, Progress, Result, run};
+use crate::smc::{Progress, Result, run};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::streams::RngCore;
-use niwaki_run::losses::Losses;
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
@@ -276,22 +274,16 @@ fn combine(
     let shares: Vec<Share> = lived.iter().map(|(size, one)| Share::of(*size, one)).collect();
     let (log_normaliser, shifts) = united(&shares, total);
     let mut whole = Result {
-        particles: Vec::new(),
         log_normaliser,
         log_evidence: log_normaliser.filter(|_| lived.iter().all(|(_, one)| one.log_evidence.is_some())),
-        barriers: 0,
-        steps: 0,
-        resampled: 0,
-        ancestors: 0,
         interrupted,
         plan: plan.to_vec(),
         died: deaths,
-        moved: MoveCounts::default(),
-        losses: Losses::default(),
         powers: std::mem::take(&mut lived[0].1.powers),
+        ..Result::default()
     };
     for ((_, mut one), shift) in lived.into_iter().zip(shifts) {
-        one.particles.iter_mut().for_each(|p: &mut Outcome| p.log_weight += shift);
+        one.particles.iter_mut().for_each(|p| p.log_weight += shift);
         whole.particles.append(&mut one.particles);
         whole.barriers = whole.barriers.max(one.barriers);
         whole.steps += one.steps;

@@ -6,7 +6,7 @@ use crate::rejuvenation::{Mover, Round};
 use niwaki_chain::block;
 use niwaki_chain::block::Block;
 use niwaki_chain::leaf::{Leaf, Target};
-use niwaki_chain::walk::accept::{MetropolisHastings, Rules, Terms, accepts, selected};
+use niwaki_chain::walk::accept::{Terms, accepts, selected};
 use niwaki_chain::walk::counts::Count;
 use niwaki_chain::walk::proposal::Move;
 use niwaki_chain::walk::state::State as ChainState;
@@ -189,7 +189,7 @@ impl Moving<'_, '_> {
         };
         // At power zero a score counts only where it is impossible.
         let possible = !record.log_sketches.is_impossible();
-        if accepts(MetropolisHastings::log_ratio(&terms), &mut self.rng) && possible {
+        if accepts(terms.log_ratio(), &mut self.rng) && possible {
             self.count.accepted += 1;
             self.now = next;
         } else {
@@ -239,7 +239,7 @@ pub(super) fn chain_from(
 }
 
 /// The record of the run that a chain is at.
-pub(super) fn record_of(state: &mut ChainState, program: &Program) -> Record {
+fn record_of(state: &mut ChainState, program: &Program) -> Record {
     let totals = state.trace.totals();
     Record {
         log: state.choices(program).collect(),

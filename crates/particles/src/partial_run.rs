@@ -16,7 +16,7 @@ use niwaki_run::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use niwaki_run::log::{Entry, Log};
 use niwaki_run::order::{Order, Past};
 use niwaki_run::record::check_factor;
-use niwaki_run::replay::by_address;
+use niwaki_run::replay::{by_address, picks, place};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::address::join;
@@ -103,11 +103,8 @@ impl PartialRun {
         let values = by_address(entries);
         let otherwise = Refuse("start from a run of the same model with the same arguments");
         let mut chooser = Known { values: Some(&values), otherwise };
-        let mut logged = entries.iter().filter(|e| e.is_order()).map(Entry::address);
-        let mut pick = |state: &State, past: &Past| {
-            let known = logged.next().and_then(|path| place(state, path));
-            known.unwrap_or_else(|| past.pick(state, draw()))
-        };
+        let mut next = picks(entries);
+        let mut pick = |state: &State, past: &Past| next(state).unwrap_or_else(|| past.pick(state, draw()));
         PartialRun::run(with, machine, &mut chooser, None, &mut pick, barriers)
     }
 
@@ -409,9 +406,4 @@ pub(crate) fn follow(
     particle.foresee(look_ahead, task, machine, &mut follow.sight);
     let arrived = if last { particle.state.has_ended() } else { paused && particle.record.cause.is_none() };
     Ok((arrived && !follow.lost && follow.steps.len() == 0).then_some(log_order))
-}
-
-/// The place of the future with that path among those that can run.
-fn place(state: &State, path: u128) -> Option<usize> {
-    state.runnable().iter().position(|future| state.path_of(future) == path)
 }

@@ -16,8 +16,9 @@
 use crate::gibbs::{Chain, check_chain, draw_index, sweep_seed};
 use crate::many::Watch;
 use crate::settings::Settings;
-use crate::smc::{Outcome, run};
+use crate::smc::run;
 use niwaki_math::log_sums::log_mean_exp;
+use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
@@ -37,7 +38,7 @@ pub fn pimh(
     let mut chain = Chain::default();
     let mut estimates = Vec::new();
     let mut first_death = None;
-    let mut now: Option<(f64, Outcome)> = None;
+    let mut now: Option<(f64, Run)> = None;
     for sweep in 0..=sweeps {
         let own = Settings { seed: sweep_seed(settings.seed, sweep), ..settings.clone() };
         let proposed = match run(task, &own, false, watch) {
@@ -50,7 +51,7 @@ pub fn pimh(
                 let mut weights = Normalised::default();
                 weights.read(result.particles.iter().map(|p| p.log_weight));
                 let drawn = result.particles.swap_remove(draw_index(&weights, own.seed, 0));
-                Some((log, Outcome { log_weight: 0.0, ..drawn }))
+                Some((log, Run { log_weight: 0.0, ..drawn }))
             }
             Err(failure) if failure.is_impossible() => {
                 chain.died += 1;

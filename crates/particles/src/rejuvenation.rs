@@ -13,81 +13,20 @@
 //! has, and not again until the end, when all are moved once without bound. For the same reason the evidence is unbiased
 //! for moves at fixed barriers, and consistent for moves after a resampling that is itself decided by the weights.
 
-use crate::final_chains::FinalChains;
 use crate::moves::{move_ended, move_running};
-use crate::population::{BATCH, Population};
-use crate::settings::{Settings, Weights};
-use niwaki_chain::kernel::Kernel;
+use crate::population::Population;
+use crate::settings::{Moment, Settings};
 use niwaki_chain::plan::Plan;
 use niwaki_chain::walk::counts::Count;
 use niwaki_propose::particle::Particle;
 use niwaki_run::fresh::Fresh;
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
-use rayon::prelude::*;
-use serde::Deserialize;
 use std::collections::HashMap;
 
 /// Forward runs from which the spreads of the sites' distributions are read.
 const FIRST_RUNS: u64 = 4;
-
-/// When to move: a number of barriers, or a word.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Moment {
-    /// After each resampling, and once when all have ended.
-    Resampled,
-    /// Once, when all have ended.
-    End,
-    /// At every so-many-th barrier, and once when all have ended.
-    #[serde(untagged)]
-    Every(usize),
-}
-
-/// How particles are moved.
-#[derive(Clone, Debug)]
-pub struct Rejuvenation {
-    /// How to propose.
-    pub kernel: Kernel,
-    /// Proposals for each particle, each time.
-    pub moves: u64,
-    /// When.
-    pub at: Moment,
-    /// The chains that replace the final set; where there are none, every particle of the set is moved.
-    pub final_chains: Option<FinalChains>,
-}
-
-impl Rejuvenation {
-    /// Refuses settings that make no sense.
-    pub(super) fn check(&self, weights: Weights) -> Result<(), Fault> {
-        if weights == Weights::Absolute {
-            return Err(Fault::new(
-                "bad-setting",
-                "absolute weights have no target distribution, which a move needs",
-            )
-            .with_help("use ratio weights"));
-        }
-        let none = self.final_chains.is_some_and(|wanted| wanted.chains == 0 || wanted.draws == 0);
-        if self.moves == 0 || self.at == Moment::Every(0) || none {
-            return Err(Fault::new("bad-setting", "a number of moves, barriers, chains or draws is 0")
-                .with_help("use at least one"));
-        }
-        if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
-            let what = "an annealing kernel changes the distribution of the particles";
-            return Err(Fault::new("bad-kernel", what)
-                .with_help("anneal the particles, and move them by the kernel inside `anneal`"));
-        }
-        let follows = |part: &Kernel| matches!(part, Kernel::Leaf(own) if own.trajectory().is_some());
-        if self.at != Moment::End && self.kernel.any(&follows) {
-            let what = "a particle that still runs has no gradient to follow";
-            return Err(Fault::new("bad-kernel", what)
-                .with_help("move the particles at the end, or without `hmc_step()` and `nuts_step()`"));
-        }
-        Ok(())
-    }
-}
 
 /// Counts of moves: of particles that still ran, and of those that had ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,6 +42,14 @@ impl std::ops::AddAssign for MoveCounts {
         self.running += other.running;
         self.ended += other.ended;
     }
+}
+
+/// How the particles of a population are moved, and what came of it.
+pub(super) struct Moves {
+    /// The kernel, where there is one.
+    pub mover: Option<Mover>,
+    /// Moves so far.
+    pub counts: MoveCounts,
 }
 
 /// A kernel ready to move particles.
@@ -184,7 +131,7 @@ impl Mover {
 impl Population<'_> {
     /// Moves the particles where they are due. `resampled` says whether they were just resampled; `None` means that all
     /// have ended and are weighed by the declared power.
-    pub fn rejuvenate(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
+    pub fn move_particles(&mut self, resampled: Option<bool>) -> Result<(), Failure> {
         let Some(rejuvenation) = &self.settings.rejuvenate else { return Ok(()) };
         let due = match (rejuvenation.at, resampled) {
             (_, None) => true,
@@ -195,8 +142,8 @@ impl Population<'_> {
         if !due {
             return Ok(());
         }
-        self.settle();
-        let Some(mover) = &mut self.mover else { return Ok(()) };
+        self.settled();
+        let Some(mover) = &mut self.moves.mover else { return Ok(()) };
         let before = mover.clone();
         let number = mover.rounds;
         mover.rounds += 1;
@@ -208,7 +155,7 @@ impl Population<'_> {
             settings: self.settings,
             mover: &before,
             schedule,
-            power: self.power,
+            power: self.powers.now,
             barriers: self.barriers,
             ending,
             number,
@@ -225,14 +172,7 @@ impl Population<'_> {
             }
             Ok(moved)
         };
-        let all: Vec<Result<MoveCounts, Failure>> = if self.parallel {
-            self.particles.par_chunks_mut(BATCH).map(batch).collect()
-        } else {
-            vec![batch(&mut self.particles)]
-        };
-        for moved in all {
-            self.moved += moved?;
-        }
+        self.swarm.in_batches(batch)?.into_iter().for_each(|moved| self.moves.counts += moved);
         Ok(())
     }
 }

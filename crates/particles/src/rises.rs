@@ -33,7 +33,7 @@ pub fn paused(task: &Task, settings: &Settings, count: usize) -> Result<Vec<Part
     let mut population = Population::start(task, settings, true)?;
     let (mut kept, mut seen) = (Vec::new(), 0);
     let done = grow(&mut population, &mut |population, _| {
-        let particles = &mut population.particles;
+        let particles = population.swarm.alone();
         let running: Vec<usize> = (0..particles.len()).filter(|i| particles[*i].is_running()).collect();
         if running.is_empty() {
             return true;
@@ -71,7 +71,7 @@ pub fn rise(
     let own = Settings { particles, seed, ..settings.clone() };
     let mut population = Population::go_on(task, &own, from)?;
     match grow(&mut population, &mut |_, _| true) {
-        Ok(_) => Ok(population.log_normaliser - from.record.log_score()),
+        Ok(_) => Ok(population.estimate.log_normaliser - from.record.log_score()),
         Err(failure) if failure.is_impossible() => Ok(f64::NEG_INFINITY),
         Err(failure) => Err(failure),
     }

@@ -1,6 +1,6 @@
 //! The settings of SMC.
 
-use crate::rejuvenation::{Moment, Rejuvenation};
+use niwaki_chain::kernel::Kernel;
 use niwaki_propose::look_ahead::LookAhead;
 use niwaki_propose::proposal::Proposal;
 use niwaki_run::order::Order;
@@ -40,6 +40,71 @@ pub enum Anneal {
     /// From zero up to the declared power, at each barrier as far as the conditional effective sample size
     /// (Zhou, Johansen & Aston 2016, eq. 13) stays at this share of the particles.
     Adaptive(f64),
+}
+
+/// When to move: a number of barriers, or a word.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Moment {
+    /// After each resampling, and once when all have ended.
+    Resampled,
+    /// Once, when all have ended.
+    End,
+    /// At every so-many-th barrier, and once when all have ended.
+    #[serde(untagged)]
+    Every(usize),
+}
+
+/// How particles are moved.
+#[derive(Clone, Debug)]
+pub struct Rejuvenation {
+    /// How to propose.
+    pub kernel: Kernel,
+    /// Proposals for each particle, each time.
+    pub moves: u64,
+    /// When.
+    pub at: Moment,
+    /// The chains that replace the final set; where there are none, every particle of the set is moved.
+    pub final_chains: Option<FinalChains>,
+}
+
+impl Rejuvenation {
+    /// Refuses settings that make no sense.
+    fn check(&self, weights: Weights) -> Result<(), Fault> {
+        if weights == Weights::Absolute {
+            return Err(Fault::new(
+                "bad-setting",
+                "absolute weights have no target distribution, which a move needs",
+            )
+            .with_help("use ratio weights"));
+        }
+        let none = self.final_chains.is_some_and(|wanted| wanted.chains == 0 || wanted.draws == 0);
+        if self.moves == 0 || self.at == Moment::Every(0) || none {
+            return Err(Fault::new("bad-setting", "a number of moves, barriers, chains or draws is 0")
+                .with_help("use at least one"));
+        }
+        if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
+            let what = "an annealing kernel changes the distribution of the particles";
+            return Err(Fault::new("bad-kernel", what)
+                .with_help("anneal the particles, and move them by the kernel inside `anneal`"));
+        }
+        let follows = |part: &Kernel| matches!(part, Kernel::Leaf(own) if own.trajectory().is_some());
+        if self.at != Moment::End && self.kernel.any(&follows) {
+            let what = "a particle that still runs has no gradient to follow";
+            return Err(Fault::new("bad-kernel", what)
+                .with_help("move the particles at the end, or without `hmc_step()` and `nuts_step()`"));
+        }
+        Ok(())
+    }
+}
+
+/// Chains from a few particles of the final set, instead of moves of all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FinalChains {
+    /// How many chains.
+    pub chains: usize,
+    /// States of each that are kept, `moves` proposals apart.
+    pub draws: usize,
 }
 
 /// Reads the share of effective particles below which to resample; null for every barrier.

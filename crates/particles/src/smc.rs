@@ -2,51 +2,19 @@
 
 use crate::population::Population;
 use crate::rejuvenation::MoveCounts;
-use crate::settings::{Anneal, Settings, Weights};
+use crate::settings::{Settings, Weights};
 use niwaki_propose::particle::Particle;
+use niwaki_propose::sweep::sweep;
 use niwaki_run::losses::Losses;
-use niwaki_run::record::Record;
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::value::Value;
 
-/// A particle of the final set.
-pub struct Outcome {
-    /// Its choices and score.
-    pub record: Record,
-    /// What the program returned (`None` for one that was interrupted or is impossible).
-    pub value: Value,
-    /// Its log weight, nats; equal weights after a last resampling.
-    pub log_weight: f64,
-    /// Whether it has ended.
-    pub has_ended: bool,
-    /// Its lineage: equal for particles that are copies of each other since the last barrier at most once.
-    pub lineage: u64,
-}
-
-impl Outcome {
-    /// A copy.
-    pub(super) fn copy(&mut self) -> Outcome {
-        Outcome {
-            record: self.record.fork(),
-            value: self.value.clone(),
-            log_weight: self.log_weight,
-            has_ended: self.has_ended,
-            lineage: self.lineage,
-        }
-    }
-}
-
-impl From<Outcome> for Run {
-    fn from(outcome: Outcome) -> Run {
-        Run::of(outcome.record, outcome.value, outcome.log_weight, outcome.has_ended)
-    }
-}
-
 /// The result of SMC.
+#[derive(Default)]
 pub struct Result {
-    /// The final set.
-    pub particles: Vec<Outcome>,
+    /// The final set; equal weights after a last resampling.
+    pub particles: Vec<Run>,
     /// Estimate of the log of the final law's normalising constant, the scores raised to the declared power,
     /// nats. `None` for absolute weights, which have none, and where the search was stopped.
     pub log_normaliser: Option<f64>,
@@ -113,29 +81,26 @@ pub(super) fn run(
     let chains = if interrupted { None } else { population.final_chains(watch)? };
     let stopped = chains.as_ref().is_some_and(|(_, stopped)| *stopped);
     if chains.is_none() {
-        population.rejuvenate(None)?;
+        population.move_particles(None)?;
     }
     let log_normaliser =
-        (settings.weights == Weights::Ratio && !interrupted).then_some(population.log_normaliser);
+        (settings.weights == Weights::Ratio && !interrupted).then_some(population.estimate.log_normaliser);
     Ok(Result {
         log_normaliser,
         log_evidence: log_normaliser.filter(|_| settings.power == 1.0),
         barriers: population.barriers,
-        steps: population.steps,
-        resampled: population.resampled,
-        ancestors: population.ancestors(),
+        steps: population.counts.steps,
+        resampled: population.counts.resampled,
+        ancestors: population.ancestry.ancestors(),
         interrupted: interrupted || stopped,
         plan: vec![settings.particles],
         died: 0,
-        moved: population.moved,
+        moved: population.moves.counts,
         losses: population.losses,
-        powers: match settings.anneal {
-            Anneal::Constant => Vec::new(),
-            Anneal::Schedule(_) | Anneal::Adaptive(_) => population.powers,
-        },
+        powers: population.powers.each,
         particles: match chains {
             Some((states, _)) => states,
-            None => population.particles.into_iter().map(outcome).collect(),
+            None => population.swarm.particles.into_iter().map(run_of).collect(),
         },
     })
 }
@@ -146,38 +111,14 @@ pub(super) fn grow(
     population: &mut Population<'_>,
     watch: &mut dyn FnMut(&mut Population<'_>, Progress) -> bool,
 ) -> std::result::Result<bool, Failure> {
-    let mut whole = true;
-    loop {
-        let (running, had_ended) = population.count();
-        if running == 0 {
-            break;
-        }
-        population.advance(None)?;
-        let seen = population.weigh()?;
-        // Particles that ended now reached no barrier.
-        population.steps += (running + had_ended - seen.ended) as u64;
-        let now = Progress { barriers: population.barriers, ended: seen.ended, best: seen.best };
-        if !watch(population, now) {
-            whole = false;
-            break;
-        }
-        let resampled = population.is_low();
-        if resampled {
-            population.resample();
-        }
-        population.rejuvenate(Some(resampled))?;
-    }
+    let whole = sweep(population, None, watch)?;
     population.finish();
     Ok(whole)
 }
 
-pub(super) fn outcome(p: Particle) -> Outcome {
+/// The run of a particle.
+pub(super) fn run_of(p: Particle) -> Run {
     let has_ended = p.state.has_ended();
-    Outcome {
-        value: if has_ended { p.state.result() } else { Value::None },
-        log_weight: p.log_weight,
-        has_ended,
-        lineage: p.lineage,
-        record: p.record,
-    }
+    let value = if has_ended { p.state.result() } else { Value::None };
+    Run::of(p.record, value, p.log_weight, has_ended)
 }

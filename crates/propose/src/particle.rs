@@ -8,6 +8,7 @@ use niwaki_run::forward::Forward;
 use niwaki_run::order::Past;
 use niwaki_run::record::Record;
 use niwaki_run::task::Task;
+use niwaki_run::weights::log_step;
 use niwaki_vm::machine::state::{FutureId, State};
 use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Census;
@@ -83,15 +84,27 @@ impl Particle {
         machine: &mut Machine<'_>,
         task: &Task,
         seed: u64,
-        mut chooser: impl Chooser,
+        chooser: impl Chooser,
     ) -> Result<bool, Failure> {
         self.was_ended = self.state.has_ended();
+        self.advance_by(machine, task, |own| own.pick(seed), chooser)
+    }
+
+    /// The same, where `pick` gives the place of the future that runs next among several.
+    #[inline(always)]
+    pub fn advance_by(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        mut pick: impl FnMut(&Particle) -> usize,
+        mut chooser: impl Chooser,
+    ) -> Result<bool, Failure> {
         while self.is_running() {
             self.past.look(machine.program(), &self.state);
             let which = match self.state.runnable().len() {
                 0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
                 1 => 0,
-                _ => self.pick(seed),
+                _ => pick(self),
             };
             if self.run(machine, task, which, &mut chooser)? {
                 return Ok(true);
@@ -127,6 +140,13 @@ impl Particle {
         }
     }
 
+    /// The log weight of its step from the score weighed before at a power to a score at the next power, nats: its forecast is
+    /// counted, and the one before taken back.
+    #[inline(always)]
+    pub fn log_step(&self, next: f64, score: &Total, power: f64) -> f64 {
+        log_step(next, score, power, &self.weighed) + (next * self.ahead - power * self.foreseen)
+    }
+
     /// Counts the values that it holds, and its choices.
     pub fn count<'v>(&'v self, census: &mut Census<'v>) {
         self.state.count(census);
@@ -144,19 +164,10 @@ impl Particle {
         Particle {
             state: self.state.clone(),
             record: self.record.fork(),
-            lineage: self.lineage,
-            stream: self.stream,
-            picks: self.picks,
             past: self.past.clone(),
-            was_ended: self.was_ended,
             weighed: self.weighed.clone(),
-            log_weight: self.log_weight,
-            pending: self.pending,
             glance: self.glance.clone(),
-            ahead: self.ahead,
-            foreseen: self.foreseen,
-            home: self.home,
-            bytes: self.bytes,
+            ..*self
         }
     }
 

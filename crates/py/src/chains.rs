@@ -6,7 +6,7 @@ use crate::runs::PyRun;
 use crate::search::{PyTask, detached};
 use crate::shared::Shared;
 use crate::trajectories::broken_off;
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::explain::Event;
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::many::Chains;

@@ -16,6 +16,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::Call;
+use niwaki_vm::machine::state::State;
 use niwaki_vm::value::{Value, equal, hash, repr, same};
 use std::collections::HashMap;
 
@@ -225,6 +226,18 @@ impl Answers<f64> for Replay<'_> {
 /// The values of a log by address, order choices left out.
 pub fn by_address(entries: &[Entry]) -> HashMap<u128, Value> {
     entries.iter().filter(|e| !e.is_order()).map(|e| (e.address(), e.value.clone())).collect()
+}
+
+/// The futures that ran at the order choices of a log, one after the other: the place of the next one among those that can run
+/// now; `None` where it cannot, or where the log has no more.
+pub fn picks(entries: &[Entry]) -> impl FnMut(&State) -> Option<usize> {
+    let mut paths = entries.iter().filter(|e| e.is_order()).map(Entry::address);
+    move |state| paths.next().and_then(|path| place(state, path))
+}
+
+/// The place of the future with that path among those that can run.
+pub fn place(state: &State, path: u128) -> Option<usize> {
+    state.runnable().iter().position(|future| state.path_of(future) == path)
 }
 
 /// Runs the program once more with the choices of `source`.

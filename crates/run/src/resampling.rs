@@ -61,6 +61,15 @@ impl Resampling {
             }
         }
     }
+
+    /// The same where one particle may be `held`: it survives for certain, and the others are drawn independently, whatever the
+    /// method is. Only independent draws have this simple conditional form (Andrieu, Doucet & Holenstein 2010, section 4.3).
+    pub fn copies_with(self, held: Option<usize>, weights: &[f64], random: &mut Stream) -> Vec<usize> {
+        let Some(held) = held else { return self.copies(weights, random) };
+        let mut copies = multinomial(weights, weights.len() - 1, random);
+        copies[held] += 1;
+        copies
+    }
 }
 
 /// How many numbers from the start of a range have a property. Apart from its caller, whose usual way needs no loop.
@@ -114,14 +123,6 @@ fn multinomial(weights: &[f64], draws: usize, random: &mut Stream) -> Vec<usize>
         let u = random.uniform() * total;
         copies[cumulative.partition_point(|c| *c < u).min(last)] += 1;
     }
-    copies
-}
-
-/// The same where one particle survives for certain, and the others are drawn: conditional SMC (Andrieu, Doucet &
-/// Holenstein 2010, section 4.3).
-pub fn conditional_multinomial(weights: &[f64], kept: usize, random: &mut Stream) -> Vec<usize> {
-    let mut copies = multinomial(weights, weights.len() - 1, random);
-    copies[kept] += 1;
     copies
 }
 

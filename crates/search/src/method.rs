@@ -81,18 +81,13 @@ pub struct Smc {
     populations: Option<usize>,
     diverse: Option<usize>,
     seconds: Option<f64>,
-    proposal: Option<Form>,
     rejuvenate: Option<Form>,
     moves: u64,
     at: Moment,
     draws: Option<usize>,
     chains: usize,
-    #[serde(default)]
-    look_ahead: Option<f64>,
     #[serde(flatten)]
-    settings: Settings,
-    #[serde(flatten)]
-    rest: Rest,
+    common: Populations,
 }
 
 /// Sizes of populations.
@@ -109,13 +104,8 @@ pub struct ParticleGibbs {
     particles: usize,
     sweeps: usize,
     ancestors: bool,
-    proposal: Option<Form>,
-    #[serde(default)]
-    look_ahead: Option<f64>,
     #[serde(flatten)]
-    settings: Settings,
-    #[serde(flatten)]
-    rest: Rest,
+    common: Populations,
 }
 
 /// Particle independent Metropolis-Hastings.
@@ -123,6 +113,13 @@ pub struct ParticleGibbs {
 pub struct Pimh {
     particles: usize,
     sweeps: usize,
+    #[serde(flatten)]
+    common: Populations,
+}
+
+/// The settings that the methods with populations share.
+#[derive(Clone, Debug, Deserialize)]
+struct Populations {
     proposal: Option<Form>,
     #[serde(default)]
     look_ahead: Option<f64>,
@@ -310,9 +307,9 @@ impl Method {
         let method: Method =
             serde_json::from_str(text).map_err(|error| bad(format!("the method {text}: {error}")))?;
         let rest = match &method {
-            Method::Smc(own) => own.rest.keys().next(),
-            Method::ParticleGibbs(own) => own.rest.keys().next(),
-            Method::Pimh(own) => own.rest.keys().next(),
+            Method::Smc(own) => own.common.rest.keys().next(),
+            Method::ParticleGibbs(own) => own.common.rest.keys().next(),
+            Method::Pimh(own) => own.common.rest.keys().next(),
             Method::Hmc(own) => own.rest.keys().next(),
             Method::Nuts(own) => own.rest.keys().next(),
             _ => None,
@@ -400,8 +397,8 @@ impl Method {
                     }
                     None => populations(task, &settings, &own.plan(), &mut progress)?,
                 };
-                let runs = std::mem::take(&mut result.particles).into_iter().map(Run::from);
-                let (runs, lost) = (runs.collect(), std::mem::take(&mut result.losses).explained(task));
+                let runs = std::mem::take(&mut result.particles);
+                let lost = std::mem::take(&mut result.losses).explained(task);
                 Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
             }
             Method::ParticleGibbs(own) => {
@@ -412,7 +409,7 @@ impl Method {
                 Ok(of_chain(result))
             }
             Method::Pimh(own) => {
-                let settings = own.settings(given)?;
+                let settings = own.common.settings(own.particles, given)?;
                 Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
             }
             Method::Improve(own) => {
@@ -493,7 +490,7 @@ impl Method {
             Method::Ais(own) => own.settings(&Given::default()).map(|_| ()),
             Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
             Method::ParticleGibbs(own) => own.settings(&Given::default()).map(|_| ()),
-            Method::Pimh(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Pimh(own) => own.common.settings(own.particles, &Given::default()).map(|_| ()),
             Method::Mh(own) => own.settings(&Given::default()).map(|_| ()),
             _ => Ok(()),
         }
@@ -527,16 +524,7 @@ impl Smc {
             }),
         };
         let particles = self.plan().first().copied().unwrap_or(0);
-        let proposal = proposed(self.proposal.as_ref(), given)?;
-        let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
-        Ok(Settings {
-            particles,
-            seed: given.seed,
-            rejuvenate,
-            proposal,
-            look_ahead,
-            ..self.settings.clone()
-        })
+        Ok(Settings { rejuvenate, ..self.common.settings(particles, given)? })
     }
 
     /// Sizes of its populations without a time limit. Different results need one population each, unless chains give them.
@@ -553,33 +541,22 @@ impl Smc {
 
 impl ParticleGibbs {
     fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
-        let proposal = proposed(self.proposal.as_ref(), given)?;
-        Ok(Settings {
-            particles: self.particles,
-            seed: given.seed,
-            // What has a conditional form: see `particle_gibbs`.
-            resampling: match self.settings.resampling {
-                Resampling::Tempered => Resampling::Tempered,
-                _ => Resampling::Multinomial,
-            },
-            look_ahead: ahead(self.look_ahead, proposal.as_deref())?,
-            proposal,
-            ..self.settings.clone()
-        })
+        let own = self.common.settings(self.particles, given)?;
+        // What has a conditional form: see `particle_gibbs`.
+        let resampling = match own.resampling {
+            Resampling::Tempered => Resampling::Tempered,
+            _ => Resampling::Multinomial,
+        };
+        Ok(Settings { resampling, ..own })
     }
 }
 
-impl Pimh {
-    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+impl Populations {
+    /// The settings of a population of so many particles.
+    fn settings(&self, particles: usize, given: &Given<'_>) -> Result<Settings, Fault> {
         let proposal = proposed(self.proposal.as_ref(), given)?;
         let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
-        Ok(Settings {
-            particles: self.particles,
-            seed: given.seed,
-            proposal,
-            look_ahead,
-            ..self.settings.clone()
-        })
+        Ok(Settings { particles, seed: given.seed, proposal, look_ahead, ..self.settings.clone() })
     }
 }
 
@@ -637,7 +614,7 @@ fn ahead(strength: Option<f64>, proposal: Option<&Proposal>) -> Result<Option<Lo
 }
 
 fn of_chain(mut chain: niwaki_particles::Chain) -> Results {
-    let runs = std::mem::take(&mut chain.states).into_iter().map(Run::from).collect();
+    let runs = std::mem::take(&mut chain.states);
     Results { runs, interrupted: chain.interrupted, info: Info::Chain(chain) }
 }
 

@@ -84,7 +84,7 @@ fn bytes_for_each(model: &str) -> usize {
     // On one thread, so that there is one store.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     let found = pool.install(|| smc(&task, &settings, &mut |progress| watch(progress))).expect("a result");
-    assert!(found.particles.iter().all(|particle| particle.record.primitives == 300));
+    assert!(found.particles.iter().all(|particle| particle.primitives == 300));
     assert_eq!(held.len(), 301);
     (held[299] - held[99]) / (200 * settings.particles)
 }

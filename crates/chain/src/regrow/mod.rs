@@ -34,8 +34,7 @@ pub use pick::Pick;
 pub use reach::is_apart;
 
 use crate::walk::Walk;
-use crate::walk::accept::Decision;
-use crate::walk::accept::{Rules, accepts};
+use crate::walk::accept::{Decision, accepts};
 use crate::walk::state::State;
 use crate::walk::{ChainMove, Proposing};
 use niwaki_geom::sketch::product::Sketches;
@@ -181,7 +180,7 @@ fn refuse_memoised(program: &Program) -> Result<(), Failure> {
 }
 
 impl ChainMove for Regrow {
-    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+    fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let Proposing { chain, task, machine, table, beta } = proposing;
         let (own, visit, program) = (&*self, chain.visit, &*task.program);
         chain.visit += 1;
@@ -244,7 +243,7 @@ impl ChainMove for Regrow {
             && values.iter().all(|(address, value)| held.get(address).is_some_and(|old| same(old, value)));
         chain.last = Decision { same: is_same, accepted: !is_same, log_ratio };
         chain.count_many(chain.last);
-        if is_same || chain.undoing {
+        if is_same {
             return Ok(());
         }
         if chain.replace(task, machine, &numbers, &values)? == Change::Done {
@@ -282,7 +281,7 @@ impl Weighing<'_> {
     }
 }
 
-impl<R: Rules> Walk<R> {
+impl Walk {
     /// Opens a transaction that gives choices of a part the values of a particle.
     fn replace(
         &mut self,

@@ -7,12 +7,13 @@ use niwaki_math::{Dist, Stream, StreamKey};
 use niwaki_propose::guide::bound::Sight;
 use niwaki_propose::particle::Particle;
 use niwaki_propose::proposal::{ByProposal, Proposal, as_if_drawn};
+use niwaki_propose::sweep::{Particles, sweep};
 use niwaki_run::chooser::{Chooser, Chosen, Context, Prior};
 use niwaki_run::record::Record;
-use niwaki_run::resampling::{Resampling, conditional_multinomial, further_copies, pair};
+use niwaki_run::resampling::{Resampling, further_copies, pair};
 use niwaki_run::select::Selection;
 use niwaki_run::streams::Reserved;
-use niwaki_run::weights::{Normalised, log_step};
+use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
@@ -208,7 +209,7 @@ impl Block<'_> {
         seed: u64,
     ) -> Result<Set, Failure> {
         let turned = turned.map(|t| (t.address, &t.old, &t.new));
-        self.sweep(machine, turned, Some(self.held), seed)
+        self.sweep(machine, turned, Some(0), seed)
     }
 
     /// SMC in which no particle holds the present values, with a choice turned or with all of them fresh.
@@ -225,7 +226,7 @@ impl Block<'_> {
         &self,
         machine: &mut Machine<'_>,
         turned: Option<(u128, &Value, &Value)>,
-        held: Option<&HashMap<u128, Value>>,
+        held: Option<usize>,
         seed: u64,
     ) -> Result<Set, Failure> {
         let mut first = Record {
@@ -238,61 +239,91 @@ impl Block<'_> {
             seen: Seen::default(),
             barriers: 0,
         };
-        let mut grown: Vec<Grown> = (0..self.particles as u64).map(one).collect();
-        let (mut weights, mut log_mean, mut lineages, mut step) =
-            (Normalised::default(), 0.0, self.particles as u64, 0);
-        let (mut steps, mut sight) = (0, Sight::default());
-        while grown.iter().any(|one| one.particle.is_running()) {
-            steps += grown.iter().filter(|one| one.particle.is_running()).count() as u64;
-            for (index, one) in grown.iter_mut().enumerate() {
-                let held = held.filter(|_| index == 0);
-                sight.forget();
-                self.advance(machine, one, turned, held, seed, &mut sight)?;
-            }
-            for one in &mut grown {
-                self.weigh(&mut one.particle);
-            }
-            if !weights.read(grown.iter().map(|one| one.particle.log_weight)) {
-                return Ok(Set { grown, weights, log_mean: f64::NEG_INFINITY, steps });
-            }
-            let is_low = weights.effective < LOW * self.particles as f64;
-            if is_low && grown.iter().any(|one| one.particle.is_running()) {
-                let mut random = Reserved::Resampling.stream(seed, step, 0);
-                let copies = if held.is_some() {
-                    conditional_multinomial(&weights.relative, 0, &mut random)
-                } else {
-                    Resampling::Systematic.copies(&weights.relative, &mut random)
-                };
-                log_mean += weights.log_mean;
-                resample(&mut grown, &copies, &mut lineages, seed);
-            }
-            step += 1;
-        }
-        Ok(Set { grown, weights, log_mean, steps })
+        let lineages = self.particles as u64;
+        let set = Set {
+            grown: (0..lineages).map(one).collect(),
+            weights: Normalised::default(),
+            log_mean: 0.0,
+            steps: 0,
+        };
+        let sight = Sight::default();
+        let mut growing = Growing { block: self, set, machine, turned, seed, sight, lineages, barriers: 0 };
+        let lived = sweep(&mut growing, held, &mut |_, is_possible| is_possible)?;
+        let log_mean = if lived { growing.set.log_mean } else { f64::NEG_INFINITY };
+        Ok(Set { log_mean, ..growing.set })
+    }
+}
+
+/// The particles of a part on their way.
+struct Growing<'a, 'm> {
+    block: &'a Block<'a>,
+    set: Set,
+    machine: &'a mut Machine<'m>,
+    turned: Option<(u128, &'a Value, &'a Value)>,
+    seed: u64,
+    sight: Sight,
+    lineages: u64,
+    barriers: u128,
+}
+
+impl Particles for Growing<'_, '_> {
+    /// Whether any is possible.
+    type Seen = bool;
+
+    fn running(&mut self) -> usize {
+        let running = self.set.grown.iter().filter(|one| one.particle.is_running()).count();
+        self.set.steps += running as u64;
+        running
     }
 
-    /// Runs a particle to its next barrier, or to its end.
-    fn advance(
-        &self,
-        machine: &mut Machine<'_>,
-        one: &mut Grown,
-        turned: Option<(u128, &Value, &Value)>,
-        held: Option<&HashMap<u128, Value>>,
-        seed: u64,
-        sight: &mut Sight,
-    ) -> Result<(), Failure> {
-        let stream = one.particle.stream;
-        let chooser = Grow { block: self, seen: &mut one.seen, held, turned, stream, sight };
-        one.barriers += usize::from(one.particle.advance(machine, self.task, seed, chooser)?);
+    fn advance(&mut self, held: Option<usize>) -> Result<(), Failure> {
+        for (index, one) in self.set.grown.iter_mut().enumerate() {
+            self.sight.forget();
+            let chooser = Grow {
+                block: self.block,
+                seen: &mut one.seen,
+                held: (held == Some(index)).then_some(self.block.held),
+                turned: self.turned,
+                stream: one.particle.stream,
+                sight: &mut self.sight,
+            };
+            let paused = one.particle.advance(self.machine, self.block.task, self.seed, chooser)?;
+            one.barriers += usize::from(paused);
+        }
         Ok(())
     }
 
-    /// Counts the score at this barrier in the weight.
-    fn weigh(&self, p: &mut Particle) {
-        let score = p.record.score();
-        p.log_weight += std::mem::take(&mut p.pending);
-        p.log_weight += log_step(self.beta, &score, self.beta, &p.weighed);
-        p.weighed = score;
+    fn weigh(&mut self) -> Result<bool, Failure> {
+        let beta = self.block.beta;
+        self.barriers += 1;
+        for Grown { particle: p, .. } in &mut self.set.grown {
+            let score = p.record.score();
+            p.log_weight += std::mem::take(&mut p.pending);
+            p.log_weight += p.log_step(beta, &score, beta);
+            p.weighed = score;
+        }
+        Ok(self.set.weights.read(self.set.grown.iter().map(|one| one.particle.log_weight)))
+    }
+
+    /// The last weights are those of [`Set::close`].
+    fn is_low(&self) -> bool {
+        let grown = &self.set.grown;
+        self.set.weights.effective < LOW * grown.len() as f64
+            && grown.iter().any(|one| one.particle.is_running())
+    }
+
+    fn resample(&mut self, held: Option<usize>) -> Result<Option<usize>, Failure> {
+        let Growing { set, seed, lineages, barriers, .. } = self;
+        let mut random = Reserved::Resampling.stream(*seed, *barriers - 1, 0);
+        let copies = Resampling::Systematic.copies_with(held, &set.weights.relative, &mut random);
+        set.log_mean += set.weights.log_mean;
+        for (parent, to) in further_copies(&copies) {
+            let [from, copy] = pair(&mut set.grown, parent, to);
+            copy.copy_from(from, *lineages, *seed);
+            *lineages += 1;
+        }
+        set.grown.iter_mut().for_each(|one| one.particle.log_weight = 0.0);
+        Ok(held)
     }
 }
 
@@ -315,14 +346,4 @@ impl Set {
             self.log_mean = f64::NEG_INFINITY;
         }
     }
-}
-
-/// Particle `i` survives `copies[i]` times; weights are reset.
-fn resample(grown: &mut [Grown], copies: &[usize], lineages: &mut u64, seed: u64) {
-    for (parent, to) in further_copies(copies) {
-        let [from, copy] = pair(grown, parent, to);
-        copy.copy_from(from, *lineages, seed);
-        *lineages += 1;
-    }
-    grown.iter_mut().for_each(|one| one.particle.log_weight = 0.0);
 }

@@ -20,7 +20,6 @@ pub(crate) mod structures;
 
 use crate::walk::Walk;
 use crate::walk::accept::Decision;
-use crate::walk::accept::Rules;
 use crate::walk::{ChainMove, Proposing};
 use counts::TrajectoryCounts;
 use niwaki_continuous::hamiltonian::chains::{Length, MAX_ENERGY_ERROR};
@@ -149,7 +148,7 @@ impl Trajectory {
 
 impl ChainMove for Trajectory {
     /// One transition of the continuous choices that a table gives weight; all of them, where there is none.
-    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure> {
+    fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure> {
         let (own, Proposing { chain, task, machine, table, beta }) = (self, proposing);
         let (visit, program) = (chain.visit, &*task.program);
         let warming = chain.warming(visit);
@@ -228,7 +227,7 @@ impl ChainMove for Trajectory {
             Ok(change) => change,
             Err(met) => chain.give_up(task, met)?,
         };
-        let selection = |chain: &Walk<R>| {
+        let selection = |chain: &Walk| {
             let trace = &chain.state.trace;
             // New draws are not part of the recorded density: the reverse trajectory would not lead back here.
             let anew = trace.drawn_anew().iter().any(|(address, _)| own.structures.knows(*address));

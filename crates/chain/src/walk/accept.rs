@@ -35,6 +35,16 @@ pub struct Terms<'a> {
 }
 
 impl Terms<'_> {
+    /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
+    #[inline(always)]
+    pub fn log_ratio(&self) -> f64 {
+        let (prior, score) = (self.prior.near(), self.score.near());
+        let (stale, fresh) = (self.stale.near(), self.fresh.near());
+        let ratio =
+            (prior + self.beta * score) + (stale - fresh) + (self.backward - self.forward) + self.selection;
+        if ratio.is_nan() { self.wide_log_ratio() } else { ratio }
+    }
+
     /// Log of the acceptance ratio, where a sum is too large to be exact as an `f64`: what may cancel is added first.
     #[cold]
     #[inline(never)]
@@ -79,26 +89,9 @@ pub struct Decision {
     pub log_ratio: f64,
 }
 
-/// How a chain accepts. Searches use [`MetropolisHastings`]; the tests also hold mutants of it, which they must reject.
-pub trait Rules: Send {
-    /// Log of the acceptance ratio; NaN where two infinities meet, which counts as impossible.
-    #[inline(always)]
-    fn log_ratio(t: &Terms<'_>) -> f64 {
-        let (prior, score, stale, fresh) = (t.prior.near(), t.score.near(), t.stale.near(), t.fresh.near());
-        let ratio = (prior + t.beta * score) + (stale - fresh) + (t.backward - t.forward) + t.selection;
-        if ratio.is_nan() { t.wide_log_ratio() } else { ratio }
-    }
-
-    /// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
-    /// their states; the hotter one's log score is larger by `gain` nats.
-    #[inline]
-    fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
-        (powers.0 - powers.1) * gain
-    }
+/// Log of the probability with which chains that follow these powers of the score, the colder one's first, exchange
+/// their states; the hotter one's log score is larger by `gain` nats.
+#[inline]
+pub fn log_exchange(powers: (f64, f64), gain: f64) -> f64 {
+    (powers.0 - powers.1) * gain
 }
-
-/// The rules.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct MetropolisHastings;
-
-impl Rules for MetropolisHastings {}

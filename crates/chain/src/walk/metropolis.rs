@@ -17,9 +17,9 @@
 //! Kernels that change many choices differ in the first two steps and in the selection, and share the others (`decide`).
 
 use super::Walk;
-use crate::walk::accept::{Decision, Rules, Terms, accepts, selected};
+use crate::walk::accept::{Decision, Terms, accepts, selected};
 use crate::walk::proposal::{Move, MoveProposal};
-use crate::walk::streams::scaled;
+use crate::walk::streams::{Decisions, scaled};
 use niwaki_math::RngCore;
 use niwaki_run::fresh::Fresh;
 use niwaki_run::{Failure, Task};
@@ -29,7 +29,7 @@ use niwaki_vm::machine::kept::Change;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
 
-impl<R: Rules> Walk<R> {
+impl Walk {
     /// One proposal; choices are picked evenly, or by the weights of a table.
     #[inline(always)]
     pub(crate) fn single<M: Move>(
@@ -42,19 +42,7 @@ impl<R: Rules> Walk<R> {
     ) -> Result<(), Failure> {
         let visit = self.visit;
         self.visit += 1;
-        let total = table.map_or(self.state.trace.len() as u64, |t| self.tables[t].total());
-        if total == 0 {
-            return Ok(());
-        }
-        let (trace, program) = (&self.state.trace, &*task.program);
-        let guess = |first: u64| match table {
-            None => trace.approach(program, scaled(first, total) as usize),
-            Some(_) => 0,
-        };
-        let now = *self.ahead.of(&self.streams, visit, guess);
-        let at = now.below(total);
-        let choice = table.map_or(at as usize, |t| self.tables[t].find(at));
-
+        let Some((choice, total, now)) = self.pick(&task.program, visit, table) else { return Ok(()) };
         let site = self.counts.number(self.state.trace.site_of(choice));
         proposer.look(&self.state, &task.program, choice);
         let noting = self.best.is_noting();
@@ -87,6 +75,29 @@ impl<R: Rules> Walk<R> {
             proposer.learn(site, decision);
         }
         Ok(())
+    }
+
+    /// The choice that a proposal changes, the sum of all weights, and the proposal's random numbers; `None` where nothing can
+    /// be picked.
+    #[inline(always)]
+    fn pick(
+        &mut self,
+        program: &Program,
+        visit: u64,
+        table: Option<usize>,
+    ) -> Option<(usize, u64, Decisions)> {
+        let trace = &self.state.trace;
+        let total = table.map_or(trace.len() as u64, |t| self.tables[t].total());
+        if total == 0 {
+            return None;
+        }
+        let guess = |first: u64| match table {
+            None => trace.approach(program, scaled(first, total) as usize),
+            Some(_) => 0,
+        };
+        let now = *self.ahead.of(&self.streams, visit, guess);
+        let at = now.below(total);
+        Some((table.map_or(at as usize, |t| self.tables[t].find(at)), total, now))
     }
 
     /// Decides over the open transaction. `selection` is the log probability of choosing the move, afterwards less before;
@@ -132,10 +143,10 @@ impl<R: Rules> Walk<R> {
             forward,
             selection: selection(self),
         };
-        let log_ratio = R::log_ratio(&terms);
+        let log_ratio = terms.log_ratio();
         let barriers = || self.state.primitives as i64 + totals.factors + changed.factors;
         let fits = self.barriers.is_none_or(|n| barriers() == n as i64);
-        let accepted = accepts(log_ratio, rng) && fits && !changed.is_impossible() && !self.undoing;
+        let accepted = accepts(log_ratio, rng) && fits && !changed.is_impossible();
         if accepted {
             self.keep(program, moved);
         } else {

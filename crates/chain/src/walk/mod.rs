@@ -17,7 +17,7 @@ pub mod state;
 pub mod streams;
 pub mod weights;
 
-use accept::{Decision, MetropolisHastings, Rules};
+use accept::Decision;
 use best::Best;
 use counts::Counts;
 use niwaki_run::run::Run;
@@ -28,12 +28,11 @@ use niwaki_vm::machine::kept::Strategy;
 use samples::Samples;
 use state::State;
 use std::collections::HashMap;
-use std::marker::PhantomData;
 use streams::{Ahead, Streams};
 use weights::Table;
 
 /// A chain without its kernel.
-pub struct Walk<R: Rules = MetropolisHastings> {
+pub struct Walk {
     /// Its state.
     pub state: State,
     /// Proposals by site.
@@ -61,21 +60,18 @@ pub struct Walk<R: Rules = MetropolisHastings> {
     pub(crate) ahead: Ahead,
     /// The last decision.
     pub(crate) last: Decision,
-    /// Whether every proposal is undone, to test that nothing is left behind.
-    pub(crate) undoing: bool,
     /// How many primitives, factors and observations together a state must have, where that is fixed.
     pub(crate) barriers: Option<usize>,
-    rules: PhantomData<R>,
 }
 
-impl<R: Rules> Walk<R> {
+impl Walk {
     /// From a state, with the spreads of its sites' distributions, by key. It picks choices evenly, has no warm-up and keeps no samples.
     pub(crate) fn start(
         program: &Program,
         streams: Streams,
         state: State,
         spreads: &HashMap<u128, f64>,
-    ) -> Walk<R> {
+    ) -> Walk {
         let sites = program.functions.iter().flat_map(|f| &f.sites);
         Walk {
             spreads: sites.map(|site| spreads.get(&site.key).copied().unwrap_or(1.0)).collect(),
@@ -92,9 +88,7 @@ impl<R: Rules> Walk<R> {
             visit: 0,
             grown: 0,
             last: Decision::default(),
-            undoing: false,
             barriers: None,
-            rules: PhantomData,
         }
     }
 
@@ -108,6 +102,11 @@ impl<R: Rules> Walk<R> {
     /// or removed.
     pub fn work(&self) -> u64 {
         self.visit + self.grown + self.state.moved
+    }
+
+    /// The decision on its last proposal.
+    pub fn last(&self) -> Decision {
+        self.last
     }
 
     /// How many proposals it has made.
@@ -149,8 +148,8 @@ impl<R: Rules> Walk<R> {
 }
 
 /// A chain with the context of its next proposal.
-pub struct Proposing<'a, 'm, R: Rules> {
-    pub(crate) chain: &'a mut Walk<R>,
+pub struct Proposing<'a, 'm> {
+    pub(crate) chain: &'a mut Walk,
     pub(crate) task: &'a Task,
     pub(crate) machine: &'a mut Machine<'m>,
     /// The weights of the leaf's choices; all weigh the same where there are none.
@@ -165,5 +164,5 @@ pub trait ChainMove {
     ///
     /// # Errors
     /// A fault of the program, or of the proposal.
-    fn apply<R: Rules>(&mut self, proposing: Proposing<'_, '_, R>) -> Result<(), Failure>;
+    fn apply(&mut self, proposing: Proposing<'_, '_>) -> Result<(), Failure>;
 }

@@ -129,7 +129,7 @@ fn pimh_waits_for_a_population_that_survives() {
         match pimh(&task(RARE), &own, 9, &mut |_| true) {
             Ok(chain) => {
                 assert!(chain.died < 10 && chain.tries == 9 && chain.moves <= chain.states.len());
-                assert!(chain.states.iter().all(|s| s.has_ended && s.record.cause.is_none()));
+                assert!(chain.states.iter().all(|s| s.has_ended && s.cause.is_none()));
                 assert_eq!(chain.states.len(), chain.renewed.len());
                 late += usize::from(chain.states.len() < 9);
             }

@@ -173,17 +173,12 @@ fn said(task: &Task, settings: &Settings) -> String {
                 result.losses,
             );
             for p in &result.particles {
-                let choices: Vec<_> =
-                    p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect();
-                let sums = [p.log_weight, p.record.log_prior.value(), p.record.log_factors.value()];
+                let choices: Vec<_> = p.log.entries().iter().map(|e| (e.address(), written(e))).collect();
+                let sums = [p.log_weight, p.log_prior, p.log_score];
                 let value = repr(&p.value).unwrap();
-                let record = (&p.record.cause, p.record.invalid.is_some(), p.record.primitives);
-                text += &format!(
-                    "{value} {:?} {} {} {choices:?} {record:?}\n",
-                    sums.map(f64::to_bits),
-                    p.has_ended,
-                    p.lineage
-                );
+                let record = (&p.cause, p.invalid.is_some(), p.primitives);
+                text +=
+                    &format!("{value} {:?} {} {choices:?} {record:?}\n", sums.map(f64::to_bits), p.has_ended);
             }
             text
         }
@@ -237,12 +232,12 @@ fn particles_stay_together_where_nothing_parts_them() {
             (task(text), Settings { particles: 40, order: Order::DepthFirst, ..Settings::default() });
         let mut population = Population::start(&task, &settings, true).unwrap();
         let (mut in_lanes, mut all) = (0, 0);
-        while population.count().0 > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {
-            in_lanes += usize::from(population.is_in_lanes());
+        while population.running() > 0 && population.advance(None).is_ok() && population.weigh().is_ok() {
+            in_lanes += usize::from(population.swarm.lanes.is_some());
             all += 1;
-            population.resample();
+            population.resample(None).unwrap();
         }
-        (in_lanes, all + usize::from(population.count().0 > 0))
+        (in_lanes, all + usize::from(population.running() > 0))
     };
     for (name, text) in TOGETHER {
         let (in_lanes, all) = barriers_in_lanes(text);

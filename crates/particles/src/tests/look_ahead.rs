@@ -109,10 +109,10 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
         Settings { when: When::EffectiveBelow(0.0), ..ahead(1, Order::DepthFirst, Resampling::Systematic) };
     let mut population = Population::start(&task, &own, true).unwrap();
     let mut seen = 0;
-    while population.count().0 > 0 {
+    while population.running() > 0 {
         population.advance(None).unwrap();
         population.weigh().unwrap();
-        let p = &population.particles[0];
+        let p = &population.swarm.alone()[0];
         let run = Paused { task: &task, record: &p.record, state: &p.state };
         let rise = Wave.rise(run, &mut task.machine(), &mut Sight::default());
         let expected = if p.is_running() { 0.8 * rise } else { 0.0 };
@@ -126,7 +126,7 @@ fn the_forecast_is_in_the_weight_on_the_way_only() {
         left >= 0
     });
     let one = &stopped.unwrap().particles[0];
-    assert!(!one.has_ended && (one.log_weight - one.record.log_score()).abs() < 1e-12);
+    assert!(!one.has_ended && (one.log_weight - one.log_score).abs() < 1e-12);
 }
 
 #[test]

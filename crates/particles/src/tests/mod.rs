@@ -6,10 +6,11 @@
 //! fixed seeds and compares with a z-score. A z beyond 5 happens once in 1.7 million runs of a correct program
 //! (normal approximation); with about 60 quantities looked at, a re-seeded suite fails once in 29,000 runs.
 
-use crate::copies::{Copies, copy};
+use crate::copies::{Ancestry, Copies, copy};
 use crate::population::Population;
 use crate::*;
 use niwaki_propose::particle::Particle;
+use niwaki_propose::sweep::Particles;
 use niwaki_run::enumeration::enumerate;
 use niwaki_run::order::{Order, Policy};
 use niwaki_run::resampling::Resampling;
@@ -89,7 +90,7 @@ fn every_order_is_as_likely_as_any_other() {
     let own = Settings { particles: 6000, seed: 3, ..Settings::default() };
     let mut counts: HashMap<Vec<usize>, f64> = HashMap::new();
     for p in smc(&task, &own, &mut |_| true).unwrap().particles {
-        let picks = p.record.log.entries().iter().filter_map(niwaki_run::log::Entry::which).collect();
+        let picks = p.log.entries().iter().filter_map(niwaki_run::log::Entry::which).collect();
         *counts.entry(picks).or_insert(0.0) += 1.0;
     }
     let statistic: f64 = counts.values().map(|n| (n - 1000.0).powi(2) / 1000.0).sum();
@@ -106,11 +107,8 @@ fn threads_change_nothing() {
         pool.install(|| {
             let run = smc(&task, &settings, &mut |_| true).unwrap();
             let values: Vec<String> = run.particles.iter().map(|p| repr(&p.value).unwrap()).collect();
-            let logs: Vec<Vec<u128>> = run
-                .particles
-                .iter()
-                .map(|p| p.record.log.entries().iter().map(|e| e.address()).collect())
-                .collect();
+            let logs: Vec<Vec<u128>> =
+                run.particles.iter().map(|p| p.log.entries().iter().map(|e| e.address()).collect()).collect();
             (run.log_evidence.unwrap().to_bits(), values, logs)
         })
     };
@@ -128,17 +126,16 @@ fn copies_are_the_same_in_batches() {
     let copied = |batches: Option<(usize, usize)>| {
         let mut population = Population::start(&task, &settings, true).unwrap();
         population.advance(None).unwrap();
-        let (mut ancestor, mut lineages) = ((0..40).collect::<Vec<_>>(), 40);
-        let mut copies = Copies::plan(&counts, &mut ancestor, &mut lineages);
+        let mut ancestry = Ancestry::of(40);
+        let particles = population.swarm.alone();
+        let mut copies = Copies::plan(&counts, &mut ancestry);
         match batches {
-            None => copies.make(&mut population.particles, 5),
+            None => copies.make(particles, 5),
             Some((size, threads)) => {
-                population.particles.iter_mut().enumerate().for_each(|(index, p)| p.home = index % threads);
-                copies.share_out(&mut population.particles, threads);
+                particles.iter_mut().enumerate().for_each(|(index, p)| p.home = index % threads);
+                copies.share_out(particles, threads);
                 let mut indices = Vec::new();
-                for mut batch in
-                    copies.batches(&mut population.particles, 5, size, threads).into_iter().flatten()
-                {
+                for mut batch in copies.batches(particles, 5, size, threads).into_iter().flatten() {
                     assert!(batch.len() <= size);
                     copy(&mut batch, 5);
                     indices.extend(batch.iter().map(|one| one.index));
@@ -151,7 +148,7 @@ fn copies_are_the_same_in_batches() {
             let own = p.record.log.entries();
             (p.lineage, own.iter().map(|e| (e.address(), written(e))).collect::<Vec<_>>())
         };
-        (population.particles.iter().map(one).collect::<Vec<_>>(), ancestor, lineages)
+        (particles.iter().map(one).collect::<Vec<_>>(), ancestry.first, ancestry.lineages)
     };
     for batches in [(1, 2), (4, 1), (4, 3), (16, 2)] {
         assert_eq!(copied(None), copied(Some(batches)));
@@ -183,7 +180,7 @@ fn each_loss_is_counted_once() {
     // Without resampling those that died are in the final set.
     let settings = Settings { when: When::EffectiveBelow(0.0), ..Settings::default() };
     let result = smc(&task, &settings, &mut |_| true).unwrap();
-    let dead = result.particles.iter().filter(|p| p.record.score().is_impossible()).count();
+    let dead = result.particles.iter().filter(|p| p.log_score == f64::NEG_INFINITY).count();
     assert!(0 < dead && dead < 100);
     let lost = result.losses.explained(&task);
     assert_eq!((lost.causes, lost.looked_at), (vec![("`condition` at line 0".to_string(), dead)], dead));

@@ -5,12 +5,12 @@
 
 use super::rejuvenated::{draws, moved_draws};
 use super::*;
-use crate::smc::Outcome;
 use niwaki_chain::kernel::Kernel;
 use niwaki_geom::Primitive;
 use niwaki_geom::sketch::{Sketch, SketchSpec};
 use niwaki_run::log::Entry;
 use niwaki_run::rejection::rejection;
+use niwaki_run::run::Run;
 
 /// A policy far from uniform, on every program: whatever waited is left to wait, and names count.
 fn skewed() -> Order {
@@ -121,7 +121,7 @@ fn a_policy_has_the_probabilities_of_its_formula() {
         ..Settings::default()
     };
     let run = smc(&task(&text), &own, &mut |_| true).unwrap();
-    let all: Vec<_> = run.particles.iter().map(|p| picks(&p.record.log.entries())).collect();
+    let all: Vec<_> = run.particles.iter().map(|p| picks(&p.log.entries())).collect();
     check_orders(&all);
 }
 
@@ -134,7 +134,7 @@ fn the_held_run_is_ordered_anew_in_each_sweep() {
     let when = When::EffectiveBelow(0.0);
     let own = Settings { order: known(), when, seed: 5, ..small(2, Order::Stochastic) };
     let chain = particle_gibbs(&task, &own, Ancestors::Kept, 4000, Some(&start), &mut |_| true).unwrap();
-    let all: Vec<_> = chain.states.iter().map(|state| picks(&state.record.log.entries())).collect();
+    let all: Vec<_> = chain.states.iter().map(|state| picks(&state.log.entries())).collect();
     check_orders(&all);
 }
 
@@ -195,7 +195,7 @@ fn an_order_that_is_impossible_is_not_taken() {
         let own = Settings { seed: 4, ..small(3, order) };
         let chain = particle_gibbs(&task, &own, Ancestors::Sampled, 200, None, &mut |_| true).unwrap();
         // The root has returned before the first pick; then the post runs, which was created second.
-        let first = |state: &Outcome| *picks(&state.record.log.entries()).first().unwrap();
+        let first = |state: &Run| *picks(&state.log.entries()).first().unwrap();
         assert_eq!(chain.states.len(), 200);
         assert!(chain.states.iter().all(|state| first(state) == 1));
     }
@@ -212,7 +212,7 @@ fn threads_change_nothing_under_a_learned_order() {
             let logs: Vec<Vec<_>> = run
                 .particles
                 .iter()
-                .map(|p| p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect())
+                .map(|p| p.log.entries().iter().map(|e| (e.address(), written(e))).collect())
                 .collect();
             (run.log_evidence.unwrap().to_bits(), logs)
         })
@@ -251,9 +251,8 @@ fn a_copy_has_the_past_of_its_parent() {
     for _ in 0..3 {
         population.advance(None).unwrap();
         population.weigh().unwrap();
-        population.resample();
-        population.settle();
-        for p in &mut population.particles {
+        population.resample(None).unwrap();
+        for p in population.settled() {
             p.past.look(&task.program, &p.state);
             let logs = p.past.logs(&p.state).unwrap();
             let own: Vec<_> = p.record.log.entries().iter().map(|e| (e.address(), written(e))).collect();
@@ -276,7 +275,7 @@ fn a_policy_of_zeros_is_the_uniform_order() {
         let own = |order| Settings { seed: 2, ..settings(order, Resampling::Systematic) };
         let orders = |order| -> Vec<_> {
             let found = smc(&task(text), &own(order), &mut |_| true).unwrap();
-            found.particles.iter().map(|p| picks(&p.record.log.entries())).collect()
+            found.particles.iter().map(|p| picks(&p.log.entries())).collect()
         };
         assert_eq!(orders(Order::Stochastic), orders(Order::Learned(Arc::default())));
     }

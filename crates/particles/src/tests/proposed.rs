@@ -10,6 +10,7 @@ use niwaki_chain::leaf::Proposer;
 use niwaki_propose::importance::importance;
 use niwaki_propose::proposal::Proposal;
 use niwaki_propose::user::User;
+use niwaki_run::run::Run;
 use niwaki_run::select::Selection;
 use niwaki_vm::core::Name;
 use niwaki_vm::passes::{Kept, compile_keeping};
@@ -188,7 +189,7 @@ fn numbers_have_the_known_evidence() {
             let run = smc(&task, &own, &mut |_| true).unwrap();
             let evidence = (run.log_evidence.unwrap() - log_evidence).exp();
             let total: f64 = run.particles.iter().map(|p| p.log_weight.exp()).sum();
-            let value = |p: &Outcome| if let niwaki_vm::value::Value::Real(x) = p.value { x } else { 0.0 };
+            let value = |p: &Run| if let niwaki_vm::value::Value::Real(x) = p.value { x } else { 0.0 };
             let sum: f64 = run.particles.iter().map(|p| p.log_weight.exp() * value(p)).sum();
             (evidence, evidence * sum / total)
         };

@@ -89,7 +89,7 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
     let mut population = Population::start(task, settings, false).unwrap();
     let (mut machine, mut log_orders) = (task.machine(), vec![0.0; settings.particles]);
     for _ in 0..barriers {
-        for (p, log_order) in population.particles.iter_mut().zip(&mut log_orders) {
+        for (p, log_order) in population.swarm.alone().iter_mut().zip(&mut log_orders) {
             p.was_ended = p.state.has_ended();
             while p.is_running() {
                 p.past.look(machine.program(), &p.state);
@@ -103,7 +103,7 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
         population.barriers += 1;
     }
     let (mut law, mut whole, mut mass) = (HashMap::new(), HashMap::new(), 0.0);
-    for (p, log_order) in population.particles.iter_mut().zip(log_orders) {
+    for (p, log_order) in population.swarm.alone().iter_mut().zip(log_orders) {
         let entries = p.record.log.entries();
         let log_run = p.record.log_prior.value() + log_order;
         let log_law = log_run + settings.power * p.record.log_score();
@@ -117,15 +117,15 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
         }
     }
     assert!((mass - 1.0).abs() < 1e-9, "forward runs found {mass} of all");
-    assert!(population.weights.read(population.particles.iter().map(|p| p.log_weight)));
-    population.resample();
-    population.power = settings.power;
-    population.rejuvenate(Some(true)).unwrap();
+    assert!(population.estimate.weights.read(population.swarm.alone().iter().map(|p| p.log_weight)));
+    population.resample(None).unwrap();
+    population.powers.now = settings.power;
+    population.rejuvenate(true).unwrap();
     // Particles that ended earlier are not moved here; the law includes them.
-    let n = population.particles.len() as f64;
+    let n = settings.particles as f64;
     let total: f64 = law.values().sum();
     let mut counts: HashMap<String, f64> = HashMap::new();
-    population.particles.iter().for_each(|p| *counts.entry(text(p)).or_insert(0.0) += 1.0);
+    population.swarm.alone().iter().for_each(|p| *counts.entry(text(p)).or_insert(0.0) += 1.0);
     let mut worst: f64 =
         counts.keys().filter(|text| !law.contains_key(*text)).map(|_| 99.0).fold(0.0, f64::max);
     for (text, p) in &law {
@@ -135,7 +135,7 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
             worst = worst.max((count - n * p).abs() / (n * p * (1.0 - p)).sqrt().max(1e-9));
         }
     }
-    (worst, law.len(), population.moved)
+    (worst, law.len(), population.moves.counts)
 }
 
 pub(super) fn draws(kernel: Kernel, order: Order, power: f64) -> Settings {

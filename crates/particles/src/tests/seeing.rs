@@ -79,15 +79,15 @@ fn a_chooser_sees_the_scene_so_far() {
         p.run(&mut machine, &task, 0, chooser).unwrap();
     };
     let mut seen = vec![vec![]; 20];
-    for (p, seen) in population.particles.iter_mut().zip(&mut seen) {
+    for (p, seen) in population.swarm.alone().iter_mut().zip(&mut seen) {
         next(p, seen);
     }
-    let scores: Vec<f64> = population.particles.iter().map(|p| p.record.log_score()).collect();
+    let scores: Vec<f64> = population.swarm.alone().iter().map(|p| p.record.log_score()).collect();
     let other = scores.iter().position(|score| *score != scores[0]).expect("both values");
-    let (first, rest) = population.particles.split_at_mut(1);
+    let (first, rest) = population.swarm.alone().split_at_mut(1);
     rest[other - 1].copy_from(&mut first[0], 99, 7);
     seen[other] = seen[0].clone();
-    for (p, seen) in population.particles.iter_mut().zip(&mut seen) {
+    for (p, seen) in population.swarm.alone().iter_mut().zip(&mut seen) {
         next(p, seen);
         next(p, seen);
         assert!(p.state.has_ended());

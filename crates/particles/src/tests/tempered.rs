@@ -6,6 +6,7 @@
 //! `chains`; PIMH, which has no exact start, takes 50 sweeps of 16 particles, on two of the programs.
 
 use super::*;
+use niwaki_run::run::Run;
 
 const REVERSED: &str = r#"(module (fn "m" (params)
             (set $a (sample (dist categorical (list 0.1 0.3 0.6))))
@@ -138,7 +139,7 @@ fn threads_change_nothing_by_tempered_weights() {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
                 let found = smc(&task, &own, &mut |_| true).unwrap();
-                let one = |p: &Outcome| (repr(&p.value).unwrap(), p.log_weight.to_bits());
+                let one = |p: &Run| (repr(&p.value).unwrap(), p.log_weight.to_bits());
                 (found.log_evidence.unwrap().to_bits(), found.particles.iter().map(one).collect::<Vec<_>>())
             })
         };

@@ -10,7 +10,7 @@ use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_math::Stream;
 use niwaki_math::bits;
 use niwaki_particles::rejuvenation::spreads;
-use niwaki_particles::{Outcome, Result, Settings, smc};
+use niwaki_particles::{Result, Settings, smc};
 use niwaki_run::replay::by_address;
 use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
         first: Result,
     ) -> std::result::Result<Search<'a>, Failure> {
         let (best, state) = if first.interrupted {
-            let best = most(first, |_| true).map(Run::from).ok_or_else(Failure::no_start)?;
+            let best = most(first, |_| true).ok_or_else(Failure::no_start)?;
             (best, None)
         } else {
             let (best, state) = best_of(task, first)?;
@@ -288,16 +288,14 @@ fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
 
 /// The best run of a population, and a chain's state there.
 fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
-    let mut best = most(result, |one| one.has_ended).ok_or_else(Failure::no_start)?;
-    let sketches = std::mem::take(&mut best.record.sketches);
-    let state =
-        State::of_run(task, &by_address(&best.record.log.entries()), sketches, best.record.primitives)?;
-    let run = state.run(&task.program, 0);
-    Ok((run, state))
+    let best = most(result, |one| one.has_ended).ok_or_else(Failure::no_start)?;
+    let known = by_address(&best.log.entries());
+    let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
+    Ok((state.run(&task.program, 0), state))
 }
 
 /// The particle with the best score among those that are possible and pass.
-fn most(result: Result, passes: impl Fn(&Outcome) -> bool) -> Option<Outcome> {
-    let possible = result.particles.into_iter().filter(|one| one.record.cause.is_none() && passes(one));
-    possible.max_by(|a, b| a.record.log_score().total_cmp(&b.record.log_score()))
+fn most(result: Result, passes: impl Fn(&Run) -> bool) -> Option<Run> {
+    let possible = result.particles.into_iter().filter(|one| one.cause.is_none() && passes(one));
+    possible.max_by(|a, b| a.log_score.total_cmp(&b.log_score))
 }

@@ -17,7 +17,7 @@ use niwaki_run::checkpoint::{Checkpoint, unfit};
 use niwaki_run::chooser::{Chooser, Chosen, Context, Refuse};
 use niwaki_run::log::Entry;
 use niwaki_run::record::Record;
-use niwaki_run::replay::by_address;
+use niwaki_run::replay::{by_address, picks};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
@@ -60,9 +60,8 @@ impl Chooser for Shown<'_, '_> {
 /// Follows a trace in its order, with its scene; `each` gets its choices.
 pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failure> {
     let Example { task, entries, .. } = example;
-    let values = by_address(entries);
-    let mut order = entries.iter().filter(|entry| entry.is_order()).map(Entry::address).peekable();
-    let depth_first = order.peek().is_none();
+    let (values, mut next) = (by_address(entries), picks(entries));
+    let depth_first = !entries.iter().any(Entry::is_order);
     let mut machine = task.machine();
     let mut start = task.start(&machine, depth_first)?;
     start.note_parts();
@@ -70,16 +69,8 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     record.sketches.expect_windows();
     let mut one = Particle::start(start, record, 0, 0);
     while one.is_running() {
-        let which = match one.state.runnable().len() {
-            0 => return Err(Box::new(machine.waiting_cycle(&one.state)).into()),
-            1 => 0,
-            _ => {
-                let path = order.next();
-                let known = one.state.runnable().iter().position(|own| Some(one.state.path_of(own)) == path);
-                known.unwrap_or(0)
-            }
-        };
-        one.run(&mut machine, task, which, Shown { values: &values, each })?;
+        let pick = |own: &Particle| next(&own.state).unwrap_or(0);
+        one.advance_by(&mut machine, task, pick, Shown { values: &values, each })?;
     }
     Ok(())
 }

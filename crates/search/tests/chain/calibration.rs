@@ -1,5 +1,5 @@
 //! The claim: a kernel leaves the posterior as it is, on continuous programs with bounds, simplexes and angles, and on
-//! programs whose choices come and go; a chain that leaves out a term of its acceptance ratio does not.
+//! programs whose choices come and go. (The list of deliberate errors has chains that forget a term of their ratio.)
 //!
 //! Gandy and Scott 2020, algorithm 1: draw parameters and data from the model, start a chain at those parameters with
 //! those data, and make some proposals. The result is again an exact draw from the prior, for any number of
@@ -12,14 +12,12 @@
 //! normal with a known deviation, so the largest value is known. A kernel that holds the score at one power is
 //! given data whose deviation is as many times the root of the power.
 
-use super::board::{ExchangesAnyway, NoCountRatio, NoReverse, StaleForgotten};
 use super::programs::leaf;
 use super::programs::task;
 use niwaki_chain::Settings;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::leaf::Proposer;
-use niwaki_chain::walk::accept::{MetropolisHastings, Rules};
 use niwaki_chain::walk::state::State;
 use niwaki_chain::walk::streams::Streams;
 use niwaki_math::StreamKey;
@@ -160,17 +158,17 @@ fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate:
 }
 
 /// The largest of the coordinates' Kolmogorov distances, in units of sqrt(2 / n).
-pub fn distance<R: Rules>(text: &str, kernel: &Kernel) -> f64 {
-    distance_of::<R>(text, kernel, REPLICATES)
+pub fn distance(text: &str, kernel: &Kernel) -> f64 {
+    distance_of(text, kernel, REPLICATES)
 }
 
 /// The same, of so many replicates.
-pub fn distance_of<R: Rules>(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
-    distance_at::<R>(text, kernel, replicates, PROPOSALS, 1.0, &[1.0])
+pub fn distance_of(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
+    distance_at(text, kernel, replicates, PROPOSALS, 1.0, &[1.0])
 }
 
 /// The same, of chains of so many proposals, of a kernel that holds the score at one power, or of chains at several.
-fn distance_at<R: Rules>(
+fn distance_at(
     text: &str,
     kernel: &Kernel,
     replicates: u64,
@@ -198,7 +196,7 @@ fn distance_at<R: Rules>(
             .zip(&powers[1..])
             .map(|(rung, power)| tempered(&drawing, &given, deviation(text), *power, replicate, rung));
         let known: Vec<Known> = std::iter::once(by_address(&choices)).chain(hotter).collect();
-        let mut ladder = Ladder::<R>::start_at(&given, &settings, 0, |rung| Some(&known[rung]))
+        let mut ladder = Ladder::start_at(&given, &settings, 0, |rung| Some(&known[rung]))
             .expect("the states that were drawn");
         let started = numbers(&ladder.rungs[0].state.trace.result());
         assert_eq!(started[..started.len().min(2)], values[..started.len().min(2)], "the chain starts there");
@@ -262,7 +260,7 @@ fn kernels_leave_the_posterior_as_it_is() {
             if kind == "weights by site" && name != "a count of terms" {
                 continue;
             }
-            let d = distance::<MetropolisHastings>(text, &kernel);
+            let d = distance(text, &kernel);
             if d > LIMIT {
                 wrong += &format!("{name}, {kind}: {d}\n");
             }
@@ -278,21 +276,19 @@ fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
     let own = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(text)).expect("a proposal"))));
     let sites = Selection { sites: vec![vec!["x".into()]], ..Selection::default() };
     let kernel = Kernel::Mixture(vec![(3.0, Kernel::On(sites, Box::new(own))), (1.0, Kernel::PRIOR)]);
-    let d = distance::<MetropolisHastings>(PROGRAMS[0].1, &kernel);
+    let d = distance(PROGRAMS[0].1, &kernel);
     assert!(d < LIMIT, "{d}");
-    let d = distance::<NoReverse>(PROGRAMS[0].1, &kernel);
-    assert!(d > 2.0 * LIMIT, "the mutant without the reverse density: {d} only");
 }
 
 #[test]
 fn a_kernel_at_one_power_leaves_its_posterior_as_it_is() {
     let held = |power| Kernel::Anneal { start: power, end: power, steps: 9, kernel: Box::new(mixture()) };
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &held(0.5), REPLICATES, PROPOSALS, 0.5, &[1.0]);
+        let d = distance_at(text, &held(0.5), REPLICATES, PROPOSALS, 0.5, &[1.0]);
         assert!(d < LIMIT, "{name}: {d}");
     }
     // A hot kernel, given data as if the power were 1.
-    let d = furthest::<MetropolisHastings>(&[1, 3, 5], &held(0.02));
+    let d = furthest(&[1, 3, 5], &held(0.02));
     assert!(d > 1.1 * LIMIT, "another power: {d} only");
 }
 
@@ -300,36 +296,14 @@ fn a_kernel_at_one_power_leaves_its_posterior_as_it_is() {
 fn tempering_leaves_the_posterior_as_it_is() {
     let powers = [1.0, 0.5, 0.0];
     for (name, text) in &PROGRAMS[1..] {
-        let d = distance_at::<MetropolisHastings>(text, &mixture(), REPLICATES, PROPOSALS, 1.0, &powers);
+        let d = distance_at(text, &mixture(), REPLICATES, PROPOSALS, 1.0, &powers);
         assert!(d < LIMIT, "{name}: {d}");
     }
-    for at in [3, 5] {
-        let d =
-            distance_at::<ExchangesAnyway>(PROGRAMS[at].1, &mixture(), REPLICATES, PROPOSALS, 1.0, &powers);
-        assert!(d > 1.5 * LIMIT, "{}: exchanged anyway: {d} only", PROGRAMS[at].0);
-    }
-}
-
-#[test]
-fn regeneration_and_mixtures_that_forget_a_term_are_found_out() {
-    let regenerate = leaf("regenerate", json!({"levels": 0}));
-    let mut missed = String::new();
-    for (name, d) in [
-        ("what went, regenerated", furthest::<StaleForgotten>(&[3, 5], &regenerate)),
-        ("what went, mixed", furthest::<StaleForgotten>(&[3, 5], &mixture())),
-        ("the ratio of numbers, mixed", furthest::<NoCountRatio>(&[3, 5], &mixture())),
-        ("the reverse density, mixed", furthest::<NoReverse>(&[0, 2, 4], &mixture())),
-    ] {
-        if d < 1.1 * LIMIT {
-            missed += &format!("{name}: {d} only\n");
-        }
-    }
-    assert!(missed.is_empty(), "\n{missed}");
 }
 
 /// The largest distance over some of the programs.
-fn furthest<R: Rules>(programs: &[usize], kernel: &Kernel) -> f64 {
-    programs.iter().map(|at| distance::<R>(PROGRAMS[*at].1, kernel)).fold(0.0, f64::max)
+fn furthest(programs: &[usize], kernel: &Kernel) -> f64 {
+    programs.iter().map(|at| distance(PROGRAMS[*at].1, kernel)).fold(0.0, f64::max)
 }
 
 /// Outside of a warm-up nothing is adapted: a step that shrinks on the narrow peak would no longer lead away from it.
@@ -344,19 +318,7 @@ fn a_step_that_is_not_adapted_leaves_the_posterior_as_it_is() {
         leaf("drift", json!({"step": 3.0, "target": 0.44})),
         leaf("block", json!({"step": 3.0, "share": 1.0, "target": 0.44})),
     ] {
-        let d = distance_at::<MetropolisHastings>(two, &kernel, REPLICATES, 40, 1.0, &[1.0]);
+        let d = distance_at(two, &kernel, REPLICATES, 40, 1.0, &[1.0]);
         assert!(d < LIMIT, "{kernel:?}: {d}");
-    }
-}
-
-#[test]
-fn a_drift_without_its_reverse_density_is_found_out() {
-    for (at, kernel) in [
-        (0, leaf("drift", json!({"step": 1.0, "target": 0.44}))),
-        (2, leaf("drift", json!({"step": 1.0, "target": 0.44}))),
-        (4, leaf("block", json!({"step": 0.5, "share": 0.7, "target": 0.23}))),
-    ] {
-        let d = distance::<NoReverse>(PROGRAMS[at].1, &kernel);
-        assert!(d > 1.5 * LIMIT, "{}: {d} only", PROGRAMS[at].0);
     }
 }

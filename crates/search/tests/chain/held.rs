@@ -8,15 +8,13 @@
 use super::board::furthest;
 use super::programs::{leaf, task};
 use super::regrown::PROGRAMS;
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::regrow::{Afresh, afresh};
-use niwaki_chain::walk::accept::MetropolisHastings;
 use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::{Dist, Stream};
-use niwaki_particles::rejuvenation::{Moment, Rejuvenation};
-use niwaki_particles::{Ancestors, Anneal, Settings, When, particle_gibbs, pimh, smc};
+use niwaki_particles::{Ancestors, Anneal, Moment, Rejuvenation, Settings, When, particle_gibbs, pimh, smc};
 use niwaki_propose::importance::importance;
 use niwaki_run::chooser::{Chooser, Chosen, Context};
 use niwaki_run::enumeration::enumerate;
@@ -251,7 +249,7 @@ fn a_future_may_begin_after_its_call_is_left() {
     for seed in 0..1500 {
         let settings = Settings { particles: 8, seed, ..Settings::default() };
         let found = smc(&locked, &settings, &mut |_| true).expect("particles");
-        assert!(found.particles.iter().all(|one| one.record.cause.is_none()), "none has lost it");
+        assert!(found.particles.iter().all(|one| one.cause.is_none()), "none has lost it");
         let log_evidence = found.log_evidence.expect("an estimate");
         estimates.push((log_evidence, weighed(found.particles.iter().map(|p| (&p.value, p.log_weight)))));
     }
@@ -293,7 +291,7 @@ fn chains_of_whole_runs_give_the_law_given_what_is_held() {
         for (method, chain) in chains {
             let states = chain.expect("a chain").states;
             let log_evidence = log_sum_exp(exact.values().copied());
-            let stretch = |some: &[niwaki_particles::Outcome]| {
+            let stretch = |some: &[niwaki_run::run::Run]| {
                 (log_evidence, weighed(some.iter().map(|state| (&state.value, 0.0))))
             };
             let estimates: Vec<_> = states.chunks_exact(STRETCH).map(stretch).collect();
@@ -357,7 +355,7 @@ fn chains_give_the_law_given_what_is_held() {
         for (kind, kernel) in kernels().into_iter().skip(1) {
             let settings = ChainSettings { seed: 7, kernel, thin: 0, ..ChainSettings::default() };
             // Enumeration of the same task is held to the oracle above.
-            let z = furthest::<MetropolisHastings>(&task, &task, &settings);
+            let z = furthest(&task, &task, &settings);
             assert!(z < 6.0, "{name}, {kind}: z = {z}");
         }
     }
@@ -402,8 +400,8 @@ fn what_is_held_is_in_every_run_to_the_bit() {
         held.iter().all(|(path, value)| values.get(path).is_some_and(|own| same(own, value)))
     };
     let found = smc(&locked, &Settings::default(), &mut |_| true).expect("particles");
-    let alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
-    assert!(alive.map(Run::from).all(|run| has(&run)));
+    let mut alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
+    assert!(alive.all(|run| has(&run)));
     for (kind, kernel) in kernels() {
         let settings = ChainSettings { kernel, ..ChainSettings::default() };
         let mut chain: Chain = Chain::start(&locked, &settings, 0, None).expect("a chain");
@@ -431,7 +429,7 @@ fn what_cannot_be_held_is_named() {
     named(enumerate(&none, 10_000, &mut |_| true).err());
     named(smc(&none, &Settings::default(), &mut |_| true).err());
     named(importance(&none, None, 50, 1, &mut |_| true).err());
-    named(Chain::<MetropolisHastings>::start(&none, &ChainSettings::default(), 0, None).err());
+    named(Chain::start(&none, &ChainSettings::default(), 0, None).err());
     // A value outside of the support.
     let odd = hold(&task, vec![(y.0.replace("/y", "/x"), Value::Int(7))]).expect("addresses that exist");
     let text = enumerate(&odd, 10_000, &mut |_| true).err().expect("a failure").to_string();

@@ -9,7 +9,7 @@
 use super::programs;
 use super::programs::leaf;
 use super::{kernels, settings};
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::{Chain, Settings};
 use niwaki_continuous::hamiltonian;

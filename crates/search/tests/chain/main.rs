@@ -12,7 +12,7 @@ mod regrown;
 mod resumed;
 mod scoped;
 
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::leaf::Proposer;

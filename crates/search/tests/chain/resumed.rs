@@ -149,14 +149,7 @@ fn the_data_of_another_chain_is_refused() {
     let left = proposed(&one, &own(Kernel::PRIOR), HashMap::new(), 30);
     let refused = |task: &Task, settings: &Settings| {
         let checkpoint = Checkpoint::of(left.clone());
-        Chains::<niwaki_chain::walk::accept::MetropolisHastings>::start_from(
-            task,
-            settings,
-            1,
-            None,
-            Some(&checkpoint),
-        )
-        .is_err()
+        Chains::start_from(task, settings, 1, None, Some(&checkpoint)).is_err()
     };
     assert!(!refused(&one, &own(Kernel::PRIOR)));
     assert!(refused(&other, &own(Kernel::PRIOR)));

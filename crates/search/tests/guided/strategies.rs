@@ -4,8 +4,8 @@
 use super::guides::{WILD, random};
 use super::populations::by;
 use super::programs::{PROGRAMS, page, task};
+use niwaki_agreement::compare;
 use niwaki_chain::Settings;
-use niwaki_chain::agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_run::Task;
 use niwaki_run::select::Selection;

@@ -1,7 +1,7 @@
 //! The claim: totals are exact for terms of any size. The totals of a chain equal those of a run from the start with its
 //! choices. Terms that cancel do not change a chain or particles.
 
-use niwaki_chain::agreement::compare;
+use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
 use niwaki_chain::ladder::Ladder;
 use niwaki_chain::many::Chains;
@@ -136,10 +136,11 @@ fn terms_that_cancel_leave_the_same_particles() {
         };
         let found = smc(&task, &settings, &mut |_| true).expect("particles");
         for p in &found.particles {
-            assert_eq!((p.record.log_prior.clone(), p.record.score()), replayed(&task, &p.record.log));
+            let (log_prior, log_score) = replayed(&task, &p.log);
+            assert_eq!((p.log_prior, p.log_score), (log_prior.value(), log_score.value()));
         }
-        let of = |p: &niwaki_particles::Outcome| {
-            format!("{:?} {:?} {:?} {}", p.value, p.record.log_prior, p.record.score(), p.log_weight)
+        let of = |p: &niwaki_run::run::Run| {
+            format!("{:?} {:?} {:?} {}", p.value, p.log_prior, p.log_score, p.log_weight)
         };
         found.particles.iter().map(of).collect::<Vec<_>>()
     };

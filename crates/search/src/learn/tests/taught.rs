@@ -239,7 +239,7 @@ fn a_glance_changes_no_draw() {
         let weak = own.look_ahead.clone().map(|ahead| LookAhead { strength: 1e-300, ..ahead });
         let choices = |look_ahead: Option<LookAhead>| {
             let found = smc(&task, &Settings { look_ahead, ..own.clone() }, &mut |_| true).unwrap();
-            let logs = found.particles.iter().map(|p| p.record.log.entries());
+            let logs = found.particles.iter().map(|p| p.log.entries());
             logs.map(|log| log.iter().map(written).collect::<Vec<_>>()).collect::<Vec<_>>()
         };
         assert_eq!(choices(weak), choices(None));

@@ -1,9 +1,11 @@
-//! Compares the four strategies step by step: proposals, decisions, exchanges, scores and scenes are equal to the bit,
-//! rollbacks leave nothing behind, and sums equal those of a run from the start. With several powers, on each rung.
+//! For tests: compares the four strategies step by step. Proposals, decisions, exchanges, scores and scenes are equal to the
+//! bit, proposals that are not kept leave nothing behind, and sums equal those of a run from the start. With several powers, on
+//! each rung.
 
-use crate::ladder::Ladder;
-use crate::walk::state::State;
-use crate::{Chain, Settings};
+use niwaki_chain::ladder::Ladder;
+use niwaki_chain::walk::state::State;
+use niwaki_chain::walk::streams::Streams;
+use niwaki_chain::{Chain, Settings};
 use niwaki_run::replay::{Missing, Source, replay};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
@@ -30,7 +32,7 @@ pub struct Compared {
 }
 
 /// The whole content of a state, as text.
-pub fn dump(state: &State, program: &Program) -> String {
+fn dump(state: &State, program: &Program) -> String {
     let trace = &state.trace;
     let mut text = format!("{:?} {:?} {:?}\n", trace.result(), trace.totals(), state.log_sketches);
     trace.visit(program, |place, item| {
@@ -50,7 +52,7 @@ pub fn dump(state: &State, program: &Program) -> String {
 }
 
 /// Runs `steps` proposals under each strategy and compares them; every `every` proposals also everything that the states
-/// hold, a proposal that is undone, and a run from the start. The first disagreement, if any.
+/// hold, before and after a proposal that is not kept, and a run from the start. The first disagreement, if any.
 ///
 /// # Errors
 /// No possible first state, or a kernel that makes no sense for the program.
@@ -64,18 +66,32 @@ pub fn compare(
     let (mut compared, mut ladders) = (Compared::default(), Vec::<Ladder>::new());
     let tasks = STRATEGIES.map(|_| task.uncounted());
     for (strategy, task) in STRATEGIES.into_iter().zip(&tasks) {
-        ladders.push(Ladder::start(task, &Settings { strategy, ..settings.clone() }, 0, None)?);
+        ladders.push(Ladder::start(task, &Settings { strategy, thin: 0, ..settings.clone() }, 0, None)?);
     }
-    let mut machine = task.machine();
     for step in 0..steps {
+        let is_close = (step + 1).is_multiple_of(every);
         let mut outcomes: Vec<Vec<String>> = Vec::new();
-        for (ladder, task) in ladders.iter_mut().zip(&tasks) {
-            let propose = |rung: &mut Chain| match rung.propose(task, &mut machine, step + 1) {
-                Ok(()) => format!("{:?} {:?}", rung.last, rung.state.trace.totals()),
+        for ((strategy, ladder), task) in STRATEGIES.iter().zip(&mut ladders).zip(&tasks) {
+            let before: Vec<String> = if is_close {
+                ladder.rungs.iter().map(|rung| dump(&rung.state, program)).collect()
+            } else {
+                vec![]
+            };
+            let propose = |rung: &mut Chain| match rung.advance(task, 1, &mut |_, _| true) {
+                Ok(()) => format!("{:?} {:?}", rung.last(), rung.state.trace.totals()),
                 Err(Failure::Run(run)) => format!("fault {} {}", run.fault.code, run.fault.message),
                 Err(other) => format!("fault {other}"),
             };
             let mut outcome: Vec<String> = ladder.rungs.iter_mut().map(propose).collect();
+            for ((rung, before), outcome) in ladder.rungs.iter().zip(before).zip(&outcome) {
+                let is_kept = rung.last().accepted && !outcome.starts_with("fault");
+                let after = dump(&rung.state, program);
+                if !is_kept && after != before {
+                    let found =
+                        format!("proposal {step}, {strategy:?}, rolled back to\n{after}\nfrom\n{before}");
+                    return Ok((Some(found), compared));
+                }
+            }
             outcome.push(format!("invalid: {:?}", task.invalid.counts()));
             outcomes.push(outcome);
             ladder.exchange_if_due();
@@ -89,14 +105,14 @@ pub fn compare(
         }
         let rungs = ladders[0].rungs.len();
         compared.proposals += rungs as u64;
-        compared.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last.accepted)).sum::<u64>();
+        compared.accepted += ladders[0].rungs.iter().map(|rung| u64::from(rung.last().accepted)).sum::<u64>();
         compared.faults += outcomes[0].iter().filter(|line| line.starts_with("fault")).count() as u64;
         compared.invalid = tasks[0].invalid.counts().iter().map(|place| place.1.runs).sum();
         compared.exchanges = ladders[0].exchanges.iter().map(|pair| pair.1).sum();
-        if (step + 1) % every == 0 {
+        if is_close {
             for rung in 0..rungs {
-                let mut chains: Vec<_> = ladders.iter_mut().map(|ladder| &mut ladder.rungs[rung]).collect();
-                if let Some(found) = look_closer(task, program, &mut machine, &mut chains, step) {
+                let chains: Vec<_> = ladders.iter().map(|ladder| &ladder.rungs[rung]).collect();
+                if let Some(found) = look_closer(task, program, &chains, step) {
                     return Ok((Some(found), compared));
                 }
             }
@@ -105,13 +121,7 @@ pub fn compare(
     Ok((None, compared))
 }
 
-fn look_closer(
-    task: &Task,
-    program: &Program,
-    machine: &mut niwaki_vm::machine::Machine<'_>,
-    chains: &mut [&mut Chain],
-    step: u64,
-) -> Option<String> {
+fn look_closer(task: &Task, program: &Program, chains: &[&Chain], step: u64) -> Option<String> {
     let dumps: Vec<String> = chains.iter().map(|chain| dump(&chain.state, program)).collect();
     for (strategy, dump) in STRATEGIES.iter().zip(&dumps) {
         if *dump != dumps[0] {
@@ -121,23 +131,9 @@ fn look_closer(
             ));
         }
     }
-    for ((strategy, before), chain) in STRATEGIES.iter().zip(&dumps).zip(chains.iter_mut()) {
-        // A proposal with a number that no other has, undone.
-        let visit = chain.visit;
-        chain.visit = visit | 1 << 40;
-        chain.undoing = true;
-        let _ = chain.propose(task, machine, (visit | 1 << 40) + 1);
-        (chain.visit, chain.undoing) = (visit, false);
-        let after = dump(&chain.state, program);
-        if after != *before {
-            return Some(format!(
-                "after proposal {step}, {strategy:?} rolled back to\n{after}\nfrom\n{before}"
-            ));
-        }
-    }
     // From the start: once keeping the calls, once dropping them.
     let known: HashMap<_, _> = chains[0].state.choices(program).collect();
-    match State::start(task, crate::walk::streams::Streams::new(0, 0), 1, Some(&known)) {
+    match State::start(task, Streams::new(0, 0), 1, Some(&known)) {
         Ok((fresh, _)) => {
             let (fresh, kept) = ((fresh.trace.totals(), fresh.score()), &chains[3].state);
             if fresh != (kept.trace.totals(), kept.score()) {
