@@ -57,6 +57,7 @@ __all__ = [
     "raise_bound",
     "rehearse",
     "render",
+    "shape",
     "support",
     "unique_models",
     "united",
@@ -64,8 +65,8 @@ __all__ = [
 
 __version__: str
 
-#: The words for shapes, and the parameters of each in order.
-SHAPES: dict[str, list[str]]
+#: The words for shapes: what each makes, and its parameters in order (name, type, default or None, what it is).
+SHAPES: dict[str, tuple[str, list[tuple[str, str, str | None, str]]]]
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
@@ -80,83 +81,13 @@ _Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None
 
 @final
 class Shape:
-    @staticmethod
-    def box(
-        center: _Triple,
-        size: _Triple,
-        rotation: _Rows | None = None,
-        taper: float = 1.0,
-        taper_axis: str = "z",
-        bevel: float | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def cylinder(
-        center: _Triple,
-        radius: float,
-        length: float,
-        axis: str | _Triple = ...,
-        top_radius: float | None = None,
-        rotation: _Rows | None = None,
-        bevel: float | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def limb(
-        start: _Triple,
-        end: _Triple,
-        start_radius: float,
-        end_radius: float,
-        start_normal: _Triple | None = None,
-        end_normal: _Triple | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def segment(
-        start: _Frame,
-        split: _Frame,
-        end: _Frame,
-        onto: _Bark | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def mesh(
-        vertices: NDArray[np.float64],
-        faces: NDArray[np.int64],
-        center: _Triple = ...,
-        rotation: _Rows | None = None,
-        scale: float = 1.0,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def stroke(
-        start: _Triple,
-        end: _Triple,
-        width: float,
-        end_width: float | None = None,
-        color: _Triple | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def ellipse(
-        center: _Triple, length: float, width: float, angle: float = 0.0, color: _Triple | None = None
-    ) -> Shape: ...
-    @staticmethod
-    def disc(center: _Triple, radius: float, color: _Triple | None = None) -> Shape: ...
     def data(self) -> str: ...
     @staticmethod
     def of_data(data: str) -> Shape: ...
     @property
     def kind(self) -> str: ...
+    @property
+    def tone(self) -> str: ...
     @property
     def color(self) -> list[float] | None: ...
     @property
@@ -256,6 +187,7 @@ def frame_camera(
     margin: float | None = None,
     aspect: float = ...,
 ) -> _Eye: ...
+def shape(word: str, /, *args: Any, **named: Any) -> Shape: ...
 def fine_mesh(shape: Shape) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]: ...
 
 class BadParameter(ValueError):

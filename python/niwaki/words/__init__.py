@@ -4,7 +4,8 @@ choices         `sample`, `flip`, `gaussian`, ...: draws
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
 memo            `mem`: functions that are called once for each value of their arguments
-shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`; flat ones: `stroke`, `ellipse`, `disc`
+shapes          `box`, `cylinder`, ...: solids, and flat shapes such as `stroke`
+measures        `Frame`, `Bark`: what some of them take
 colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 frames          `look`
@@ -20,6 +21,7 @@ from niwaki.words import (
     distributions,
     effects,
     frames,
+    measures,
     memo,
     numbers,
     polygons,
@@ -32,6 +34,7 @@ from niwaki.words.colors import *
 from niwaki.words.distributions import *
 from niwaki.words.effects import *
 from niwaki.words.frames import *
+from niwaki.words.measures import *
 from niwaki.words.memo import *
 from niwaki.words.numbers import *
 from niwaki.words.polygons import *
@@ -45,6 +48,7 @@ __all__ += colors.__all__
 __all__ += distributions.__all__
 __all__ += effects.__all__
 __all__ += frames.__all__
+__all__ += measures.__all__
 __all__ += memo.__all__
 __all__ += numbers.__all__
 __all__ += polygons.__all__

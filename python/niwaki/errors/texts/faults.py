@@ -278,7 +278,7 @@ FAULTS = (
         "not-a-shape",
         "a value that is not a shape is added to the scene",
         "not a shape",
-        help="emit the results of `box`, `cylinder`, `limb`, `segment`, `mesh`, `stroke`, `ellipse` and `disc`, or lists of them",
+        help="emit what `box`, `cylinder` and the other words for shapes give, or lists of it",
         example="emit((0, 0, 0))",
         cure="emit(box((0, 0, 0), (1, 1, 1)))",
     ),
