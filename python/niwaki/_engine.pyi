@@ -15,6 +15,7 @@ __all__ = [
     "Density",
     "Drawing",
     "EngineFault",
+    "FAMILIES",
     "Guide",
     "Lessons",
     "Normals",
@@ -65,6 +66,8 @@ __all__ = [
 
 __version__: str
 
+#: The families: class, what it is, parameters as for words, where its values lie, what a draw is, ranges of parameters.
+FAMILIES: dict[str, tuple[str, str, list[tuple[str, str, str | None, str]], str, str, str]]
 #: The words for shapes: what each makes, and its parameters in order (name, type, default or None, what it is).
 SHAPES: dict[str, tuple[str, list[tuple[str, str, str | None, str]]]]
 

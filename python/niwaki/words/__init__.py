@@ -1,6 +1,7 @@
 """The functions and types that a model may use.
 
-choices         `sample`, `flip`, `gaussian`, ...: draws
+choices         `sample`, `choose`: draws
+draws           `flip`, `gaussian`, ...: draws from a family
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
 memo            `mem`: functions that are called once for each value of their arguments
@@ -19,6 +20,7 @@ from niwaki.words import (
     choices,
     colors,
     distributions,
+    draws,
     effects,
     frames,
     measures,
@@ -32,6 +34,7 @@ from niwaki.words import (
 from niwaki.words.choices import *
 from niwaki.words.colors import *
 from niwaki.words.distributions import *
+from niwaki.words.draws import *
 from niwaki.words.effects import *
 from niwaki.words.frames import *
 from niwaki.words.measures import *
@@ -46,6 +49,7 @@ __all__ = []
 __all__ += choices.__all__
 __all__ += colors.__all__
 __all__ += distributions.__all__
+__all__ += draws.__all__
 __all__ += effects.__all__
 __all__ += frames.__all__
 __all__ += measures.__all__

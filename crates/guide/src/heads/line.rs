@@ -14,14 +14,17 @@
 //! | gamma, inverse_gamma | `(ln x - mean of ln x) / sd of ln x` | `p(x) dx/dz` |
 //! | beta | `(logit x - mean of logit x) / sd of logit x` | `p(x) dx/dz` |
 //!
+//! Any other family has the coordinate of its space, `p(x) dx/dz`: `(x - center) / scale` on the line, `ln x` above zero, `logit x`
+//! from zero to one.
+//!
 //! (The moments of logarithms are approximate, which changes the coordinate and not the density.)
 //!
 //! A coordinate holds between two limits, within 7.2 of zero: beyond, the last digits of a uniform would decide. What lies outside
 //! is left to the prior.
 
 use super::bells::HALF_LN_TAU;
-use niwaki_math::Dist;
 use niwaki_math::special::{normal_quantile, normal_tail};
+use niwaki_math::{Dist, Space};
 use std::f64::consts::{LN_2, PI};
 
 /// Coordinates are within this distance of zero.
@@ -54,8 +57,8 @@ pub(super) struct Line<'d> {
 
 /// The coordinate's formula.
 enum Form {
-    /// `(x - center) / unit`; the prior is the standard Gaussian.
-    Straight { center: f64, unit: f64 },
+    /// `(x - center) / unit`; `exact` where the prior is the standard Gaussian.
+    Straight { center: f64, unit: f64, exact: bool },
     /// `(ln x - center) / unit`; `exact` where the prior is the standard Gaussian.
     Log { center: f64, unit: f64, exact: bool },
     /// `(logit x - center) / unit`.
@@ -88,7 +91,7 @@ impl<'d> Line<'d> {
     /// The coordinate of a family of real numbers; `None` of the others.
     pub(super) fn new(dist: &'d Dist) -> Option<Line<'d>> {
         let form = match *dist {
-            Dist::Gaussian { mean, sd } => Form::Straight { center: mean, unit: sd },
+            Dist::Gaussian { mean, sd } => Form::Straight { center: mean, unit: sd, exact: true },
             Dist::LogNormal { mean, sd } => Form::Log { center: mean, unit: sd, exact: true },
             Dist::Uniform { .. } | Dist::Exponential { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } => {
                 Form::Ranked
@@ -107,20 +110,14 @@ impl<'d> Line<'d> {
                 let ((mean_a, sd_a), (mean_b, sd_b)) = (log_gamma_moments(a), log_gamma_moments(b));
                 Form::Logit { center: mean_a - mean_b, unit: sd_a.hypot(sd_b) }
             }
-            Dist::Bernoulli { .. }
-            | Dist::Categorical(_)
-            | Dist::DiscreteUniform { .. }
-            | Dist::Poisson { .. }
-            | Dist::Binomial { .. }
-            | Dist::Geometric { .. }
-            | Dist::VonMises { .. }
-            | Dist::Dirichlet(_)
-            | Dist::MultivariateGaussian(_)
-            | Dist::DiagonalGaussian(_)
-            | Dist::Multinomial(_)
-            | Dist::MultivariateBernoulli(_)
-            | Dist::Mixture(_)
-            | Dist::Delta(_) => return None,
+            _ => match dist.family().space() {
+                Space::Line => Form::Straight { center: dist.center()?, unit: dist.scale()?, exact: false },
+                Space::Positive => Form::Log { center: 0.0, unit: 1.0, exact: false },
+                Space::Unit => Form::Logit { center: 0.0, unit: 1.0 },
+                Space::Bounded | Space::Circle | Space::Simplex | Space::Vectors => return None,
+                Space::Booleans | Space::Categories | Space::Integers | Space::Counts => return None,
+                Space::Truths | Space::Components | Space::Fixed => return None,
+            },
         };
         Some(Line { dist, form })
     }
@@ -160,7 +157,10 @@ impl<'d> Line<'d> {
     fn coordinate(&self, x: f64, log_density: f64) -> (f64, f64) {
         let gaussian = |z: f64| (z, -0.5 * z * z - HALF_LN_TAU);
         match self.form {
-            Form::Straight { center, unit } => gaussian((x - center) / unit),
+            Form::Straight { center, unit, exact } => {
+                let z = (x - center) / unit;
+                if exact { gaussian(z) } else { (z, log_density + unit.ln()) }
+            }
             Form::Log { center, unit, exact } => {
                 let log = x.ln();
                 let z = (log - center) / unit;
@@ -232,7 +232,7 @@ impl<'d> Line<'d> {
         // The smaller tail of z, and whether it is the upper one.
         let tail = || (normal_tail(z.abs()), z > 0.0);
         Some(match (&self.form, self.dist) {
-            (Form::Straight { center, unit }, _) => center + unit * z,
+            (Form::Straight { center, unit, .. }, _) => center + unit * z,
             (Form::Log { center, unit, .. }, _) => (center + unit * z).exp(),
             (Form::Logit { center, unit }, _) => {
                 let logit = center + unit * z;
