@@ -42,7 +42,6 @@ __all__ = [
     "draw_at",
     "enumerate_support",
     "explain",
-    "family_names",
     "fine_mesh",
     "fingerprint",
     "frame_camera",
@@ -53,7 +52,6 @@ __all__ = [
     "machine",
     "matches",
     "nearest",
-    "parameter_names",
     "population",
     "raise_bound",
     "rehearse",
@@ -227,8 +225,6 @@ def draw(family: str, params: Sequence[Any], seed: int, n: int) -> list[Any]: ..
 def draw_at(family: str, params: Sequence[Any], seed: int, stream: int, address: int, visit: int) -> Any: ...
 def support(family: str, params: Sequence[Any]) -> tuple[str, Any, Any]: ...
 def enumerate_support(family: str, params: Sequence[Any]) -> list[Any] | None: ...
-def family_names() -> list[str]: ...
-def parameter_names(family: str) -> list[str]: ...
 
 _Watch = Callable[[int, int, float, Run | None], object]
 

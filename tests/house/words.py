@@ -1,7 +1,7 @@
-"""Writes what follows from the engine's tables of solids and of families: `python tests/house/words.py`; a test compares it.
+"""Writes what follows from the engine's tables of solids and of families; a test compares it.
 
-The words for shapes, the classes of distributions and the words that draw from them in Python, with their docstrings; what
-the manual has of them; and their names in the package's stub.
+`python tests/house/words.py`: the words for shapes, the classes of distributions and the words that draw from them in
+Python, with their docstrings; what the manual has of them; and their names in the package's stub.
 """
 
 from __future__ import annotations
@@ -147,7 +147,7 @@ class Distribution:
         return tuple(getattr(self, field.name) for field in fields(self))
 '''
 
-_DRAWS_HEAD = '''"""Draws: a distribution's lower-case name makes a choice at once, `gaussian(0, 1)` for `sample(Gaussian(0, 1))`.
+_DRAWS_HEAD = '''"""Draws: a lower-case name makes a choice at once, `gaussian(0, 1)` for `sample(Gaussian(0, 1))`.
 
 Parameters, defaults and docstring of such a word are those of its class in `distributions`. Written by
 tests/house/words.py from the engine's table of families.
@@ -193,7 +193,12 @@ def _classes() -> str:
 
 def _class(family: str) -> str:
     name, doc, rows, *_ = _engine.FAMILIES[family]
-    lines = ["@dataclass(frozen=True)", f"class {name}(Distribution):", f'    """{_indented(doc.strip())}', ""]
+    lines = [
+        "@dataclass(frozen=True)",
+        f"class {name}(Distribution):",
+        f'    """{_indented(doc.strip())}',
+        "",
+    ]
     lines += [*_parameters(rows), "", f'    family: ClassVar[str] = "{family}"', ""]
     lines += [f"    {row[0]}: {row[1]}{'' if row[2] is None else f' = {row[2]}'}" for row in rows]
     return "\n".join(lines) + "\n"

@@ -226,18 +226,6 @@ fn manuals(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(all)
 }
 
-/// The names of all families.
-#[pyfunction]
-fn family_names() -> Vec<&'static str> {
-    Family::ALL.iter().map(|family| family.name()).collect()
-}
-
-/// The names of a family's parameters, in their order.
-#[pyfunction]
-fn parameter_names(family: &str) -> PyResult<Vec<&'static str>> {
-    Ok(named(family)?.parameters().to_vec())
-}
-
 /// Adds this part to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("FAMILIES", manuals(module.py())?)?;
@@ -246,7 +234,5 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(draw, module)?)?;
     module.add_function(wrap_pyfunction!(draw_at, module)?)?;
     module.add_function(wrap_pyfunction!(support, module)?)?;
-    module.add_function(wrap_pyfunction!(enumerate_support, module)?)?;
-    module.add_function(wrap_pyfunction!(family_names, module)?)?;
-    module.add_function(wrap_pyfunction!(parameter_names, module)?)
+    module.add_function(wrap_pyfunction!(enumerate_support, module)?)
 }

@@ -110,14 +110,7 @@ impl<'d> Line<'d> {
                 let ((mean_a, sd_a), (mean_b, sd_b)) = (log_gamma_moments(a), log_gamma_moments(b));
                 Form::Logit { center: mean_a - mean_b, unit: sd_a.hypot(sd_b) }
             }
-            _ => match dist.family().space() {
-                Space::Line => Form::Straight { center: dist.center()?, unit: dist.scale()?, exact: false },
-                Space::Positive => Form::Log { center: 0.0, unit: 1.0, exact: false },
-                Space::Unit => Form::Logit { center: 0.0, unit: 1.0 },
-                Space::Bounded | Space::Circle | Space::Simplex | Space::Vectors => return None,
-                Space::Booleans | Space::Categories | Space::Integers | Space::Counts => return None,
-                Space::Truths | Space::Components | Space::Fixed => return None,
-            },
+            _ => of_space(dist)?,
         };
         Some(Line { dist, form })
     }
@@ -279,6 +272,18 @@ impl<'d> Line<'d> {
     }
 }
 
+/// The coordinate of a family that has none of its own: that of its space.
+fn of_space(dist: &Dist) -> Option<Form> {
+    match dist.family().space() {
+        Space::Line => Some(Form::Straight { center: dist.center()?, unit: dist.scale()?, exact: false }),
+        Space::Positive => Some(Form::Log { center: 0.0, unit: 1.0, exact: false }),
+        Space::Unit => Some(Form::Logit { center: 0.0, unit: 1.0 }),
+        Space::Bounded | Space::Circle | Space::Simplex | Space::Vectors => None,
+        Space::Booleans | Space::Categories | Space::Integers | Space::Counts => None,
+        Space::Truths | Space::Components | Space::Fixed => None,
+    }
+}
+
 /// The coordinate of a truncated Gaussian. Tails are computed on the side of the mean where most of the interval lies, so
 /// that their differences lose few digits; where they would, an exponential is used.
 fn cut(mean: f64, sd: f64, lo: f64, hi: f64) -> Form {
@@ -292,5 +297,33 @@ fn cut(mean: f64, sd: f64, lo: f64, hi: f64) -> Form {
         Form::Cut { sign, below, above, mass }
     } else {
         Form::Slope { from_lo: sign < 0.0, rate: (-b).max(0.0), width: (hi - lo) / sd }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The coordinate of a space leads back to the value, and its prior is that of the value.
+    use super::*;
+
+    #[test]
+    fn coordinates_of_spaces_have_the_density_of_their_values() {
+        let dists: [Dist; 4] = [
+            Dist::Laplace { loc: 1.0, scale: 0.5 },
+            Dist::Gamma { shape: 2.0, scale: 0.7 },
+            Dist::Exponential { rate: 3.0 },
+            Dist::Beta { a: 2.0, b: 3.0 },
+        ];
+        for dist in &dists {
+            let line = Line { dist, form: of_space(dist).expect("a space of real numbers") };
+            for x in [0.03, 0.2, 0.6, 0.97] {
+                let place = |x: f64| line.place(x, dist.log_density_of_real(x));
+                let back = line.value(place(x).z).expect("within the limits");
+                assert!((back - x).abs() < 1e-12, "{dist:?} at {x}: {back}");
+                let slope = (place(x + 1e-6).z - place(x - 1e-6).z) / 2e-6;
+                let expected = dist.log_density_of_real(x) - slope.ln();
+                assert!((place(x).log_prior - expected).abs() < 1e-6, "{dist:?} at {x}");
+            }
+        }
+        assert!(of_space(&Dist::Uniform { lo: 0.0, hi: 1.0 }).is_none());
     }
 }
