@@ -24,15 +24,15 @@ def part(k: int) -> object:
     turn = ((cos(angle), 0.0, sin(angle)), (0.0, 1.0, 0.0), (-sin(angle), 0.0, cos(angle)))
     radius = 4.0 + 3.0 * sin(0.011 * k)
     center = (radius * cos(angle), 0.5 + 0.006 * k, radius * sin(angle))
-    return _engine.Shape.box(center, (0.5, 0.08, 0.3), rotation=turn)
+    return _engine.shape("box", center, (0.5, 0.08, 0.3), rotation=turn)
 
 
 def scores() -> dict[str, Score]:
     """Each control by itself, at the sizes of the published figures."""
     size = (18.0, 22.0, 18.0)
-    box = _engine.Shape.box((0.0, 10.5, 0.0), size)
+    box = _engine.shape("box", (0.0, 10.5, 0.0), size)
     target = nw.Target(box.vertices(), box.faces(), "box")
-    wall = _engine.Shape.box((-12.0, 10.0, 0.0), (2.0, 20.0, 20.0))
+    wall = _engine.shape("box", (-12.0, 10.0, 0.0), (2.0, 20.0, 20.0))
     obstacle = nw.Target(wall.vertices(), wall.faces(), "wall")
     rows, columns = np.mgrid[:250, :250]
     disc = (rows - 125) ** 2 + (columns - 125) ** 2 < 90**2

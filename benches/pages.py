@@ -1,7 +1,6 @@
 """Pages of pictures: panels in a row, rows with titles, a scene with its target in grey."""
 
-from niwaki import Target
-from niwaki._engine import Shape
+from niwaki import Target, _engine
 from niwaki.draw.scene import Scene
 from PIL import Image, ImageDraw, ImageFont
 
@@ -10,7 +9,9 @@ GREY = (0.72, 0.72, 0.71)
 
 def together(scene: Scene, target: Target) -> Scene:
     """A scene with a target, in grey, as one more part."""
-    return Scene([*scene.parts, ("target", [Shape.mesh(target.vertices, target.faces, color=GREY)])])
+    return Scene(
+        [*scene.parts, ("target", [_engine.shape("mesh", target.vertices, target.faces, color=GREY)])]
+    )
 
 
 def beside(images: list[Image.Image], gap: int = 4) -> Image.Image:

@@ -110,7 +110,7 @@ def measure(report: Report, runs: int, quick: bool) -> list[Measured]:
 
 def scene_of(target: Target) -> Scene:
     """A target as something to look at."""
-    return Scene([("target", (_engine.Shape.mesh(target.vertices, target.faces),))])
+    return Scene([("target", (_engine.shape("mesh", target.vertices, target.faces),))])
 
 
 def fitted(folder: Path, proposals: int, chains: int = 4) -> Any:

@@ -3,7 +3,6 @@
 use crate::numbers::{below, near, point, real, size};
 use crate::solids::{mesh, shape};
 use arbitrary::Unstructured;
-use niwaki_geom::fine::fine_mesh;
 use niwaki_geom::hull::hull;
 use niwaki_geom::voxel::surface::touches;
 use niwaki_geom::{Grid, Look, Rule, Shape, Target, TriMesh, Vec3, Voxels, intersects};
@@ -35,7 +34,7 @@ pub fn check(bytes: &[u8]) {
     picture(u, &mesh);
     let _ = (hull(mesh.vertices()), mesh.open_edges());
     let Ok(solid) = Shape::mesh(&Arc::new(mesh), near(u), size(u), &Look::default()) else { return };
-    let _ = fine_mesh(&solid);
+    let _ = solid.fine_mesh();
     let Some(other) = shape(u) else { return };
     for rule in [Rule::Solid, Rule::Surface] {
         assert_eq!(intersects(&solid, &other, rule), intersects(&other, &solid, rule), "{rule:?}");

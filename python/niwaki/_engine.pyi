@@ -15,6 +15,7 @@ __all__ = [
     "Density",
     "Drawing",
     "EngineFault",
+    "FAMILIES",
     "Guide",
     "Lessons",
     "Normals",
@@ -41,7 +42,6 @@ __all__ = [
     "draw_at",
     "enumerate_support",
     "explain",
-    "family_names",
     "fine_mesh",
     "fingerprint",
     "frame_camera",
@@ -52,11 +52,11 @@ __all__ = [
     "machine",
     "matches",
     "nearest",
-    "parameter_names",
     "population",
     "raise_bound",
     "rehearse",
     "render",
+    "shape",
     "support",
     "unique_models",
     "united",
@@ -64,8 +64,10 @@ __all__ = [
 
 __version__: str
 
-#: The words for shapes, and the parameters of each in order.
-SHAPES: dict[str, list[str]]
+#: The families: class, what it is, parameters as for words, where its values lie, what a draw is, ranges of parameters.
+FAMILIES: dict[str, tuple[str, str, list[tuple[str, str, str | None, str]], str, str, str]]
+#: The words for shapes: what each makes, and its parameters in order (name, type, default or None, what it is).
+SHAPES: dict[str, tuple[str, list[tuple[str, str, str | None, str]]]]
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]
@@ -80,83 +82,13 @@ _Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None
 
 @final
 class Shape:
-    @staticmethod
-    def box(
-        center: _Triple,
-        size: _Triple,
-        rotation: _Rows | None = None,
-        taper: float = 1.0,
-        taper_axis: str = "z",
-        bevel: float | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def cylinder(
-        center: _Triple,
-        radius: float,
-        length: float,
-        axis: str | _Triple = ...,
-        top_radius: float | None = None,
-        rotation: _Rows | None = None,
-        bevel: float | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def limb(
-        start: _Triple,
-        end: _Triple,
-        start_radius: float,
-        end_radius: float,
-        start_normal: _Triple | None = None,
-        end_normal: _Triple | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def segment(
-        start: _Frame,
-        split: _Frame,
-        end: _Frame,
-        onto: _Bark | None = None,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def mesh(
-        vertices: NDArray[np.float64],
-        faces: NDArray[np.int64],
-        center: _Triple = ...,
-        rotation: _Rows | None = None,
-        scale: float = 1.0,
-        color: _Triple | None = None,
-        metalness: float | None = None,
-        roughness: float | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def stroke(
-        start: _Triple,
-        end: _Triple,
-        width: float,
-        end_width: float | None = None,
-        color: _Triple | None = None,
-    ) -> Shape: ...
-    @staticmethod
-    def ellipse(
-        center: _Triple, length: float, width: float, angle: float = 0.0, color: _Triple | None = None
-    ) -> Shape: ...
-    @staticmethod
-    def disc(center: _Triple, radius: float, color: _Triple | None = None) -> Shape: ...
     def data(self) -> str: ...
     @staticmethod
     def of_data(data: str) -> Shape: ...
     @property
     def kind(self) -> str: ...
+    @property
+    def tone(self) -> str: ...
     @property
     def color(self) -> list[float] | None: ...
     @property
@@ -256,6 +188,7 @@ def frame_camera(
     margin: float | None = None,
     aspect: float = ...,
 ) -> _Eye: ...
+def shape(word: str, /, *args: Any, **named: Any) -> Shape: ...
 def fine_mesh(shape: Shape) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]: ...
 
 class BadParameter(ValueError):
@@ -292,8 +225,6 @@ def draw(family: str, params: Sequence[Any], seed: int, n: int) -> list[Any]: ..
 def draw_at(family: str, params: Sequence[Any], seed: int, stream: int, address: int, visit: int) -> Any: ...
 def support(family: str, params: Sequence[Any]) -> tuple[str, Any, Any]: ...
 def enumerate_support(family: str, params: Sequence[Any]) -> list[Any] | None: ...
-def family_names() -> list[str]: ...
-def parameter_names(family: str) -> list[str]: ...
 
 _Watch = Callable[[int, int, float, Run | None], object]
 

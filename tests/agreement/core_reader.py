@@ -286,7 +286,7 @@ OPERATIONS: dict[str, Any] = {
     **{
         name: getattr(words, name) for name in "vec dot cross norm normalize distance rotate rotation".split()
     },
-    **{name: getattr(words, name) for name in "clip lerp sign box cylinder limb segment mesh".split()},
+    **{name: getattr(words, name) for name in ["clip", "lerp", "sign", *words.shapes.__all__]},
     "look": lambda *parts: words.look(*parts)[:3],
     **{name: getattr(words, name) for name in "softeq soft_at_least soft_at_most".split()},
     **{name: getattr(words, name) for name in "smooth_max smooth_min smooth_abs".split()},

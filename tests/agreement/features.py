@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from niwaki import _engine
+
 HEADER = """import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -300,6 +302,31 @@ def m():
     return infer(outer, importance(3), 0.5)
 """,
 }
+
+#: An argument of each type that words for shapes take; `{k}` is the parameter's place.
+_FITS = {
+    "VecLike": "(x, {k} + 1.0, 2.0)",
+    "float": "0.5 / (x + {k})",
+    "Rotation": "rotation((1, 0, 0), x)",
+    "Axis": "(0, 1, x)",
+    "str": "'x'",
+    "Color": "(1, 0.5, x - 1)",
+    "Frame": "((x, {k}, 0), (0, 1, 0), (0, 0, 1), 0.5)",
+    "Bark": "((1, -1, 0), 0.25, (1, 1, 0), 0.2)",
+}
+
+
+def _every_shape() -> str:
+    """A call of every word for shapes, with all of its parameters."""
+    lines = ["def m():", "    x = uniform(1, 2)"]
+    for word, (_, rows) in _engine.SHAPES.items():
+        data = {"vertices": "V", "faces": "F"}
+        given = (f"{row[0]}={data.get(row[0]) or _FITS[row[1]].format(k=k)}" for k, row in enumerate(rows))
+        lines.append(f"    emit({word}({', '.join(given)}))")
+    return "\n" + "\n".join([*lines, "    return x", ""])
+
+
+FEATURES["every shape"] = _every_shape()
 
 
 def feature(name: str) -> str:

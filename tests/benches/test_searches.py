@@ -84,7 +84,7 @@ def test_a_record_is_the_search_of_its_user(records: Records) -> None:
 
 def shape_of(parts: dict, *without: str) -> Scene:
     kept = {name: mesh for name, mesh in parts.items() if not any(word in name for word in without)}
-    return Scene([(name, [nw._engine.Shape.mesh(*mesh)]) for name, mesh in kept.items()])
+    return Scene([(name, [nw._engine.shape("mesh", *mesh)]) for name, mesh in kept.items()])
 
 
 def test_a_forked_stem_is_complete_with_both_arms_only() -> None:
@@ -115,7 +115,7 @@ def test_a_skyline_lacks_the_tower_that_is_not_built() -> None:
         high = unit * view.image[:, column].sum()
         if high:
             x = unit * (column + 0.5 - columns / 2)
-            towers.append((x, nw._engine.Shape.box((x, high / 2, 0.0), (unit, high, unit))))
+            towers.append((x, nw._engine.shape("box", (x, high / 2, 0.0), (unit, high, unit))))
     whole = case.measure(Scene([("all", [shape for _, shape in towers])]))
     assert has_enough("skylines", whole)
     left = case.measure(Scene([("left", [shape for x, shape in towers if x < 0.0])]))

@@ -1,8 +1,8 @@
 //! Convex solids as intersection and voxels use them.
 
+use crate::placement::Placement;
 use crate::polytope::{Hull, narrowest};
 use crate::segment;
-use crate::solid::Placement;
 use crate::topology::Topology;
 use crate::vector::{Mat3, Vec3, vec3};
 use std::cell::OnceCell;

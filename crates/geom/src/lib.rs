@@ -1,10 +1,9 @@
 //! Shapes, voxels, intersections and sketches.
 //!
 //! - [`bounds`]: boxes along the axes
-//! - [`solid`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
-//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`], `plate`, `coarse`: surfaces and convex
-//!   solids
-//! - [`shape`], [`words`], [`primitive`]: the shapes that a model emits
+//! - [`placement`], [`ring`], [`tube`], [`look`]: the measures of a shape, and what else is given of it
+//! - [`mesh`], [`topology`], [`polytope`], [`hull`], [`limb`], [`segment`], [`convex`]: surfaces and convex solids
+//! - [`solids`]: every kind of solid, a file each, and the shapes that a model emits
 //! - [`plane`]: flat shapes, and which pixels of a page they cover
 //! - [`voxel`]: which cells of a grid a shape fills
 //! - [`intersect`]: whether two shapes intersect
@@ -19,7 +18,6 @@
 
 pub mod bounds;
 pub mod bricks;
-mod coarse;
 pub mod convex;
 pub mod error;
 pub mod fine;
@@ -30,15 +28,13 @@ pub mod limb;
 pub mod look;
 pub mod mesh;
 mod once;
+pub mod placement;
 pub mod plane;
-mod plate;
 pub mod polytope;
-pub mod primitive;
 pub mod ring;
 pub mod segment;
-pub mod shape;
 pub mod sketch;
-pub mod solid;
+pub mod solids;
 pub mod store;
 pub mod topology;
 pub mod tree;
@@ -46,7 +42,6 @@ pub mod tube;
 pub mod view;
 pub mod voxel;
 pub mod window;
-pub mod words;
 
 pub use bounds::Aabb;
 pub use bricks::Target;
@@ -56,13 +51,14 @@ pub use intersect::{Rule, intersects};
 pub use look::Look;
 pub use mesh::TriMesh;
 pub use niwaki_math::vector::{self, Mat3, Vec3, vec3};
+pub use placement::Placement;
 pub use plane::Page;
 pub use polytope::Hull;
-pub use primitive::Primitive;
 pub use ring::Ring;
-pub use shape::Shape;
 pub use sketch::*;
-pub use solid::{Placement, Round, Solid};
+pub use solids::primitive::Primitive;
+pub use solids::shape::Shape;
+pub use solids::{Cuboid, Cylinder, Ellipse, Solid, Stroke};
 pub use tube::{Bark, Frame, Tube};
 pub use voxel::{Grid, Voxels};
 pub use window::{Place, WindowForm, WindowKind, WindowPoint};

@@ -1,5 +1,6 @@
 //! A convex solid by its corners and faces, with the directions along which it can be separated from another.
 
+use crate::hull::hull;
 use crate::topology::Topology;
 use crate::vector::Vec3;
 use std::cell::OnceCell;
@@ -22,6 +23,12 @@ impl Hull {
     /// `None` when a face has no normal, which a flat solid has.
     pub(crate) fn new(vertices: Vec<Vec3>, topology: Arc<Topology>) -> Option<Hull> {
         Hull::over(vertices, topology, false)
+    }
+
+    /// The convex hull of points; `None` when they lie in a plane.
+    pub(crate) fn around(points: Vec<Vec3>) -> Option<Hull> {
+        let topology = hull(&points)?;
+        Hull::new(points, Arc::new(topology))
     }
 
     /// As [`Hull::new`], for a solid that is nearly convex; a face without a normal is left out.

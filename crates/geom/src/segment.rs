@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use crate::intersect::{Rule, intersects};
     use crate::look::Look;
-    use crate::shape::Shape;
+    use crate::solids::shape::Shape;
     use crate::tube::{Bark, Frame};
     use crate::vector::vec3;
 

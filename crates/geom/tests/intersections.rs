@@ -130,7 +130,7 @@ fn two_boxes_agree_with_the_code_for_all_convex_solids() {
             let (mut least, mut most) = (0.0, 10.0);
             let away = dice.point(1.0).unit().unwrap();
             let moved = |by: f64| {
-                let Solid::Box { size } = b.solid() else { panic!("a box") };
+                let Solid::Box(niwaki_geom::Cuboid { size }) = b.solid() else { panic!("a box") };
                 let look = Look { rotation: Some(b.placement().rotation), ..Look::default() };
                 Shape::cuboid(b.placement().translation + away * by, *size, &look).unwrap()
             };

@@ -9,7 +9,8 @@ mod scenes;
 use niwaki_geom::view::camera::Camera;
 use niwaki_geom::view::{Lens, Light, shadow_rays};
 use niwaki_geom::{
-    Look, Picture, PictureMatch, Primitive, Shape, Sketch, TargetPicture, TriMesh, Vec3, match_image, vec3,
+    Cylinder, Look, Picture, PictureMatch, Primitive, Shape, Sketch, Solid, TargetPicture, TriMesh, Vec3,
+    match_image, vec3,
 };
 use scenes::{Dice, any_shape};
 use std::sync::Arc;
@@ -401,7 +402,7 @@ fn impossible_pictures_cameras_and_lights_are_refused() {
 #[test]
 fn a_cylinder_with_very_many_sides_is_covered_whole() {
     let picture = first_on(5, None, 1.0).unwrap();
-    let solid = niwaki_geom::Solid::Cylinder { radius: 3.0, length: 2.0, sides: 1000 };
+    let solid = Solid::Cylinder(Cylinder { radius: 3.0, length: 2.0, sides: 1000 });
     let turned = niwaki_geom::Placement {
         rotation: niwaki_geom::Mat3::between(Vec3::AXES[1], Vec3::AXES[2]),
         translation: vec3(0.01, 0.02, 0.0),

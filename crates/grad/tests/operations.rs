@@ -4,7 +4,7 @@
 use niwaki_grad::scalar::with_sheet;
 use niwaki_grad::{Density, Graph, Id, Native, Op, Tape, Var};
 use niwaki_math::Scalar;
-use niwaki_vm::builtins::{builtin, builtin_id, builtins, shapes};
+use niwaki_vm::builtins::{builtin, builtin_id, builtins};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 
@@ -204,7 +204,7 @@ fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
         every_evaluator(&density, x);
     }
     for builtin in builtins::<Var>() {
-        let is_shape = shapes::WORDS.iter().any(|(word, _)| *word == builtin.name);
+        let is_shape = niwaki_geom::solids::WORDS.iter().any(|word| word.name == builtin.name);
         let known =
             CASES.iter().any(|case| case.0 == builtin.name) || WITHOUT.contains(&builtin.name) || is_shape;
         assert!(known, "`{}` is neither checked nor known to have no slope", builtin.name);

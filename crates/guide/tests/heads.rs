@@ -43,13 +43,9 @@ enum Map {
 impl Map {
     fn of(d: &Dist) -> Map {
         match *d {
-            Dist::Gaussian { mean, sd } => Map::Line(mean, sd),
-            Dist::Laplace { loc, scale }
-            | Dist::Cauchy { loc, scale }
-            | Dist::StudentT { loc, scale, .. } => Map::Line(loc, scale),
             Dist::Uniform { lo, hi } | Dist::TruncatedGaussian { lo, hi, .. } => Map::Between(lo, hi),
             Dist::Beta { .. } => Map::Between(0.0, 1.0),
-            _ => Map::Positive,
+            _ => d.center().zip(d.scale()).map_or(Map::Positive, |(center, unit)| Map::Line(center, unit)),
         }
     }
 

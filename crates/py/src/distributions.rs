@@ -6,7 +6,7 @@
 use niwaki_math::{self as math, Dist, Draw, Family, Interval, Param, Stream, Support};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyFloat, PyInt, PyString, PyTuple};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString, PyTuple};
 
 pyo3::create_exception!(
     _engine,
@@ -206,26 +206,33 @@ fn enumerate_support(
     }
 }
 
-/// The names of all families.
-#[pyfunction]
-fn family_names() -> Vec<&'static str> {
-    Family::ALL.iter().map(|family| family.name()).collect()
-}
+/// What Python's classes and the manual say of a family: its class, what it is, its parameters (name, type, default or
+/// none, what it is), where its values lie, what a draw is, and what its parameters may be.
+type Said = (&'static str, &'static str, Vec<Row>, String, &'static str, &'static str);
 
-/// The names of a family's parameters, in their order.
-#[pyfunction]
-fn parameter_names(family: &str) -> PyResult<Vec<&'static str>> {
-    Ok(named(family)?.parameters().to_vec())
+/// A parameter of a family.
+type Row = (&'static str, &'static str, Option<&'static str>, &'static str);
+
+/// What is said of each family, by name.
+fn manuals(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let all = PyDict::new(py);
+    for &family in Family::ALL {
+        let said = family.manual();
+        let parameters = said.parameters.iter().map(|one| (one.name, one.python, one.default, one.doc));
+        let space = format!("{:?}", family.space());
+        let said: Said = (said.class, said.doc, parameters.collect(), space, said.gives, said.limits);
+        all.set_item(family.name(), said)?;
+    }
+    Ok(all)
 }
 
 /// Adds this part to the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("FAMILIES", manuals(module.py())?)?;
     module.add("BadParameter", module.py().get_type::<BadParameter>())?;
     module.add_function(wrap_pyfunction!(log_density, module)?)?;
     module.add_function(wrap_pyfunction!(draw, module)?)?;
     module.add_function(wrap_pyfunction!(draw_at, module)?)?;
     module.add_function(wrap_pyfunction!(support, module)?)?;
-    module.add_function(wrap_pyfunction!(enumerate_support, module)?)?;
-    module.add_function(wrap_pyfunction!(family_names, module)?)?;
-    module.add_function(wrap_pyfunction!(parameter_names, module)?)
+    module.add_function(wrap_pyfunction!(enumerate_support, module)?)
 }

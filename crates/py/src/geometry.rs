@@ -5,17 +5,19 @@
 
 use crate::values::Classes;
 use crate::views::{PyDrawing, PyPicture};
+use niwaki_geom::solids::WORDS;
+use niwaki_geom::solids::word::Parameter;
 use niwaki_geom::{
-    GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Solid, Target, TriMesh, Vec3,
+    Ellipse, GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh,
+    Vec3,
 };
-use niwaki_vm::builtins::{builtin, builtin_id, shapes};
-use niwaki_vm::fault::Fault;
+use niwaki_vm::builtins::{builtin, builtin_id, placed_mesh};
 use niwaki_vm::value::Value;
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyCFunction, PyDict, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::Arc;
 
 type Triple = [f64; 3];
@@ -74,19 +76,20 @@ fn faces_of<'py>(py: Python<'py>, mesh: &TriMesh) -> Bound<'py, PyArray2<i64>> {
     Array2::from_shape_fn((faces.len(), 3), |(i, k)| i64::from(faces[i][k])).into_pyarray(py)
 }
 
-/// The shape of a word with these arguments, by position and by name. They are read as in a model; a mesh is given by
+/// The shape of a ``word`` with these arguments, by position and by name. They are read as in a model; a mesh is given by
 /// arrays.
-fn shape_from(
-    (word, parameters): (&'static str, &[&str]),
-    args: &Bound<'_, PyTuple>,
-    named: Option<&Bound<'_, PyDict>>,
-) -> PyResult<PyShape> {
+#[pyfunction]
+#[pyo3(signature = (word, /, *args, **named))]
+fn shape(word: &str, args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>) -> PyResult<PyShape> {
     let py = args.py();
+    let described = WORDS.iter().find(|other| other.name == word);
+    let described = described.ok_or_else(|| PyTypeError::new_err(format!("there is no shape `{word}`")))?;
     let mut given: Vec<Option<Bound<'_, PyAny>>> = args.iter().map(Some).collect();
-    given.resize(given.len().max(parameters.len()), None);
+    given.resize(given.len().max(described.counts().1), None);
     for (name, value) in named.into_iter().flatten() {
         let unknown = || PyTypeError::new_err(format!("`{word}` has no parameter {name}"));
-        let at = parameters.iter().position(|own| name.eq(own).unwrap_or(false)).ok_or_else(unknown)?;
+        let is_it = |own: &Parameter| name.eq(own.name).unwrap_or(false);
+        let at = described.parameters().position(is_it).ok_or_else(unknown)?;
         given[at] = Some(value);
     }
     let mut mesh = None;
@@ -101,10 +104,9 @@ fn shape_from(
     let value =
         |one: &Option<Bound<'_, PyAny>>| one.as_ref().map_or(Ok(Value::None), |one| classes.value(one));
     let values: Vec<Value> = given.iter().map(value).collect::<PyResult<_>>()?;
-    let answer = match (mesh, builtin_id(word)) {
-        (Some(mesh), _) => shapes::placed(&mesh, &values),
-        (None, Some(id)) => builtin(id).call(&values),
-        (None, None) => Err(Fault::bad_shape(format!("there is no shape `{word}`"))),
+    let answer = match &mesh {
+        Some(mesh) => placed_mesh(mesh, &values),
+        None => builtin(builtin_id(word).expect("each word is a built-in function")).call(&values),
     };
     match answer {
         Ok(Value::Shape(shape)) => Ok(PyShape(shape)),
@@ -142,11 +144,16 @@ impl PyShape {
         read.map(PyShape).map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// ``box``, ``tapered-box``, ``cylinder``, ``tapered-cylinder``, ``limb``, ``segment``, ``mesh``, ``stroke`` or
-    /// ``ellipse``.
+    /// The kind of its solid: ``box``, ``tapered-box``, ``cylinder``, ...
     #[getter]
     fn kind(&self) -> &'static str {
         self.0.kind()
+    }
+
+    /// How it is painted where it has no colour: ``plain``, ``round`` or ``bark``.
+    #[getter]
+    fn tone(&self) -> &'static str {
+        self.0.tone().name()
     }
 
     /// Linear colour in [0, 1], or None.
@@ -176,12 +183,12 @@ impl PyShape {
     /// angle of the first (radians); None for other kinds.
     fn flat(&self) -> Option<Flat> {
         match self.0.solid() {
-            Solid::Stroke { ends } => {
+            Solid::Stroke(Stroke { ends }) => {
                 let [a, b] = [ends[0], ends[1]];
                 let at = |p: Vec3| self.0.placement().apply(p).to_array();
                 Some(Flat::Stroke((at(a.center), a.radius), (at(b.center), b.radius)))
             }
-            Solid::Ellipse { size } => {
+            Solid::Ellipse(Ellipse { size }) => {
                 let placement = self.0.placement();
                 let axis = placement.rotation.columns[0];
                 Some(Flat::Ellipse(placement.translation.to_array(), size[0], size[1], axis.y.atan2(axis.x)))
@@ -381,17 +388,19 @@ impl PySketch {
     }
 }
 
-/// Puts this part into the module; each word for shapes is a function of the class.
+/// A parameter of a word for shapes: name, type, default (none for what must be
+/// given) and what the manual says of it.
+type Row = (&'static str, &'static str, Option<&'static str>, &'static str);
+
+/// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyShape>()?;
-    let (py, words) = (module.py(), PyDict::new(module.py()));
-    for &(word, parameters) in shapes::WORDS {
-        let make = move |args: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>| {
-            shape_from((word, parameters), args, named)
-        };
-        let function = PyCFunction::new_closure(py, None, None, make)?;
-        py.get_type::<PyShape>().setattr(word, function)?;
-        words.set_item(word, parameters)?;
+    module.add_function(wrap_pyfunction!(shape, module)?)?;
+    let words = PyDict::new(module.py());
+    for word in WORDS {
+        let row = |one: &Parameter| (one.name, one.python, one.default, one.doc);
+        let parameters: Vec<Row> = word.parameters().map(row).collect();
+        words.set_item(word.name, (word.doc, parameters))?;
     }
     module.add("SHAPES", words)?;
     module.add_class::<PyTarget>()?;

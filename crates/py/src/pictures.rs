@@ -4,7 +4,7 @@
 
 use crate::geometry::PyShape;
 use crate::threads::Pool;
-use niwaki_geom::{Vec3, fine};
+use niwaki_geom::Vec3;
 use niwaki_render::{self as render, Backdrop, Camera, Shot, Surface, View};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
@@ -91,7 +91,7 @@ fn frame_camera(
 /// The mesh of pictures and exports: `(vertices (n, 3), faces (m, 3), unit normals (n, 3))`, world space.
 #[pyfunction]
 fn fine_mesh<'py>(py: Python<'py>, shape: &PyShape) -> Arrays<'py> {
-    let mesh = py.detach(|| fine::fine_mesh(&shape.0));
+    let mesh = py.detach(|| shape.0.fine_mesh());
     let points = |p: &[Vec3]| Array2::from_shape_fn((p.len(), 3), |(i, k)| p[i][k]).into_pyarray(py);
     let faces = Array2::from_shape_fn((mesh.faces.len(), 3), |(i, k)| i64::from(mesh.faces[i][k]));
     (points(&mesh.vertices), faces.into_pyarray(py), points(&mesh.normals))

@@ -27,9 +27,6 @@ PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50,
 #: The roughness of chalk, and what lacquer takes from it.
 DULL, LACQUER = 0.9, 0.55
 
-#: Kinds of shapes that have bark where they have no colour, and then make a scene a garden.
-WOODEN = ("limb", "segment")
-
 
 @dataclass(frozen=True)
 class Paint:
@@ -78,7 +75,7 @@ def paints(scene: Assembly, like: Assembly | None = None) -> list[list[Paint]]:
     """Choose the paint of each shape of each part, in order; by the kinds and the size of `like` where it is given."""
     whole = scene if like is None else like
     garden = any(
-        shape.kind in WOODEN and shape.color is None for part in whole.parts for shape in part.shapes
+        shape.tone == "bark" and shape.color is None for part in whole.parts for shape in part.shapes
     )
     extent = whole.size.max() if len(whole) else 1.0
     return [
@@ -94,13 +91,13 @@ def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
     dice = zlib.crc32(part.address.encode())
     if shape.color is not None:
         return Paint(named(_triple(shape.color)), _triple(shape.color), 0.35)
-    if garden and shape.kind in WOODEN:
+    if garden and shape.tone == "bark":
         return Paint("bark", _vary(BARKS, dice, 0.012, 0.0), 0.05, 0.35, 0.012 * extent)
     if garden:
         return Paint("foliage", _vary(PINES, dice, 0.04, 0.012), 0.08, 0.8, 0.016 * extent)
     low, high = shape.aabb()
     sizes = sorted(b - a for a, b in zip(low, high, strict=True))
-    if shape.kind.endswith("cylinder"):
+    if shape.tone == "round":
         return Paint("graphite", _vary(GRAPHITES, dice, 0.05, 0.0), 0.5)
     if sizes[0] < 0.035 * extent or dice % 7 == 0:
         return Paint("accent", _vary(ACCENTS, dice, 0.03, 0.004), 0.35)

@@ -215,5 +215,5 @@ def preview(scene: Assembly) -> bytes:
 
 def _ghost(target: Volume) -> tuple[Any, ...]:
     """Make the target's mesh with normals that are smooth where it is smooth."""
-    vertices, faces, normals = _engine.fine_mesh(_engine.Shape.mesh(target.vertices, target.faces))
+    vertices, faces, normals = _engine.fine_mesh(_engine.shape("mesh", target.vertices, target.faces))
     return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))

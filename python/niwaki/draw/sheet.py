@@ -12,7 +12,7 @@ from typing import Any
 
 from PIL import Image, ImageDraw, ImageFont
 
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw.assembly import Assembly, Volume
 from niwaki.draw.limits import check_size
 from niwaki.draw.picture import BACKDROPS, picture, save_image
@@ -104,7 +104,7 @@ def _together(scenes: Sequence[Assembly], target: Volume | None) -> Assembly:
     """One scene with all parts, to frame by."""
     parts = [(f"{k}", [shape for part in scene for shape in part.shapes]) for k, scene in enumerate(scenes)]
     if target is not None:
-        parts.append(("target", [Shape.mesh(target.vertices, target.faces)]))
+        parts.append(("target", [_engine.shape("mesh", target.vertices, target.faces)]))
     return Assembly(parts)
 
 

@@ -18,7 +18,8 @@ from niwaki.lang.core import Expr
 from niwaki.lang.expressions import expression, expressions, lowers, static
 from niwaki.lang.marks import underlying
 from niwaki.lang.sites import part_name
-from niwaki.words.shapes import LOOKS, SHAPES
+from niwaki.words.measures import LOOKS
+from niwaki.words.shapes import SHAPES
 
 KEYWORDS = ("name", *LOOKS)
 

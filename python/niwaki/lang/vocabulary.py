@@ -15,7 +15,8 @@ from typing import Any
 from niwaki import words
 from niwaki.lang.core import is_literal
 from niwaki.words.distributions import FAMILIES, Distribution
-from niwaki.words.shapes import LOOKS, SHAPES
+from niwaki.words.measures import LOOKS
+from niwaki.words.shapes import SHAPES
 
 
 @dataclass(frozen=True)

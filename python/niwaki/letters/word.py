@@ -13,7 +13,7 @@ import numpy as np
 from PIL.Image import Image
 
 import niwaki as nw
-from niwaki import draw, gallery, guides
+from niwaki import _engine, draw, gallery, guides
 from niwaki._engine import Shape
 from niwaki.draw.assembly import Part
 from niwaki.draw.flat.drawing import Window, drawing
@@ -270,6 +270,6 @@ def moved(shape: Shape, shift: tuple[float, float]) -> Shape:
     if len(flat) == 2:
         (a, r), (b, s) = flat
         start, end = ((x + u, y + v, z) for x, y, z in (a, b))
-        return Shape.stroke(start, end, 2.0 * r, 2.0 * s, shape.color)
+        return _engine.shape("stroke", start, end, 2.0 * r, 2.0 * s, shape.color)
     (x, y, z), long, wide, angle = flat
-    return Shape.ellipse((x + u, y + v, z), long, wide, angle, shape.color)
+    return _engine.shape("ellipse", (x + u, y + v, z), long, wide, angle, shape.color)

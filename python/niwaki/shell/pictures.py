@@ -11,7 +11,7 @@ import typer
 import niwaki as nw
 from niwaki import draw, targets
 from niwaki.search import collisions
-from niwaki.words.shapes import worn
+from niwaki.words.measures import worn
 
 Quick = Annotated[
     bool,

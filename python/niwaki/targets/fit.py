@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki import _engine
-from niwaki._engine import Shape
 
 if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
@@ -84,7 +83,7 @@ def _volume(scene: Scene, voxel: float) -> float:
     """The volume of a scene, parts that overlap counted once: in cells of a box around it, cubic scene units."""
     low, high = scene.bounds
     extent = np.maximum(high - low, voxel)
-    block = Shape.box(((low + high) / 2.0).tolist(), extent.tolist())
+    block = _engine.shape("box", ((low + high) / 2.0).tolist(), extent.tolist())
     size = max(voxel, float((extent.prod() / MOST) ** (1.0 / 3.0)))
     grid = _engine.Target(block.vertices(), block.faces(), size)
     spec = _engine.SketchSpec(json.dumps({"match_volume": {"sigma": 1.0}}), grid)

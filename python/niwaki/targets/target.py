@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from niwaki import draw, targets
+from niwaki import _engine, draw, targets
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
@@ -191,7 +191,7 @@ class Target(Mesh):
 
     def picture(self, **settings: Any) -> Image:
         """Draw the target as a solid of grey clay; settings as for a scene's picture."""
-        clay = Shape.mesh(self.vertices, self.faces, color=(0.72, 0.71, 0.69))
+        clay = _engine.shape("mesh", self.vertices, self.faces, color=(0.72, 0.71, 0.69))
         return Scene([(self.name, [clay])]).picture(**settings)
 
     def _repr_png_(self) -> bytes:

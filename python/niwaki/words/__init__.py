@@ -1,10 +1,12 @@
 """The functions and types that a model may use.
 
-choices         `sample`, `flip`, `gaussian`, ...: draws
+choices         `sample`, `choose`: draws
+draws           `flip`, `gaussian`, ...: draws from a family
 distributions   `Gaussian`, `Uniform`, ...: distributions as values
 effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
 memo            `mem`: functions that are called once for each value of their arguments
-shapes          `box`, `cylinder`, `limb`, `segment`, `mesh`; flat ones: `stroke`, `ellipse`, `disc`
+shapes          `box`, `cylinder`, ...: solids, and flat shapes such as `stroke`
+measures        `Frame`, `Bark`: what some of them take
 colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
 polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
 frames          `look`
@@ -18,8 +20,10 @@ from niwaki.words import (
     choices,
     colors,
     distributions,
+    draws,
     effects,
     frames,
+    measures,
     memo,
     numbers,
     polygons,
@@ -30,8 +34,10 @@ from niwaki.words import (
 from niwaki.words.choices import *
 from niwaki.words.colors import *
 from niwaki.words.distributions import *
+from niwaki.words.draws import *
 from niwaki.words.effects import *
 from niwaki.words.frames import *
+from niwaki.words.measures import *
 from niwaki.words.memo import *
 from niwaki.words.numbers import *
 from niwaki.words.polygons import *
@@ -43,8 +49,10 @@ __all__ = []
 __all__ += choices.__all__
 __all__ += colors.__all__
 __all__ += distributions.__all__
+__all__ += draws.__all__
 __all__ += effects.__all__
 __all__ += frames.__all__
+__all__ += measures.__all__
 __all__ += memo.__all__
 __all__ += numbers.__all__
 __all__ += polygons.__all__

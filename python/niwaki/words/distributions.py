@@ -3,7 +3,8 @@
 The lower-case word of the same name (`gaussian(0, 1)`) draws from it at once. The engine knows a distribution by its
 family and its parameters in the order of the fields; densities and draws are the engine's.
 
-Each family is a class, so that an editor can complete and explain it.
+Each family is a class, so that an editor can complete and explain it. Written by tests/house/words.py from the engine's
+table of families.
 """
 
 from __future__ import annotations

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 
 from niwaki._engine import Shape
 from niwaki.words.distributions import Distribution
+from niwaki.words.measures import worn
 from niwaki.words.running import runner
-from niwaki.words.shapes import worn
 
 __all__ = ["condition", "emit", "factor", "force", "future", "infer", "observe", "query"]
 

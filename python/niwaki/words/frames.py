@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from niwaki.words.shapes import Frame
+from niwaki.words.measures import Frame
 from niwaki.words.vectors import Vec, VecLike, dot, norm
 
 __all__ = ["look"]

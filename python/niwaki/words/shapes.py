@@ -3,69 +3,18 @@
 A point is a 3-tuple, a list or a `vec`. Flat shapes lie on a plane parallel to z = 0, and are seen from +z. A colour
 is `(r, g, b)` in [0, 1]. A rotation is three rows of three numbers, as `rotation(axis, angle)` gives. In a
 plain-Python run a shape is the engine's own `Shape`.
+
+Written by tests/house/words.py from the engine's table of solids.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
-import numpy as np
-
-from niwaki import _engine
+from niwaki.words.measures import Axis, Bark, Color, Frame, Rotation, make
 from niwaki.words.vectors import VecLike
 
-__all__ = ["Bark", "Frame", "box", "cylinder", "disc", "ellipse", "limb", "mesh", "segment", "stroke"]
-
-Rotation = Sequence[Sequence[float]]
-Color = Sequence[float]
-Axis = str | VecLike
-
-
-class Frame(NamedTuple):
-    """Where a `segment` begins, splits or ends; a tuple of four will do.
-
-    Attributes
-    ----------
-    center
-        The middle of the ring.
-    forward
-        Unit direction towards the tip.
-    up
-        Unit direction at right angles to `forward`: the rotation of the ring.
-    radius
-        Greater than 0.
-    """
-
-    center: VecLike
-    forward: VecLike
-    up: VecLike
-    radius: float
-
-
-class Bark(NamedTuple):
-    """The piece of a parent's cone that the base of a `segment` lies on; a tuple of four will do.
-
-    Attributes
-    ----------
-    low, high
-        Points of the parent's axis, below and above the branch.
-    low_radius, high_radius
-        The parent's radius there.
-    """
-
-    low: VecLike
-    low_radius: float
-    high: VecLike
-    high_radius: float
-
-
-def _make(kind: str, *arguments: Any) -> Any:
-    if kind == "mesh":
-        vertices, faces, *rest = arguments
-        arguments = (np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64), *rest)
-    return getattr(_engine.Shape, kind)(*arguments)
+__all__ = ["box", "cylinder", "disc", "ellipse", "limb", "mesh", "segment", "stroke"]
 
 
 def box(
@@ -102,7 +51,7 @@ def box(
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness)
+    return make("box", center, size, rotation, taper, taper_axis, bevel, color, metalness, roughness)
 
 
 def cylinder(
@@ -142,7 +91,7 @@ def cylinder(
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make(
+    return make(
         "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness
     )
 
@@ -175,7 +124,7 @@ def limb(
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make(
+    return make(
         "limb", start, end, start_radius, end_radius, start_normal, end_normal, color, metalness, roughness
     )
 
@@ -207,7 +156,7 @@ def segment(
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("segment", start, split, end, onto, color, metalness, roughness)
+    return make("segment", start, split, end, onto, color, metalness, roughness)
 
 
 def mesh(
@@ -241,15 +190,11 @@ def mesh(
     roughness
         From 0 (a mirror) to 1 (chalk); that of the palette when left out.
     """
-    return _make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness)
+    return make("mesh", vertices, faces, center, rotation, scale, color, metalness, roughness)
 
 
 def stroke(
-    start: VecLike,
-    end: VecLike,
-    width: float,
-    end_width: float | None = None,
-    color: Color | None = None,
+    start: VecLike, end: VecLike, width: float, end_width: float | None = None, color: Color | None = None
 ) -> Any:
     """A straight stroke with round ends. Flat: z says only what lies in front of what.
 
@@ -264,7 +209,7 @@ def stroke(
     color
         `(r, g, b)` in [0, 1].
     """
-    return _make("stroke", start, end, width, end_width, color)
+    return make("stroke", start, end, width, end_width, color)
 
 
 def ellipse(
@@ -283,7 +228,7 @@ def ellipse(
     color
         `(r, g, b)` in [0, 1].
     """
-    return _make("ellipse", center, length, width, angle, color)
+    return make("ellipse", center, length, width, angle, color)
 
 
 def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
@@ -298,31 +243,7 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
     color
         `(r, g, b)` in [0, 1].
     """
-    return _make("disc", center, radius, color)
-
-
-#: What an `emit` gives to those of its shapes that do not have it: colours to all, the others to solids.
-LOOKS = ("color", "metalness", "roughness")
-#: Kinds of shapes of the plane.
-FLAT = ("stroke", "ellipse")
-
-
-def worn(shape: Any, look: Mapping[str, Any], over: bool = False) -> Any:
-    """A shape with a look, where it has none of its own or `over` is given; what is no shape is given back."""
-    if not isinstance(shape, _engine.Shape):
-        return shape
-    names = ("color",) if shape.kind in FLAT else LOOKS
-    given = {
-        name: value
-        for name, value in look.items()
-        if value is not None and name in names and (over or getattr(shape, name) is None)
-    }
-    if not given:
-        return shape
-    # Checked as the words check them.
-    named = _engine.Shape.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), **given)
-    checked = {name: getattr(named, name) for name in given}
-    return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), **checked}))
+    return make("disc", center, radius, color)
 
 
 #: The functions for shapes; the engine has one of the same name for each.

@@ -347,8 +347,7 @@ def test_messages_say_what_is_missing(scene: bpy.types.Scene) -> None:
 def test_a_camera_of_the_search_sees_what_blender_s_sees(
     scene: bpy.types.Scene, kind: str, size: tuple[int, int]
 ) -> None:
-    from niwaki import match_image
-    from niwaki._engine import Shape
+    from niwaki import _engine, match_image
     from niwaki.draw.scene import Scene
 
     scene.render.resolution_x, scene.render.resolution_y = size
@@ -362,7 +361,7 @@ def test_a_camera_of_the_search_sees_what_blender_s_sees(
     columns, rows = size[0] // 2, size[1] // 2
     view = match_image(np.eye(rows, columns, dtype=bool), seen_by).views[0]
     for x, y, z in ((0, 0, 0), (1, 0.5, 1), (-0.7, 1, 0.3)):
-        mask = view.mask(Scene([("dot", [Shape.box((x, z, -y), (0.2, 0.2, 0.2), bevel=0.0)])]))
+        mask = view.mask(Scene([("dot", [_engine.shape("box", (x, z, -y), (0.2, 0.2, 0.2), bevel=0.0)])]))
         expected = world_to_camera_view(scene, camera, Vector((x, y, z)))
         row, column = (float(one.mean()) + 0.5 for one in np.nonzero(mask))
         assert column / columns == pytest.approx(expected.x, abs=0.01)

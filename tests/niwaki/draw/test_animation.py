@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw.animation import animate, growth
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError, InputError
@@ -17,7 +17,7 @@ SMALL = {"size": (96, 72), "samples": 1}
 
 def row(count: int = 4) -> Scene:
     """Boxes from left to right."""
-    return Scene((f"box[{k}]", [Shape.box((2.0 * k, 0.5, 0), (1, 1, 1))]) for k in range(count))
+    return Scene((f"box[{k}]", [_engine.shape("box", (2.0 * k, 0.5, 0), (1, 1, 1))]) for k in range(count))
 
 
 def frames(path: Path) -> list[np.ndarray]:

@@ -21,7 +21,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 import trimesh
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw import plan
 from niwaki.draw.far import FarSceneWarning
 from niwaki.draw.flat.svg import svg
@@ -44,11 +44,11 @@ def boxes(size: float, place: tuple[float, ...]) -> tuple[Scene, float]:
         return (place[0] + x * size, place[1], place[2])
 
     cube = trimesh.creation.box(bounds=[[0, 0, 0], [1, 1, 1]])
-    mesh = Shape.mesh(0.5 * size * cube.vertices + at(3.0), cube.faces)
-    small = Shape.box(at(2.0), (0.3 * size,) * 3, bevel=0.0)
+    mesh = _engine.shape("mesh", 0.5 * size * cube.vertices + at(3.0), cube.faces)
+    small = _engine.shape("box", at(2.0), (0.3 * size,) * 3, bevel=0.0)
     scene = Scene(
         [
-            ("body", [Shape.box(at(0.0), (size,) * 3, bevel=0.0)]),
+            ("body", [_engine.shape("box", at(0.0), (size,) * 3, bevel=0.0)]),
             ("arm/emit", [small]),
             ("arm/hand/emit", [mesh]),
         ]
@@ -138,9 +138,9 @@ def discs(size: float, place: tuple[float, ...]) -> tuple[Scene, list[float]]:
     x, y, _ = place
     black = (0.0, 0.0, 0.0)
     shapes = [
-        Shape.disc((x, y, 0), size, color=black),
-        Shape.stroke((x, y + 2 * size, 1), (x + size, y + 2 * size, 1), 0.2 * size, color=black),
-        Shape.disc((x + 2 * size, y, 2), 0.02 * size, color=black),
+        _engine.shape("disc", (x, y, 0), size, color=black),
+        _engine.shape("stroke", (x, y + 2 * size, 1), (x + size, y + 2 * size, 1), 0.2 * size, color=black),
+        _engine.shape("disc", (x + 2 * size, y, 2), 0.02 * size, color=black),
     ]
     areas = [math.pi * size**2, (0.2 + 0.01 * math.pi) * size**2, 4e-4 * math.pi * size**2]
     return Scene([(f"shape[{number}]", [shape]) for number, shape in enumerate(shapes)]), areas
@@ -214,7 +214,9 @@ def test_every_id_of_a_drawing_is_another() -> None:
         "a#2",
         "3",
     ]
-    scene = Scene([(name, [Shape.stroke((k, 0, 0), (k, 1, 0), 0.1)]) for k, name in enumerate(names)])
+    scene = Scene(
+        [(name, [_engine.shape("stroke", (k, 0, 0), (k, 1, 0), 0.1)]) for k, name in enumerate(names)]
+    )
     for style in ("ink", "lightning", "vines"):
         ids = [
             one.get("id") for one in ElementTree.fromstring(svg(scene, style=style)).iter() if one.get("id")
@@ -223,12 +225,12 @@ def test_every_id_of_a_drawing_is_another() -> None:
 
 
 SHAPES = {
-    "cone": Shape.cylinder((0, 0, 0), 0.5, 2.0, "y", 0.0),
-    "pointed cone": Shape.cylinder((0, 0, 0), 0.5, 2.0, "y", 0.0, bevel=0.0),
-    "limb": Shape.limb((0, 0, 0), (0, 2, 0.3), 0.3, 0.2),
-    "box": Shape.box((0, 0, 0), (1, 2, 3)),
-    "stroke": Shape.stroke((0, 0, 0), (1, 1, 0), 0.2),
-    "disc": Shape.disc((0, 0, 0), 1.0),
+    "cone": _engine.shape("cylinder", (0, 0, 0), 0.5, 2.0, "y", 0.0),
+    "pointed cone": _engine.shape("cylinder", (0, 0, 0), 0.5, 2.0, "y", 0.0, bevel=0.0),
+    "limb": _engine.shape("limb", (0, 0, 0), (0, 2, 0.3), 0.3, 0.2),
+    "box": _engine.shape("box", (0, 0, 0), (1, 2, 3)),
+    "stroke": _engine.shape("stroke", (0, 0, 0), (1, 1, 0), 0.2),
+    "disc": _engine.shape("disc", (0, 0, 0), 1.0),
 }
 
 

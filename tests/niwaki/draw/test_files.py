@@ -11,7 +11,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 import trimesh
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw.glb import glb
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError
@@ -19,12 +19,15 @@ from niwaki.errors import FileError
 
 def scene(order: int = 1) -> Scene:
     parts = [
-        ("ship/body", [Shape.box((0, 0, 0), (2, 1, 4), bevel=0.0)]),
+        ("ship/body", [_engine.shape("box", (0, 0, 0), (2, 1, 4), bevel=0.0)]),
         (
             "ship/wings",
-            [Shape.box((s * 2.0, 0, 0), (2, 0.5, 1), bevel=0.0, color=(0.5, 0.2, 0.1)) for s in (1, -1)],
+            [
+                _engine.shape("box", (s * 2.0, 0, 0), (2, 0.5, 1), bevel=0.0, color=(0.5, 0.2, 0.1))
+                for s in (1, -1)
+            ],
         ),
-        ("ship/engine", [Shape.cylinder((0, 0, -3), 0.5, 2.0, "z", bevel=0.0)]),
+        ("ship/engine", [_engine.shape("cylinder", (0, 0, -3), 0.5, 2.0, "z", bevel=0.0)]),
     ]
     return Scene(parts[::order])
 

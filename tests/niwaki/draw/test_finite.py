@@ -12,7 +12,7 @@ from typing import Any
 import niwaki as nw
 import numpy as np
 import pytest
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw import finite, parts, plan
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError, NiwakiError
@@ -25,8 +25,8 @@ GOLDEN = Path(__file__).parents[2] / "golden"
 def scene(size: float) -> Scene:
     return Scene(
         [
-            ("ship/body", [Shape.box((0, 0, 0), (2, 1, 4), bevel=0.0)]),
-            ("ship/mast", [Shape.box((0, 0, 0), (size, size, size), bevel=0.0)]),
+            ("ship/body", [_engine.shape("box", (0, 0, 0), (2, 1, 4), bevel=0.0)]),
+            ("ship/mast", [_engine.shape("box", (0, 0, 0), (size, size, size), bevel=0.0)]),
         ]
     )
 
@@ -105,7 +105,7 @@ def test_a_mesh_that_is_not_finite_is_written_nowhere(
 @pytest.mark.parametrize("size", [1e-300, 1e-9, 9e11])
 def test_extreme_drawings_give_a_message_or_finite_numbers(tmp_path: Path, size: float) -> None:
     try:
-        flat = Scene([("line", [Shape.stroke((0, 0, 0), (size, size, 0), 0.1, 0.1)])])
+        flat = Scene([("line", [_engine.shape("stroke", (0, 0, 0), (size, size, 0), 0.1, 0.1)])])
         text = flat.export(tmp_path / "line.svg").read_text()
     except (NiwakiError, ValueError):  # no length
         return

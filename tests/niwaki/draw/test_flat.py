@@ -24,11 +24,11 @@ RED, GREEN, BLUE = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 def plant() -> Scene:
     return Scene(
         [
-            ("branch/emit#1", [Shape.stroke((0, 0, 0), (0, 2, 0), 0.6, color=RED)]),
-            ("branch/emit#2", [Shape.ellipse((0, 1, -1), 3.0, 1.0, 0.0, color=GREEN)]),
-            ("branch/emit#3", [Shape.disc((0, 2, 1), 0.5, color=BLUE)]),
-            ("branch/branch/emit#1", [Shape.stroke((0, 2, 0), (1, 4, 0), 0.5, color=RED)]),
-            ("branch/branch#1/emit#1", [Shape.stroke((0, 2, 0), (-1, 4, 0), 0.5, color=RED)]),
+            ("branch/emit#1", [_engine.shape("stroke", (0, 0, 0), (0, 2, 0), 0.6, color=RED)]),
+            ("branch/emit#2", [_engine.shape("ellipse", (0, 1, -1), 3.0, 1.0, 0.0, color=GREEN)]),
+            ("branch/emit#3", [_engine.shape("disc", (0, 2, 1), 0.5, color=BLUE)]),
+            ("branch/branch/emit#1", [_engine.shape("stroke", (0, 2, 0), (1, 4, 0), 0.5, color=RED)]),
+            ("branch/branch#1/emit#1", [_engine.shape("stroke", (0, 2, 0), (-1, 4, 0), 0.5, color=RED)]),
         ]
     )
 
@@ -103,7 +103,7 @@ def test_pictures_and_files_of_flat_scenes_are_drawings(tmp_path: Path) -> None:
     assert scene.export(tmp_path / "plant.glb").stat().st_size > 1000
     assert draw.sheet.sheet([scene, scene], size=(60, 60), style="vines").size[1] == 60
     assert scene.animate(tmp_path / "plant.gif", style="lightning").stat().st_size > 1000
-    solid = Scene([("a", [Shape.box((0, 0, 0), (1, 1, 1))])])
+    solid = Scene([("a", [_engine.shape("box", (0, 0, 0), (1, 1, 1))])])
     with pytest.raises(FileError, match="not a drawing"):
         solid.export(tmp_path / "box.svg")
     with pytest.raises(FileError, match="style"):

@@ -12,7 +12,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 import trimesh
-from niwaki import gallery, rotation
+from niwaki import _engine, gallery, rotation
 from niwaki._engine import Shape
 from niwaki.draw.glb import About, glb
 from niwaki.draw.parts import part_meshes
@@ -50,12 +50,12 @@ def world(found: dict[str, Any]) -> dict[str, np.ndarray]:
 @pytest.mark.parametrize(
     ("shape", "origin", "axis", "along"),
     [
-        (Shape.box((1, 2, 3), (1, 2, 4), rotation=TURN), (1, 2, 3), 0, np.array(TURN)[:, 0]),
-        (Shape.cylinder((1, 2, 3), 0.5, 2, UP), (1, 2, 3), 1, UP),
-        (Shape.limb((1, 2, 3), (1, 2.6, 3.8), 0.2, 0.1), (1, 2, 3), 1, UP),
-        (Shape.limb((1, 2, 3), (1, 1, 3), 0.2, 0.1), (1, 2, 3), 1, (0, -1, 0)),
-        (Shape.stroke((1, 2, 0), (1, 5, 0), 0.1), (1, 2, 0), 0, (0, 1, 0)),
-        (Shape.disc((1, 2, 0), 2.0), (1, 2, 0), 2, (0, 0, 1)),
+        (_engine.shape("box", (1, 2, 3), (1, 2, 4), rotation=TURN), (1, 2, 3), 0, np.array(TURN)[:, 0]),
+        (_engine.shape("cylinder", (1, 2, 3), 0.5, 2, UP), (1, 2, 3), 1, UP),
+        (_engine.shape("limb", (1, 2, 3), (1, 2.6, 3.8), 0.2, 0.1), (1, 2, 3), 1, UP),
+        (_engine.shape("limb", (1, 2, 3), (1, 1, 3), 0.2, 0.1), (1, 2, 3), 1, (0, -1, 0)),
+        (_engine.shape("stroke", (1, 2, 0), (1, 5, 0), 0.1), (1, 2, 0), 0, (0, 1, 0)),
+        (_engine.shape("disc", (1, 2, 0), 2.0), (1, 2, 0), 2, (0, 0, 1)),
     ],
 )
 def test_a_shape_turns_about_its_own_frame(shape: Shape, origin: Any, axis: int, along: Any) -> None:
@@ -89,7 +89,7 @@ def test_nodes_have_the_parts_frames_and_the_scene_stays_where_it_is(name: str, 
 
 def test_a_call_stands_where_its_first_part_stands() -> None:
     def limb(x: float) -> list[Shape]:
-        return [Shape.limb((x, 1, 2), (x, 2, 2), 0.2, 0.1)]
+        return [_engine.shape("limb", (x, 1, 2), (x, 2, 2), 0.2, 0.1)]
 
     scene = Scene([("arm/emit", limb(5)), ("arm/hand/emit", limb(6)), ("arm/hand/thumb/emit", limb(7))])
     found = document(glb(scene))
@@ -103,7 +103,7 @@ def test_a_call_stands_where_its_first_part_stands() -> None:
 
 
 def test_each_choice_is_an_extra_of_its_call() -> None:
-    box = [Shape.box((0, 0, 0), (1, 1, 1))]
+    box = [_engine.shape("box", (0, 0, 0), (1, 1, 1))]
     scene = Scene([("wing[0]/emit", box), ("wing[0]/tip/emit", box), ("body/hull/emit", box)])
     choices = {
         "count": 3,

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from niwaki import rotation
+from niwaki import _engine, rotation
 from niwaki._engine import Shape
 from niwaki.draw.glb import glb
 from niwaki.draw.hierarchy import DEEPEST, hierarchy
@@ -32,7 +32,11 @@ def blocks(count: int = 12) -> Scene:
     return Scene(
         (
             f"block[{k}]",
-            [Shape.box((3.0 * k, 0.1 * k, 0), (1, 2, 0.5), rotation=turned(0.5 * k), color=(0.5, 0.4, 0.3))],
+            [
+                _engine.shape(
+                    "box", (3.0 * k, 0.1 * k, 0), (1, 2, 0.5), rotation=turned(0.5 * k), color=(0.5, 0.4, 0.3)
+                )
+            ],
         )
         for k in range(count)
     )
@@ -66,7 +70,9 @@ def test_equal_blocks_are_one_mesh_with_a_node_for_each(tmp_path: Path) -> None:
 
 
 def test_each_node_puts_every_vertex_where_the_scene_has_it(tmp_path: Path) -> None:
-    mixed = Scene([*blocks(4).parts, ("other", [Shape.cylinder((1, 2, 3), 0.5, 2.0, (1.0, 1.0, 0.0))])])
+    mixed = Scene(
+        [*blocks(4).parts, ("other", [_engine.shape("cylinder", (1, 2, 3), 0.5, 2.0, (1.0, 1.0, 0.0))])]
+    )
     loaded = trimesh.load_scene(mixed.export(tmp_path / "mixed.glb"), process=False)
     for part in part_meshes(mixed):
         matrix, name = loaded.graph[part.address]
@@ -75,16 +81,15 @@ def test_each_node_puts_every_vertex_where_the_scene_has_it(tmp_path: Path) -> N
 
 
 def test_what_is_equal_and_what_is_not() -> None:
-    box = Shape.box((0, 0, 0), (1, 2, 3))
-    assert numbers(box, Shape.box((9, -4, 1), (1, 2, 3), rotation=turned(2.2))) == [0, 0]
-    assert numbers(box, Shape.box((0, 0, 0), (1, 2, 3.0001))) == [0, 1]
-    assert numbers(box, Shape.cylinder((0, 0, 0), 0.5, 2.0)) == [0, 1]
-    assert numbers(Shape.cylinder((0, 0, 0), 0.5, 2.0, "x"), Shape.cylinder((5, 0, 0), 0.5, 2.0, "z")) == [
-        0,
-        0,
-    ]
+    box = _engine.shape("box", (0, 0, 0), (1, 2, 3))
+    assert numbers(box, _engine.shape("box", (9, -4, 1), (1, 2, 3), rotation=turned(2.2))) == [0, 0]
+    assert numbers(box, _engine.shape("box", (0, 0, 0), (1, 2, 3.0001))) == [0, 1]
+    assert numbers(box, _engine.shape("cylinder", (0, 0, 0), 0.5, 2.0)) == [0, 1]
+    along_x = _engine.shape("cylinder", (0, 0, 0), 0.5, 2.0, "x")
+    assert numbers(along_x, _engine.shape("cylinder", (5, 0, 0), 0.5, 2.0, "z")) == [0, 0]
     assert numbers(
-        Shape.cylinder((0, 0, 0), 0.5, 2.0), Shape.cylinder((0, 0, 0), 0.5, 2.0, top_radius=0.4)
+        _engine.shape("cylinder", (0, 0, 0), 0.5, 2.0),
+        _engine.shape("cylinder", (0, 0, 0), 0.5, 2.0, top_radius=0.4),
     ) == [0, 1]
 
 
@@ -93,7 +98,11 @@ def test_a_part_and_a_larger_one_share_a_mesh(tmp_path: Path) -> None:
     scene = Scene(
         (
             f"{k}",
-            [Shape.box((50.0 * k, 1, 2), (s, 2 * s, 3 * s), rotation=turned(k), bevel=0.0, color=(1, 0, 0))],
+            [
+                _engine.shape(
+                    "box", (50.0 * k, 1, 2), (s, 2 * s, 3 * s), rotation=turned(k), bevel=0.0, color=(1, 0, 0)
+                )
+            ],
         )
         for k, s in enumerate(sizes)
     )
@@ -150,10 +159,10 @@ def test_nodes_are_in_the_hierarchy_of_calls() -> None:
 
 
 def test_materials_have_names() -> None:
-    own = Shape.limb((0, 0, 0), (0, 1, 0), 0.2, 0.1, color=(1.0, 0.5, 0.0))
-    bridge = document(glb(Scene([("limb", [own]), ("deck", [Shape.box((5, 0, 0), (4, 2, 3))])])))
+    own = _engine.shape("limb", (0, 0, 0), (0, 1, 0), 0.2, 0.1, color=(1.0, 0.5, 0.0))
+    bridge = document(glb(Scene([("limb", [own]), ("deck", [_engine.shape("box", (5, 0, 0), (4, 2, 3))])])))
     assert [one["name"] for one in bridge["materials"]] == ["warm grey", "#ff8000"]
-    bark = Shape.limb((9, 0, 0), (9, 1, 0), 0.2, 0.1)
+    bark = _engine.shape("limb", (9, 0, 0), (9, 1, 0), 0.2, 0.1)
     names = [one["name"] for one in document(glb(Scene([("a", [own]), ("b", [bark])])))["materials"]]
     assert names == ["#ff8000", "bark"]
 
@@ -161,18 +170,22 @@ def test_materials_have_names() -> None:
 def test_mirror_images_are_different() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], dtype=np.float64)
     faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-    assert numbers(Shape.mesh(corners, faces), Shape.mesh(corners * [1, 1, -1], faces)) == [0, 1]
+    assert numbers(
+        _engine.shape("mesh", corners, faces), _engine.shape("mesh", corners * [1, 1, -1], faces)
+    ) == [0, 1]
 
 
 def test_other_paints_share_the_buffers_and_not_the_mesh() -> None:
-    red, blue = (Shape.box((k, 0, 0), (1, 1, 1), color=c) for k, c in ((0, (1, 0, 0)), (3, (0, 0, 1))))
+    red, blue = (
+        _engine.shape("box", (k, 0, 0), (1, 1, 1), color=c) for k, c in ((0, (1, 0, 0)), (3, (0, 0, 1)))
+    )
     found = document(glb(Scene([("red", [red]), ("blue", [blue]), ("also red", [red])])))
     assert len(found["nodes"]) == 3 and len(found["meshes"]) == 2 and len(found["accessors"]) == 3
     assert len(found["materials"]) == 2
 
 
 def test_palette_tones_make_few_materials() -> None:
-    scene = Scene((f"block[{k}]", [Shape.box((2.0 * k, 0, 0), (1, 1, 1))]) for k in range(300))
+    scene = Scene((f"block[{k}]", [_engine.shape("box", (2.0 * k, 0, 0), (1, 1, 1))]) for k in range(300))
     found = document(glb(scene))
     assert len(found["nodes"]) == 300 and len(found["accessors"]) == 3
     assert len(found["meshes"]) == len(found["materials"]) < 60

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from niwaki import _engine
-from niwaki._engine import Shape
 from niwaki.draw.picture import picture
 from niwaki.draw.scene import Scene
 from niwaki.errors import FileError, InputError
@@ -22,7 +21,7 @@ SMALL = {"size": (120, 90), "samples": 4}
 
 
 def block(color: tuple[float, float, float] = (0.8, 0.2, 0.1)) -> Scene:
-    return Scene([("block", [Shape.box((0, 1, 0), (2, 2, 2), color=color)])])
+    return Scene([("block", [_engine.shape("box", (0, 1, 0), (2, 2, 2), color=color)])])
 
 
 def test_size_and_subject() -> None:
@@ -47,7 +46,9 @@ def test_a_white_page_stays_white() -> None:
 
 def test_the_ghost_shows_only_where_it_is_in_front() -> None:
     with_ghost = np.asarray(picture(block(), targets.ship(), elevation=60, **SMALL), dtype=int)
-    frame = Scene([("f", [Shape.mesh(targets.ship().vertices, targets.ship().faces)]), *block().parts])
+    frame = Scene(
+        [("f", [_engine.shape("mesh", targets.ship().vertices, targets.ship().faces)]), *block().parts]
+    )
     without = np.asarray(picture(block(), elevation=60, frame=frame, **SMALL), dtype=int)
     changed = np.abs(with_ghost - without).sum(axis=2) > 6
     assert 0.05 < changed.mean() < 0.6
@@ -55,9 +56,10 @@ def test_the_ghost_shows_only_where_it_is_in_front() -> None:
 
 def test_the_same_bytes_on_one_thread_and_four() -> None:
     program = (
-        "import hashlib, numpy as np; from niwaki._engine import Shape\n"
+        "import hashlib, numpy as np; from niwaki import _engine\n"
         "from niwaki.targets import examples as targets\n"
-        "from niwaki.draw.scene import Scene; s = Scene([('a', [Shape.cylinder((0, 0, 0), 1.0, 3.0, 'x')])])\n"
+        "from niwaki.draw.scene import Scene\n"
+        "s = Scene([('a', [_engine.shape('cylinder', (0, 0, 0), 1.0, 3.0, 'x')])])\n"
         "p = s.picture(targets.ship(), size=(96, 64), samples=5)\n"
         "print(hashlib.sha256(np.asarray(p).tobytes()).hexdigest())\n"
     )

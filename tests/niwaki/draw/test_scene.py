@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw.scene import Scene
 
 
 def test_order_of_emission_has_no_meaning() -> None:
-    a, b = Shape.box((0, 0, 0), (1, 1, 1)), Shape.cylinder((3, 0, 0), 0.5, 2.0)
+    a, b = _engine.shape("box", (0, 0, 0), (1, 1, 1)), _engine.shape("cylinder", (3, 0, 0), 0.5, 2.0)
     one = Scene([("wing[10]", [a]), ("wing[9]", [b]), ("body", [a])])
     two = Scene([("body", [a]), ("wing[9]", [b]), ("wing[10]", [a])])
     assert [part.address for part in one] == ["body", "wing[9]", "wing[10]"]
@@ -16,7 +16,12 @@ def test_order_of_emission_has_no_meaning() -> None:
 
 
 def test_bounds_and_meshes() -> None:
-    scene = Scene([("a", [Shape.box((0, 0, 0), (2, 2, 2))]), ("b", [Shape.box((4, 0, 0), (2, 2, 2))])])
+    scene = Scene(
+        [
+            ("a", [_engine.shape("box", (0, 0, 0), (2, 2, 2))]),
+            ("b", [_engine.shape("box", (4, 0, 0), (2, 2, 2))]),
+        ]
+    )
     assert scene.bounds.tolist() == [[-1, -1, -1], [5, 1, 1]]
     for fine in (False, True):
         vertices, faces = scene.merged(fine)
@@ -27,6 +32,6 @@ def test_bounds_and_meshes() -> None:
 
 
 def test_notebooks_see_a_png() -> None:
-    scene = Scene([("a", [Shape.box((0, 0, 0), (2, 2, 2))])])
+    scene = Scene([("a", [_engine.shape("box", (0, 0, 0), (2, 2, 2))])])
     assert scene._repr_png_().startswith(b"\x89PNG")
     assert Scene([])._repr_png_().startswith(b"\x89PNG")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from niwaki._engine import Shape
+from niwaki import _engine
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
 from niwaki.errors import FileError, InputError
 
 
 def blocks(count: int) -> list[Scene]:
-    return [Scene([("block", [Shape.box((0, 0, 0), (1, 1 + k, 1))])]) for k in range(count)]
+    return [Scene([("block", [_engine.shape("box", (0, 0, 0), (1, 1 + k, 1))])]) for k in range(count)]
 
 
 def test_rows_and_columns() -> None:

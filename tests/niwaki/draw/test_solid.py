@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from niwaki import rotation
+from niwaki import _engine, rotation
 from niwaki._engine import Shape
 from niwaki.draw.scene import Scene
 from niwaki.draw.solid import PrintWarning, Solid, union
@@ -23,7 +23,7 @@ FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 
 
 def box(x: float, y: float, z: float, size: tuple[float, float, float] = (2, 2, 2)) -> Shape:
-    return Shape.box((x, y, z), size, bevel=0.0)
+    return _engine.shape("box", (x, y, z), size, bevel=0.0)
 
 
 def overlapping() -> Scene:
@@ -123,7 +123,7 @@ def test_a_hollow_is_no_piece() -> None:
 def test_parts_that_touch_in_any_turn_make_one_closed_solid(angle: float, tmp_path: Path) -> None:
     turn = rotation((0.36, 0.48, 0.8), float(angle))
     column = np.array(turn)[:, 0]
-    row = [Shape.box(tuple(2.0 * k * column), (2, 1, 1), rotation=turn) for k in range(4)]
+    row = [_engine.shape("box", tuple(2.0 * k * column), (2, 1, 1), rotation=turn) for k in range(4)]
     scene = Scene((f"{k}", [shape]) for k, shape in enumerate(row))
     assert union(scene).pieces == 1
     assert read_stl(scene.export(tmp_path / "row.stl", scale=20.0)).is_watertight
@@ -132,12 +132,12 @@ def test_parts_that_touch_in_any_turn_make_one_closed_solid(angle: float, tmp_pa
 @pytest.mark.parametrize(
     "shape",
     [
-        Shape.box((0, 0, 0), (1, 2, 3)),
-        Shape.box((0, 0, 0), (1, 2, 3), taper=0.3),
-        Shape.cylinder((0, 0, 0), 1.0, 2.0),
-        Shape.cylinder((0, 0, 0), 1.0, 2.0, top_radius=0.2),
-        Shape.limb((0, 0, 0), (1, 2, 0), 0.5, 0.3, (0, 1, 0), (1, 0, 0)),
-        Shape.mesh(TETRAHEDRON, FACES),
+        _engine.shape("box", (0, 0, 0), (1, 2, 3)),
+        _engine.shape("box", (0, 0, 0), (1, 2, 3), taper=0.3),
+        _engine.shape("cylinder", (0, 0, 0), 1.0, 2.0),
+        _engine.shape("cylinder", (0, 0, 0), 1.0, 2.0, top_radius=0.2),
+        _engine.shape("limb", (0, 0, 0), (1, 2, 0), 0.5, 0.3, (0, 1, 0), (1, 0, 0)),
+        _engine.shape("mesh", TETRAHEDRON, FACES),
     ],
     ids=lambda shape: shape.kind,
 )
@@ -158,8 +158,8 @@ def test_parts_that_are_not_solids_are_reported_by_address(tmp_path: Path) -> No
     scene = Scene(
         [
             ("ship/hull", [box(0, 0, 0)]),
-            ("ship/sail", [box(4, 0, 0), Shape.mesh(TETRAHEDRON, FACES[:3])]),
-            ("ship/keel", [Shape.mesh(TETRAHEDRON, FACES[:, ::-1])]),
+            ("ship/sail", [box(4, 0, 0), _engine.shape("mesh", TETRAHEDRON, FACES[:3])]),
+            ("ship/keel", [_engine.shape("mesh", TETRAHEDRON, FACES[:, ::-1])]),
         ]
     )
     with pytest.raises(FileError) as caught:

@@ -10,43 +10,32 @@ from typing import Any
 
 import niwaki as nw
 import pytest
+from niwaki import _engine
 from niwaki.words.shapes import SHAPES
 
 FRAME = ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 0.5)
 UPPER = ((0.0, 2.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 0.4)
 TOP = ((0.0, 4.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), 0.3)
 
-#: Arguments that each shape takes.
-FIT: dict[str, dict[str, Any]] = {
-    "box": {"center": (0, 0, 0), "size": (1, 1, 1), "rotation": None, "taper": 0.5, "bevel": 0.1},
-    "cylinder": {
-        "center": (0, 0, 0),
-        "radius": 1,
-        "length": 1,
-        "axis": (0, 1, 0),
-        "top_radius": 0.5,
-        "bevel": 0.1,
-    },
-    "limb": {
-        "start": (0, 0, 0),
-        "end": (0, 1, 0),
-        "start_radius": 1,
-        "end_radius": 1,
-        "start_normal": (0, 1, 0),
-        "end_normal": (0, 1, 0),
-    },
-    "segment": {"start": FRAME, "split": UPPER, "end": TOP, "onto": ((0, 0, 0), 1, (0, 1, 0), 1)},
+#: An argument of each type.
+FITS: dict[str, Any] = {
+    "VecLike": (1, 1, 1),
+    "float": 0.5,
+    "Rotation": None,
+    "Axis": (0, 1, 0),
+    "str": "z",
+    "Color": (1, 0, 0),
+    "Bark": ((0, 0, 0), 1, (0, 1, 0), 1),
+}
+#: Arguments of words that do not take any.
+OWN: dict[str, dict[str, Any]] = {
+    "limb": {"start": (0, 0, 0), "end": (0, 1, 0)},
+    "segment": {"start": FRAME, "split": UPPER, "end": TOP},
     "mesh": {
         "vertices": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
         "faces": [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)],
-        "center": (0, 0, 0),
-        "scale": 1.0,
     },
-    "stroke": {"start": (0, 0, 0), "end": (1, 0, 0), "width": 0.1, "end_width": 0.1},
-    "ellipse": {"center": (0, 0, 0), "length": 1, "width": 1, "angle": 0.1},
-    "disc": {"center": (0, 0, 0), "radius": 1},
 }
-LOOK = {"color": (1, 0, 0), "metalness": 0.5, "roughness": 0.5}
 #: Letters have a message of their own, and in plain Python NumPy reads meshes.
 OTHERS = {("box", "taper_axis"), ("cylinder", "axis"), ("mesh", "vertices"), ("mesh", "faces")}
 
@@ -62,8 +51,9 @@ def cases() -> list[tuple[Any, str]]:
 
 @pytest.mark.parametrize(("word", "name"), cases(), ids=lambda one: getattr(one, "__name__", one))
 def test_a_value_of_another_kind_is_blamed_on_its_parameter(word: Any, name: str) -> None:
-    own = inspect.signature(word).parameters
-    given = {key: value for key, value in {**FIT[word.__name__], **LOOK}.items() if key in own}
+    rows = _engine.SHAPES[word.__name__][1]
+    own = [row[0] for row in rows]
+    given = {row[0]: FITS.get(row[1]) for row in rows} | OWN.get(word.__name__, {})
     assert word(**given) is not None
     with pytest.raises(Exception, match=f"`{name}` of `{word.__name__}` takes") as caught:
         word(**{**given, name: "#ff0000"})

@@ -245,7 +245,7 @@ from pathlib import Path
 import niwaki as nw
 from niwaki.draw.scene import Scene
 
-scene = Scene([("floor", [nw._engine.Shape.box((0.0, 0.0, 0.0), (9.0, 1.0, 9.0))])])
+scene = Scene([("floor", [nw._engine.shape("box", (0.0, 0.0, 0.0), (9.0, 1.0, 9.0))])])
 camera = ((0.0, 9.0, 0.1), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 26.0)
 peak = lambda: int(Path("/proc/self/status").read_text().split("VmHWM:")[1].split()[0]) * 1024
 nw.draw.picture.picture(scene, size=(8, 8), camera=camera)
@@ -261,7 +261,7 @@ import resource, sys
 import niwaki as nw
 from niwaki.draw.scene import Scene
 
-scene = Scene([("block", [nw._engine.Shape.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])])
+scene = Scene([("block", [nw._engine.shape("box", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))])])
 most = int(sys.argv[1]) * 1024
 resource.setrlimit(resource.RLIMIT_AS, (most, most))
 nw.draw.picture.picture(scene)

@@ -135,7 +135,7 @@ def test_the_best_is_kept_whether_it_was_sampled_or_not() -> None:
     "kernel", [k.prior(), k.regenerate(), k.cycle(k.block(share=0.5), k.prior())], ids=repr
 )
 def test_sketches_follow_the_chain(kernel: k.Kernel) -> None:
-    solid = _engine.Shape.box((0, 2, 0), (1, 4, 1))
+    solid = _engine.shape("box", (0, 2, 0), (1, 4, 1))
     target = nw.Target(solid.vertices(), solid.faces(), "tower")
     score = nw.no_self_intersection() * nw.match_volume(target, sigma=0.5)
     result = nw.run(TOWER, nw.mh(steps=2000, keep=50, kernel=kernel), seed=2, score=score)

@@ -23,7 +23,7 @@ ON[30:60, 20:80] = True
 
 
 def shape(center: tuple[float, float, float], size: tuple[float, float, float]) -> Any:
-    return _engine.Shape.box(center, size)
+    return _engine.shape("box", center, size)
 
 
 def cube(at: tuple[float, float, float] = (0, 0, 0), size: float = 2.0) -> nw.Target:

@@ -18,7 +18,7 @@ ON[20:60, 20:80] = True
 
 
 def scene(*boxes: tuple[Any, Any]) -> Scene:
-    return Scene([(f"{k}", [_engine.Shape.box(*box)]) for k, box in enumerate(boxes)])
+    return Scene([(f"{k}", [_engine.shape("box", *box)]) for k, box in enumerate(boxes)])
 
 
 def test_panels_of_a_silhouette() -> None:

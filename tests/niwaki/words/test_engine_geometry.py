@@ -18,29 +18,29 @@ def no_self_intersection(rule: str = "solid") -> engine.SketchSpec:
     return engine.SketchSpec(json.dumps({"no_self_intersection": {"rule": rule}}))
 
 
-CUBE = engine.Shape.box((0, 0, 0), (1, 1, 1))
+CUBE = engine.shape("box", (0, 0, 0), (1, 1, 1))
 
 
 def test_shapes_are_at_their_given_places() -> None:
-    rod = engine.Shape.cylinder((0, 0, 2), 0.5, 4, axis="z")
+    rod = engine.shape("cylinder", (0, 0, 2), 0.5, 4, axis="z")
     assert rod.aabb() == ([-0.5, -0.5, 0.0], [0.5, 0.5, 4.0])
-    assert rod == engine.Shape.cylinder((0, 0, 2), 0.5, 4, axis=(0, 0, 3))
+    assert rod == engine.shape("cylinder", (0, 0, 2), 0.5, 4, axis=(0, 0, 3))
     assert rod != CUBE
     assert (rod.kind, rod.color) == ("cylinder", None)
     vertices, faces = rod.vertices(), rod.faces()
     assert vertices.shape == (18, 3) and faces.shape == (32, 3)
     assert vertices.dtype == np.float64 and faces.dtype == np.int64
-    cone = engine.Shape.cylinder((0, 0, 0), 1, 2, top_radius=0, color=(1, 0, 0))
+    cone = engine.shape("cylinder", (0, 0, 0), 1, 2, top_radius=0, color=(1, 0, 0))
     assert cone.kind == "tapered-cylinder" and cone.color == [1, 0, 0]
     quarter = [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]
-    beam = engine.Shape.box((0, 0, 0), (1, 2, 4), rotation=quarter)
+    beam = engine.shape("box", (0, 0, 0), (1, 2, 4), rotation=quarter)
     assert beam.aabb() == ([-2, -1, -0.5], [2, 1, 0.5])
-    limb = engine.Shape.limb((0, 0, 0), (0, 2, 0), 0.5, 0.4, end_normal=(0.2, 1, 0))
+    limb = engine.shape("limb", (0, 0, 0), (0, 2, 0), 0.5, 0.4, end_normal=(0.2, 1, 0))
     assert limb.kind == "limb"
 
 
 def test_a_mesh_is_a_shape_and_a_target() -> None:
-    mesh = engine.Shape.mesh(CUBE.vertices(), CUBE.faces(), center=(1, 0, 0), scale=2.0)
+    mesh = engine.shape("mesh", CUBE.vertices(), CUBE.faces(), center=(1, 0, 0), scale=2.0)
     assert mesh.aabb() == ([0, -1, -1], [2, 1, 1])
     target = engine.Target(CUBE.vertices(), CUBE.faces(), 0.1)
     assert target.dims == (12, 12, 12)
@@ -54,10 +54,10 @@ def test_a_mesh_is_a_shape_and_a_target() -> None:
 @pytest.mark.parametrize(
     ("code", "make"),
     [
-        ("bad-shape", lambda: engine.Shape.box((0, 0, 0), (1, 0, 1))),
-        ("bad-shape", lambda: engine.Shape.box((0, 0, math.nan), (1, 1, 1))),
-        ("bad-shape", lambda: engine.Shape.cylinder((0, 0, 0), 1, 1, axis="w")),
-        ("bad-shape", lambda: engine.Shape.limb((0, 0, 0), (0, 0, 0), 1, 1)),
+        ("bad-shape", lambda: engine.shape("box", (0, 0, 0), (1, 0, 1))),
+        ("bad-shape", lambda: engine.shape("box", (0, 0, math.nan), (1, 1, 1))),
+        ("bad-shape", lambda: engine.shape("cylinder", (0, 0, 0), 1, 1, axis="w")),
+        ("bad-shape", lambda: engine.shape("limb", (0, 0, 0), (0, 0, 0), 1, 1)),
         ("bad-shape", lambda: engine.Target(np.zeros((0, 3)), np.zeros((0, 3), np.int64), 0.1)),
         ("bad-shape", lambda: engine.Target(CUBE.vertices(), CUBE.faces() + 1, 0.1)),
         ("bad-shape", lambda: engine.Target(CUBE.vertices(), CUBE.faces() - 1, 0.1)),
@@ -89,7 +89,7 @@ def test_a_scene_is_scored_as_it_grows_and_comes_back() -> None:
     assert sketch.add([CUBE]) is None
     assert sketch.similarity() == 1.0
     copy = sketch.fork()
-    assert copy.add([engine.Shape.box((0.5, 0, 0), (1, 1, 1))]) == "no_self_intersection"
+    assert copy.add([engine.shape("box", (0.5, 0, 0), (1, 1, 1))]) == "no_self_intersection"
     assert copy.log_score() == -math.inf
     assert sketch.measures() == {
         "intersecting_pairs": 0.0,

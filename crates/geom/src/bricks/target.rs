@@ -6,7 +6,7 @@ use super::sums::{Sums, sums_of};
 use crate::error::GeomError;
 use crate::mesh::TriMesh;
 use crate::once::Once;
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 use crate::voxel::{CellBox, Grid, Voxels};
 use std::sync::OnceLock;
 

@@ -19,14 +19,14 @@ pub struct FineMesh {
 
 impl FineMesh {
     /// Adds a vertex and returns its number.
-    pub(super) fn point(&mut self, position: Vec3, normal: Vec3) -> u32 {
+    pub(crate) fn point(&mut self, position: Vec3, normal: Vec3) -> u32 {
         self.vertices.push(position);
         self.normals.push(normal);
         (self.vertices.len() - 1) as u32
     }
 
     /// Adds a triangle unless two of its corners coincide.
-    pub(super) fn face(&mut self, [a, b, c]: [u32; 3]) {
+    pub(crate) fn face(&mut self, [a, b, c]: [u32; 3]) {
         let [p, q, r] = [a, b, c].map(|i| self.vertices[i as usize]);
         if p != q && q != r && r != p {
             self.faces.push([a, b, c]);
@@ -34,13 +34,13 @@ impl FineMesh {
     }
 
     /// Adds the quadrilateral `a b c d`, counter-clockwise.
-    pub(super) fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
+    pub(crate) fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
         self.face([a, b, c]);
         self.face([a, c, d]);
     }
 
     /// Removes the vertices of no triangle: a row that has shrunk to a point leaves some.
-    pub(super) fn without_unused(self) -> FineMesh {
+    pub(crate) fn without_unused(self) -> FineMesh {
         let mut used = vec![false; self.vertices.len()];
         for &corner in self.faces.iter().flatten() {
             used[corner as usize] = true;
@@ -59,6 +59,6 @@ impl FineMesh {
 }
 
 /// `v` as a unit vector; `or` when it has no direction.
-pub(super) fn unit_or(v: Vec3, or: Vec3) -> Vec3 {
+pub(crate) fn unit_or(v: Vec3, or: Vec3) -> Vec3 {
     v.unit().unwrap_or(or)
 }

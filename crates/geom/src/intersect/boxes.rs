@@ -12,8 +12,8 @@
 //! The two may differ where the overlap is the tolerance to within rounding.
 
 use super::axes::PARALLEL;
-use crate::shape::Shape;
-use crate::solid::Solid;
+use crate::solids::shape::Shape;
+use crate::solids::{Cuboid, Solid};
 use crate::vector::{Mat3, Vec3};
 
 /// A box in any direction.
@@ -56,7 +56,7 @@ impl<'a> Turned<'a> {
     #[inline]
     pub fn of(shape: &'a Shape) -> Option<Turned<'a>> {
         match shape.solid() {
-            Solid::Box { size } => {
+            Solid::Box(Cuboid { size }) => {
                 let (half, middle, rotation) = (*size * 0.5, shape.translation(), shape.rotation());
                 Some(Turned { half, middle, rotation })
             }

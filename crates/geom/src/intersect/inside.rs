@@ -5,7 +5,7 @@
 //! & Strackee 1983): zero outside, and not zero inside, for either orientation of the mesh.
 
 use crate::mesh::TriMesh;
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 use crate::vector::Vec3;
 use std::f64::consts::TAU;
 

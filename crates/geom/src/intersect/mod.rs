@@ -15,8 +15,8 @@ pub mod inside;
 pub mod triangles;
 
 use crate::convex::Convex;
-use crate::primitive::Primitive;
-use crate::shape::Shape;
+use crate::solids::primitive::Primitive;
+use crate::solids::shape::Shape;
 use boxes::Turned;
 use serde::Deserialize;
 use triangles::Crossing;

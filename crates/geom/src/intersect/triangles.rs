@@ -5,7 +5,7 @@
 //! intervals on the common line must overlap by more than `1e-10`.
 
 use crate::bounds::Aabb;
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 use crate::vector::Vec3;
 
 /// The rule by which a vertex counts as on a plane.

@@ -3,8 +3,8 @@
 //! An outline is one convex piece of a shape seen along z: the hull of two circles, an ellipse, or a polygon. Between
 //! two heights each has one interval of x, in closed form, with square roots and no angles: the same bits everywhere.
 
-use crate::shape::Shape;
-use crate::solid::Solid;
+use crate::solids::shape::Shape;
+use crate::solids::{Ellipse, Solid, Stroke};
 
 /// A point of the plane, scene units.
 type Point = [f64; 2];
@@ -25,14 +25,14 @@ impl Outline {
     pub fn of(shape: &Shape, mut each: impl FnMut(Outline)) {
         let placement = shape.placement();
         match shape.solid() {
-            Solid::Stroke { ends } => {
+            Solid::Stroke(Stroke { ends }) => {
                 let ends = [&ends[0], &ends[1]].map(|end| {
                     let center = placement.apply(end.center);
                     ([center.x, center.y], end.radius)
                 });
                 each(Outline::Stroke(ends, straight(ends)));
             }
-            Solid::Ellipse { size: [long, wide] } => {
+            Solid::Ellipse(Ellipse { size: [long, wide] }) => {
                 let axis = placement.rotation.columns[0];
                 let (p, q) = (4.0 / (long * long), 4.0 / (wide * wide));
                 let (cos, sin) = (axis.x, axis.y);

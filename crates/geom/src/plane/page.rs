@@ -13,7 +13,7 @@
 use super::outline::Outline;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 use crate::vector::vec3;
 use crate::view::Cover;
 use crate::view::camera::check_size;

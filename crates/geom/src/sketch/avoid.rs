@@ -11,8 +11,8 @@
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, share};
 use crate::bricks::Target;
-use crate::primitive::Primitive;
-use crate::shape::Shape;
+use crate::solids::primitive::Primitive;
+use crate::solids::shape::Shape;
 use crate::vector::Vec3;
 use crate::voxel::Voxels;
 use std::sync::Arc;

@@ -8,7 +8,7 @@
 
 use crate::bounds::Aabb;
 use crate::once::Once;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::tree::{BoxTree, Boxed};
 use std::sync::{Arc, OnceLock};
 

@@ -7,7 +7,8 @@ use super::bag::Bag;
 use super::score::{Sketch, SketchSpec};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
+use crate::solids::shape::Shape;
 use std::sync::Arc;
 
 struct FloorSpec {
@@ -46,7 +47,7 @@ pub struct Floor {
 
 impl Floor {
     fn below(&self, primitive: &Primitive) -> u64 {
-        let under = |s: &&crate::shape::Shape| s.aabb().low.y < self.height - SOLID_TOLERANCE * s.thickness();
+        let under = |s: &&Shape| s.aabb().low.y < self.height - SOLID_TOLERANCE * s.thickness();
         primitive.shapes().iter().filter(under).count() as u64
     }
 }

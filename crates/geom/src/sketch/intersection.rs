@@ -6,7 +6,7 @@
 use super::bag::same_bag;
 use super::score::{Sketch, SketchSpec};
 use crate::intersect::{Rule, primitives_intersect};
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::tree::BoxTree;
 use std::sync::Arc;
 

@@ -13,8 +13,8 @@
 
 use crate::bounds::Aabb;
 use crate::plane::Page;
-use crate::shape::Shape;
-use crate::solid::Solid;
+use crate::solids::shape::Shape;
+use crate::solids::{Solid, Stroke};
 
 /// The share of the window that costs one nat.
 const SCALE: f64 = 0.001;
@@ -26,7 +26,9 @@ pub struct Outside(Vec<[f64; 4]>);
 /// Lengths outside of a page; `None` for a shape inside.
 fn lengths(shape: &Shape, page: &Page) -> Option<[f64; 4]> {
     let reach = match shape.solid() {
-        Solid::Stroke { ends } => Aabb::around(ends.iter().map(|end| shape.placement().apply(end.center))),
+        Solid::Stroke(Stroke { ends }) => {
+            Aabb::around(ends.iter().map(|end| shape.placement().apply(end.center)))
+        }
         _ => *shape.aabb(),
     };
     let (low, high) = (page.low(), page.high());

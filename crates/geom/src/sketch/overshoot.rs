@@ -13,7 +13,7 @@ use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use std::sync::Arc;
 
 struct OvershootSpec {

@@ -19,7 +19,7 @@ use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use super::tiles::Tiles;
 use crate::error::GeomError;
 use crate::once::Once;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::view::camera::check_size;
 use crate::view::{Cover, Rays};
 use crate::window::bits::Bits;

@@ -5,7 +5,7 @@
 //! depends on the scene only, not on its history.
 
 use super::score::{Sketch, SketchSpec};
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::window::{Place, WindowForm};
 use niwaki_math::{Total, grid};
 use std::sync::Arc;

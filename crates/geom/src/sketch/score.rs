@@ -3,7 +3,7 @@
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::window::{Place, WindowForm};
 use std::any::Any;
 use std::sync::Arc;

@@ -26,7 +26,7 @@ use super::tiles::Tiles;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::plane::Page;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::view::Cover;
 use crate::window::bits::Bits;
 use crate::window::flat::{self, Spot};

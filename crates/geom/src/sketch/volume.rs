@@ -15,7 +15,7 @@ use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
 use crate::bounds::Aabb;
 use crate::bricks::{Counters, Target};
 use crate::error::GeomError;
-use crate::primitive::Primitive;
+use crate::solids::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
 use crate::window::solid::Volume;
 use crate::window::{Place, WindowForm};

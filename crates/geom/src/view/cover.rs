@@ -7,7 +7,7 @@
 use super::outline::{Checks, Outline, Outliner};
 use super::rays::{Node, Rays};
 use crate::mesh::TriMesh;
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 
 /// A set of rays: words with their numbers, ascending, none zero.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -17,7 +17,7 @@ pub mod surface;
 pub use cells::CellBox;
 pub use grid::Grid;
 
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 use surface::Bits;
 
 /// The cells of a grid that a shape fills.

@@ -14,14 +14,17 @@
 //! | gamma, inverse_gamma | `(ln x - mean of ln x) / sd of ln x` | `p(x) dx/dz` |
 //! | beta | `(logit x - mean of logit x) / sd of logit x` | `p(x) dx/dz` |
 //!
+//! Any other family has the coordinate of its space, `p(x) dx/dz`: `(x - center) / scale` on the line, `ln x` above zero, `logit x`
+//! from zero to one.
+//!
 //! (The moments of logarithms are approximate, which changes the coordinate and not the density.)
 //!
 //! A coordinate holds between two limits, within 7.2 of zero: beyond, the last digits of a uniform would decide. What lies outside
 //! is left to the prior.
 
 use super::bells::HALF_LN_TAU;
-use niwaki_math::Dist;
 use niwaki_math::special::{normal_quantile, normal_tail};
+use niwaki_math::{Dist, Space};
 use std::f64::consts::{LN_2, PI};
 
 /// Coordinates are within this distance of zero.
@@ -54,8 +57,8 @@ pub(super) struct Line<'d> {
 
 /// The coordinate's formula.
 enum Form {
-    /// `(x - center) / unit`; the prior is the standard Gaussian.
-    Straight { center: f64, unit: f64 },
+    /// `(x - center) / unit`; `exact` where the prior is the standard Gaussian.
+    Straight { center: f64, unit: f64, exact: bool },
     /// `(ln x - center) / unit`; `exact` where the prior is the standard Gaussian.
     Log { center: f64, unit: f64, exact: bool },
     /// `(logit x - center) / unit`.
@@ -88,7 +91,7 @@ impl<'d> Line<'d> {
     /// The coordinate of a family of real numbers; `None` of the others.
     pub(super) fn new(dist: &'d Dist) -> Option<Line<'d>> {
         let form = match *dist {
-            Dist::Gaussian { mean, sd } => Form::Straight { center: mean, unit: sd },
+            Dist::Gaussian { mean, sd } => Form::Straight { center: mean, unit: sd, exact: true },
             Dist::LogNormal { mean, sd } => Form::Log { center: mean, unit: sd, exact: true },
             Dist::Uniform { .. } | Dist::Exponential { .. } | Dist::Laplace { .. } | Dist::Cauchy { .. } => {
                 Form::Ranked
@@ -107,20 +110,7 @@ impl<'d> Line<'d> {
                 let ((mean_a, sd_a), (mean_b, sd_b)) = (log_gamma_moments(a), log_gamma_moments(b));
                 Form::Logit { center: mean_a - mean_b, unit: sd_a.hypot(sd_b) }
             }
-            Dist::Bernoulli { .. }
-            | Dist::Categorical(_)
-            | Dist::DiscreteUniform { .. }
-            | Dist::Poisson { .. }
-            | Dist::Binomial { .. }
-            | Dist::Geometric { .. }
-            | Dist::VonMises { .. }
-            | Dist::Dirichlet(_)
-            | Dist::MultivariateGaussian(_)
-            | Dist::DiagonalGaussian(_)
-            | Dist::Multinomial(_)
-            | Dist::MultivariateBernoulli(_)
-            | Dist::Mixture(_)
-            | Dist::Delta(_) => return None,
+            _ => of_space(dist)?,
         };
         Some(Line { dist, form })
     }
@@ -160,7 +150,10 @@ impl<'d> Line<'d> {
     fn coordinate(&self, x: f64, log_density: f64) -> (f64, f64) {
         let gaussian = |z: f64| (z, -0.5 * z * z - HALF_LN_TAU);
         match self.form {
-            Form::Straight { center, unit } => gaussian((x - center) / unit),
+            Form::Straight { center, unit, exact } => {
+                let z = (x - center) / unit;
+                if exact { gaussian(z) } else { (z, log_density + unit.ln()) }
+            }
             Form::Log { center, unit, exact } => {
                 let log = x.ln();
                 let z = (log - center) / unit;
@@ -232,7 +225,7 @@ impl<'d> Line<'d> {
         // The smaller tail of z, and whether it is the upper one.
         let tail = || (normal_tail(z.abs()), z > 0.0);
         Some(match (&self.form, self.dist) {
-            (Form::Straight { center, unit }, _) => center + unit * z,
+            (Form::Straight { center, unit, .. }, _) => center + unit * z,
             (Form::Log { center, unit, .. }, _) => (center + unit * z).exp(),
             (Form::Logit { center, unit }, _) => {
                 let logit = center + unit * z;
@@ -279,6 +272,18 @@ impl<'d> Line<'d> {
     }
 }
 
+/// The coordinate of a family that has none of its own: that of its space.
+fn of_space(dist: &Dist) -> Option<Form> {
+    match dist.family().space() {
+        Space::Line => Some(Form::Straight { center: dist.center()?, unit: dist.scale()?, exact: false }),
+        Space::Positive => Some(Form::Log { center: 0.0, unit: 1.0, exact: false }),
+        Space::Unit => Some(Form::Logit { center: 0.0, unit: 1.0 }),
+        Space::Bounded | Space::Circle | Space::Simplex | Space::Vectors => None,
+        Space::Booleans | Space::Categories | Space::Integers | Space::Counts => None,
+        Space::Truths | Space::Components | Space::Fixed => None,
+    }
+}
+
 /// The coordinate of a truncated Gaussian. Tails are computed on the side of the mean where most of the interval lies, so
 /// that their differences lose few digits; where they would, an exponential is used.
 fn cut(mean: f64, sd: f64, lo: f64, hi: f64) -> Form {
@@ -292,5 +297,33 @@ fn cut(mean: f64, sd: f64, lo: f64, hi: f64) -> Form {
         Form::Cut { sign, below, above, mass }
     } else {
         Form::Slope { from_lo: sign < 0.0, rate: (-b).max(0.0), width: (hi - lo) / sd }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    //! The coordinate of a space leads back to the value, and its prior is that of the value.
+    use super::*;
+
+    #[test]
+    fn coordinates_of_spaces_have_the_density_of_their_values() {
+        let dists: [Dist; 4] = [
+            Dist::Laplace { loc: 1.0, scale: 0.5 },
+            Dist::Gamma { shape: 2.0, scale: 0.7 },
+            Dist::Exponential { rate: 3.0 },
+            Dist::Beta { a: 2.0, b: 3.0 },
+        ];
+        for dist in &dists {
+            let line = Line { dist, form: of_space(dist).expect("a space of real numbers") };
+            for x in [0.03, 0.2, 0.6, 0.97] {
+                let place = |x: f64| line.place(x, dist.log_density_of_real(x));
+                let back = line.value(place(x).z).expect("within the limits");
+                assert!((back - x).abs() < 1e-12, "{dist:?} at {x}: {back}");
+                let slope = (place(x + 1e-6).z - place(x - 1e-6).z) / 2e-6;
+                let expected = dist.log_density_of_real(x) - slope.ln();
+                assert!((place(x).log_prior - expected).abs() < 1e-6, "{dist:?} at {x}");
+            }
+        }
+        assert!(of_space(&Dist::Uniform { lo: 0.0, hi: 1.0 }).is_none());
     }
 }

@@ -1,6 +1,7 @@
 //! The table of the families: the name, parameters and space of values of each.
 //!
-//! A row holds the family's variants of [`Family`] and [`Dist`], its name in a model and its [`Space`]. All other
+//! A row holds the family's variants of [`Family`] and [`Dist`], its parameters with what the manual says of each, its name in a
+//! model and its [`Space`], what a draw is and what the parameters may be. All other
 //! properties of a family follow from these by an exhaustive `match`, below the table and wherever a [`Space`] or a
 //! [`Support`] is used: a family cannot be left out.
 
@@ -29,7 +30,7 @@ macro_rules! support {
     (Integers $lo:expr, $hi:expr) => {
         Support::Integers { lo: $lo, hi: $hi }
     };
-    (Line $scale:expr) => {
+    (Line $center:expr, $scale:expr) => {
         Support::Reals(Interval::LINE)
     };
     (Positive) => {
@@ -66,7 +67,7 @@ macro_rules! support {
 
 /// The scale of a row.
 macro_rules! scale {
-    (Line $scale:expr) => {
+    (Line $center:expr, $scale:expr) => {
         Some($scale)
     };
     (Vectors $n:expr, $scale:expr) => {
@@ -80,14 +81,93 @@ macro_rules! scale {
     };
 }
 
+/// The center of a row.
+macro_rules! center {
+    (Line $center:expr, $scale:expr) => {
+        Some($center)
+    };
+    ($space:ident $($other:tt)*) => {
+        None
+    };
+}
+
+/// The type of a field in Python.
+macro_rules! python {
+    (S) => {
+        "float"
+    };
+    (i64) => {
+        "int"
+    };
+}
+
+/// The default of a field in Python.
+macro_rules! default {
+    () => {
+        None
+    };
+    ($default:literal) => {
+        Some(stringify!($default))
+    };
+}
+
+/// Most parameters of a family whose parameters are numbers.
+pub const MOST_NUMBERS: usize = 4;
+
+/// A field that is a number.
+trait Number<S> {
+    fn number(&self) -> f64;
+}
+
+impl<S: Scalar> Number<S> for S {
+    fn number(&self) -> f64 {
+        self.value()
+    }
+}
+
+impl<S: Scalar> Number<S> for i64 {
+    fn number(&self) -> f64 {
+        *self as f64
+    }
+}
+
+/// What the manual and Python's classes say of a family; they are written from this.
+#[derive(Clone, Copy, Debug)]
+pub struct Manual {
+    /// The name of its class in Python.
+    pub class: &'static str,
+    /// What it is.
+    pub doc: &'static str,
+    /// Its parameters, in their order.
+    pub parameters: &'static [Parameter],
+    /// What a draw is.
+    pub gives: &'static str,
+    /// What its parameters may be; every number is finite.
+    pub limits: &'static str,
+}
+
+/// A parameter of a family.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: &'static str,
+    /// Its type in Python.
+    pub python: &'static str,
+    /// What is taken where it is left out; none for what must be given.
+    pub default: Option<&'static str>,
+    /// What it is.
+    pub doc: &'static str,
+}
+
 /// Declares the enums from the table, and what follows from it.
 macro_rules! families {
-    ($( $(#[$doc:meta])* $variant:ident
-        $({ $($field:ident: $type:ty),* })? $(($whole:ident: $held:ty; $($parameter:literal),*))?
-        $name:literal $space:ident $(($($place:tt)*))?; )*) => {
+    ($( $(#[doc = $doc:literal])* $variant:ident
+        $({ $($(#[doc = $about:literal])* $field:ident: $type:ident $(= $default:literal)?,)* })?
+        $(($whole:ident: $held:ty; $($(#[doc = $of:literal])* $parameter:literal: $python:literal,)*))?
+        $name:literal $space:ident $(($($place:tt)*))?, $gives:literal, $limits:literal; )*) => {
         /// A family of distributions.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub enum Family { $( $(#[$doc])* $variant, )* }
+        pub enum Family { $( $(#[doc = $doc])* $variant, )* }
 
         impl Family {
             /// Every family, in the order of the table.
@@ -101,6 +181,32 @@ macro_rules! families {
             /// The parameters' names, in their order.
             pub const fn parameters(self) -> &'static [&'static str] {
                 match self { $(Family::$variant => &[$($(stringify!($field)),*)? $($($parameter),*)?],)* }
+            }
+
+            /// What the manual says of it.
+            pub const fn manual(self) -> Manual {
+                match self {
+                    $(Family::$variant => Manual {
+                        class: stringify!($variant),
+                        doc: concat!($($doc, "\n"),*),
+                        parameters: &[
+                            $($(Parameter {
+                                name: stringify!($field),
+                                python: python!($type),
+                                default: default!($($default)?),
+                                doc: concat!($($about, "\n"),*),
+                            }),*)?
+                            $($(Parameter {
+                                name: $parameter,
+                                python: $python,
+                                default: None,
+                                doc: concat!($($of, "\n"),*),
+                            }),*)?
+                        ],
+                        gives: $gives,
+                        limits: $limits,
+                    },)*
+                }
             }
 
             /// Where its values lie.
@@ -124,7 +230,7 @@ macro_rules! families {
         /// ```
         #[derive(Clone, Debug, PartialEq)]
         #[allow(missing_docs)] // The fields are the parameters.
-        pub enum Dist<S: Scalar = f64> { $( $(#[$doc])* $variant $({ $($field: $type),* })? $(($held))?, )* }
+        pub enum Dist<S: Scalar = f64> { $( $(#[doc = $doc])* $variant $({ $($field: $type),* })? $(($held))?, )* }
 
         #[allow(unused_variables)] // A space rarely needs all fields of its row.
         impl<S: Scalar> Dist<S> {
@@ -138,6 +244,18 @@ macro_rules! families {
                 match self {
                     $(Dist::$variant $({ $($field),* })? $(($whole))? => {
                         [$($($field.params()),*)? $($whole.params())?].concat()
+                    })*
+                }
+            }
+
+            /// The parameters of a family whose parameters are numbers, and how many these are; none of the others.
+            pub fn numbers(&self, to: &mut [f64; MOST_NUMBERS]) -> usize {
+                match self {
+                    $(Dist::$variant $({ $($field),* })? $(($whole))? => {
+                        let numbers: &[f64] = &[$($(Number::<S>::number($field)),*)?];
+                        $(let _ = $whole;)?
+                        to[..numbers.len()].copy_from_slice(numbers);
+                        numbers.len()
                     })*
                 }
             }
@@ -158,6 +276,13 @@ macro_rules! families {
                 }
             }
 
+            /// The middle of a family on the whole line.
+            pub fn center(&self) -> Option<S> {
+                match self {
+                    $(Dist::$variant $({ $($field),* })? $(($whole))? => center!($space $($($place)*)?),)*
+                }
+            }
+
             /// The scale of a family on the whole line or of vectors; the first of a mixture of such.
             pub fn scale(&self) -> Option<S> {
                 match self {
@@ -169,58 +294,196 @@ macro_rules! families {
 }
 
 families! {
-    /// True with probability `p`.
-    Bernoulli { p: S } "bernoulli" Booleans;
-    /// Index 0, 1, ... with probability proportional to its weight.
-    Categorical(w: Arc<Weights<S>>; "weights") "categorical" Categories(w.len());
-    /// Whole numbers from `lo` to `hi`, both included, equally likely.
-    DiscreteUniform { lo: i64, hi: i64 } "discrete_uniform" Integers(*lo, Some(*hi));
-    /// Number of events when `rate` are expected.
-    Poisson { rate: S } "poisson" Integers(0, None);
-    /// Successes in `n` trials of probability `p`.
-    Binomial { n: i64, p: S } "binomial" Integers(0, Some(*n));
-    /// Failures before the first success of probability `p`: 0, 1, ...
-    Geometric { p: S } "geometric" Integers(0, None);
-    /// Real numbers between `lo` and `hi`, equally likely.
-    Uniform { lo: S, hi: S } "uniform" Bounded(Some(*lo), Some(*hi));
-    /// The normal distribution.
-    Gaussian { mean: S, sd: S } "gaussian" Line(*sd);
-    /// Its logarithm is Gaussian with this mean and standard deviation.
-    LogNormal { mean: S, sd: S } "log_normal" Positive;
-    /// Gamma; its mean is `shape * scale`.
-    Gamma { shape: S, scale: S } "gamma" Positive;
-    /// One over a gamma with the same shape and scale `1 / scale`.
-    InverseGamma { shape: S, scale: S } "inverse_gamma" Positive;
-    /// Between 0 and 1; its mean is `a / (a + b)`.
-    Beta { a: S, b: S } "beta" Unit;
-    /// Time to the first event; its mean is `1 / rate`.
-    Exponential { rate: S } "exponential" Positive;
-    /// Two exponentials back to back.
-    Laplace { loc: S, scale: S } "laplace" Line(*scale);
-    /// Student's t with one degree of freedom.
-    Cauchy { loc: S, scale: S } "cauchy" Line(*scale);
-    /// Student's t, moved and scaled.
-    StudentT { df: S, loc: S, scale: S } "student_t" Line(*scale);
-    /// An angle in radians, within half a turn of zero.
-    VonMises { mean: S, concentration: S } "von_mises" Circle;
-    /// A Gaussian given that it falls between `lo` and `hi`.
-    TruncatedGaussian { mean: S, sd: S, lo: S, hi: S } "truncated_gaussian" Bounded(Some(*lo), Some(*hi));
-    /// Positive numbers that sum to one.
-    Dirichlet(a: Arc<[S]>; "concentrations") "dirichlet" Simplex(a.len());
-    /// Gaussian vectors.
-    MultivariateGaussian(g: Arc<MultivariateGaussian<S>>; "mean", "covariance")
-        "multivariate_gaussian" Vectors(g.mean.len(), g.scale());
-    /// Gaussians that are independent, as a vector.
-    DiagonalGaussian(g: Arc<DiagonalGaussian<S>>; "mean", "sd")
-        "diagonal_gaussian" Vectors(g.mean.len(), g.scale());
-    /// How often each category came in `n` trials, in which it has a probability proportional to its weight.
-    Multinomial(m: Arc<Multinomial<S>>; "n", "weights") "multinomial" Counts(m.len());
-    /// Truth values that are independent, each true with its own probability.
-    MultivariateBernoulli(ps: Arc<[S]>; "ps") "multivariate_bernoulli" Truths(ps.len());
-    /// One of `components`, chosen by `weights`.
-    Mixture(m: Arc<Mixture<S>>; "weights", "components") "mixture" Components(m);
+    /// True with probability `p`, else False.
+    Bernoulli {
+        /// Probability of True, in [0, 1].
+        p: S = 0.5,
+    } "bernoulli" Booleans,
+        "`True` with probability p", "p from 0 to 1";
+    /// An index from 0, drawn with probability proportional to its weight.
+    Categorical(w: Arc<Weights<S>>;
+        /// Weight of each index, not negative, not all zero; they need not sum to one.
+        "weights": "Sequence[float]",
+    ) "categorical" Categories(w.len()),
+        "an index from 0", "weights 0 or more, at least one above 0";
+    /// An integer from `lo` to `hi`, both included, all equally likely.
+    DiscreteUniform {
+        /// Least value.
+        lo: i64,
+        /// Greatest value, included.
+        hi: i64,
+    } "discrete_uniform" Integers(*lo, Some(*hi)),
+        "an integer, both ends included", "integers, lo not above hi";
+    /// A count of rare events with the given mean.
+    Poisson {
+        /// Mean, greater than 0.
+        rate: S = 1.0,
+    } "poisson" Integers(0, None),
+        "an integer from 0", "rate from 0 to 1e15";
+    /// The number of successes in `n` trials.
+    Binomial {
+        /// Number of trials, at least 0.
+        n: i64,
+        /// Probability of success of one trial, in [0, 1].
+        p: S = 0.5,
+    } "binomial" Integers(0, Some(*n)),
+        "successes among n", "n an integer, 0 or more; p from 0 to 1";
+    /// The number of failures before the first success, from 0.
+    Geometric {
+        /// Probability of success of one trial, in (0, 1].
+        p: S = 0.5,
+    } "geometric" Integers(0, None),
+        "failures before the first success, from 0", "p above 0, not above 1";
+    /// A real number between `lo` and `hi`, all equally likely.
+    Uniform {
+        /// Lower end.
+        lo: S = 0.0,
+        /// Upper end, greater than `lo`.
+        hi: S = 1.0,
+    } "uniform" Bounded(Some(*lo), Some(*hi)),
+        "a number", "lo below hi";
+    /// A real number from the bell curve.
+    Gaussian {
+        /// Centre.
+        mean: S = 0.0,
+        /// Standard deviation, greater than 0.
+        sd: S = 1.0,
+    } "gaussian" Line(*mean, *sd),
+        "a number", "sd above 0";
+    /// A positive number whose logarithm is Gaussian.
+    LogNormal {
+        /// Mean of the logarithm.
+        mean: S = 0.0,
+        /// Standard deviation of the logarithm, greater than 0.
+        sd: S = 1.0,
+    } "log_normal" Positive,
+        "a number above 0; mean and sd are of its logarithm", "sd above 1e-147, mean at most 1e150 times sd away from 0";
+    /// A positive number with mean `shape * scale`.
+    Gamma {
+        /// Shape, greater than 0.
+        shape: S,
+        /// Scale, greater than 0.
+        scale: S = 1.0,
+    } "gamma" Positive,
+        "a number above 0", "shape and scale above 0";
+    /// A positive number whose reciprocal is gamma distributed.
+    InverseGamma {
+        /// Shape, greater than 0.
+        shape: S,
+        /// Scale, greater than 0.
+        scale: S = 1.0,
+    } "inverse_gamma" Positive,
+        "a number above 0", "shape and scale above 0";
+    /// A real number in (0, 1) with mean `a / (a + b)`.
+    Beta {
+        /// Weight towards 1, greater than 0.
+        a: S,
+        /// Weight towards 0, greater than 0.
+        b: S,
+    } "beta" Unit,
+        "a number in (0, 1)", "a and b above 0";
+    /// A waiting time with mean `1 / rate`.
+    Exponential {
+        /// Events per unit, greater than 0.
+        rate: S = 1.0,
+    } "exponential" Positive,
+        "a number above 0", "rate above 0";
+    /// A real number that falls off exponentially on both sides.
+    Laplace {
+        /// Centre.
+        loc: S = 0.0,
+        /// Mean distance from the centre, greater than 0.
+        scale: S = 1.0,
+    } "laplace" Line(*loc, *scale),
+        "a number", "scale above 0";
+    /// A real number with very heavy tails.
+    Cauchy {
+        /// Centre.
+        loc: S = 0.0,
+        /// Half width at half height, greater than 0.
+        scale: S = 1.0,
+    } "cauchy" Line(*loc, *scale),
+        "a number", "scale above 0";
+    /// A real number from a bell with heavy tails.
+    StudentT {
+        /// Degrees of freedom, greater than 0.
+        df: S,
+        /// Centre.
+        loc: S = 0.0,
+        /// Width, greater than 0.
+        scale: S = 1.0,
+    } "student_t" Line(*loc, *scale),
+        "a number", "df and scale above 0";
+    /// An angle in radians, around `mean`.
+    VonMises {
+        /// Central angle, radians.
+        mean: S = 0.0,
+        /// How tight, at least 0.
+        concentration: S = 1.0,
+    } "von_mises" Circle,
+        "an angle in radians", "concentration 0 or more";
+    /// A Gaussian kept between `lo` and `hi`.
+    TruncatedGaussian {
+        /// Centre of the whole bell.
+        mean: S,
+        /// Standard deviation of the whole bell, greater than 0.
+        sd: S,
+        /// Lower end.
+        lo: S,
+        /// Upper end, greater than `lo`.
+        hi: S,
+    } "truncated_gaussian" Bounded(Some(*lo), Some(*hi)),
+        "a number from lo to hi", "sd above 0, lo below hi";
+    /// A list of shares that sum to one.
+    Dirichlet(a: Arc<[S]>;
+        /// One for each share, greater than 0.
+        "concentrations": "Sequence[float]",
+    ) "dirichlet" Simplex(a.len()),
+        "a tuple of numbers that sum to 1", "all concentrations above 0, at most 1e300 together";
+    /// A list of numbers that vary together.
+    MultivariateGaussian(g: Arc<MultivariateGaussian<S>>;
+        /// Centre, (n,).
+        "mean": "Sequence[float]",
+        /// Symmetric and positive definite, (n, n).
+        "covariance": "Sequence[Sequence[float]]",
+    ) "multivariate_gaussian" Vectors(g.mean.len(), g.scale()),
+        "a tuple of numbers", "covariance symmetric and positive definite, of the size of the mean";
+    /// A list of numbers that vary by themselves, each with its own centre and spread.
+    DiagonalGaussian(g: Arc<DiagonalGaussian<S>>;
+        /// Centres, (n,).
+        "mean": "Sequence[float]",
+        /// Standard deviations, (n,), greater than 0.
+        "sd": "Sequence[float]",
+    ) "diagonal_gaussian" Vectors(g.mean.len(), g.scale()),
+        "a tuple of numbers that are independent, each with its mean and sd", "every sd above 0, as many as means";
+    /// How often each category came in `n` trials.
+    Multinomial(m: Arc<Multinomial<S>>;
+        /// Trials, at least 0.
+        "n": "int",
+        /// Weight of each category in a trial, not negative; at least one greater than 0.
+        "weights": "Sequence[float]",
+    ) "multinomial" Counts(m.len()),
+        "a tuple of counts: how often each category came in n trials", "n an integer, 0 or more; weights as of `categorical`";
+    /// A list of truth values that are drawn by themselves.
+    MultivariateBernoulli(ps: Arc<[S]>;
+        /// Of each its probability of being true, in [0, 1].
+        "ps": "Sequence[float]",
+    ) "multivariate_bernoulli" Truths(ps.len()),
+        "a tuple of truth values that are independent", "every p from 0 to 1";
+    /// A draw from one of several distributions, picked with probability proportional to its weight.
+    Mixture(m: Arc<Mixture<S>>;
+        /// Weight of each component.
+        "weights": "Sequence[float]",
+        /// Distribution values, as many as weights.
+        "components": "Sequence[Distribution]",
+    ) "mixture" Components(m),
+        "a draw of one component", "weights as of `categorical`, one for each component";
     /// Always the same value.
-    Delta(value: Draw<S>; "value") "delta" Fixed(value);
+    Delta(value: Draw<S>;
+        /// What every draw gives.
+        "value": "Any",
+    ) "delta" Fixed(value),
+        "the value", "any";
 }
 
 // Distributions are stored in registers and nodes: their size must not grow unnoticed.

@@ -8,7 +8,7 @@ use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
 use niwaki_guide::filtered::View;
 use niwaki_guide::{Net, Scratch};
-use niwaki_math::{Dist, Draw, Stream};
+use niwaki_math::{Dist, Draw, MOST_NUMBERS, Stream};
 use niwaki_run::Task;
 use niwaki_run::chooser::{Chosen, Context};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
@@ -368,37 +368,9 @@ fn of_part(part: &Aabb) -> [f64; 6] {
     [middle.x, middle.y, middle.z, half.x, half.y, half.z]
 }
 
-/// The most parameters of a prior that are inputs.
-pub const PARAMETERS: usize = 4;
-
 /// Adds the prior's parameters, from input `first` on.
 fn parameters(dist: &Dist, (first, count): (u32, u32), to: &mut Vec<(u32, f32)>) {
-    let mut all = [0.0; PARAMETERS];
-    let n = of_prior(dist, &mut all).min(count as usize);
+    let mut all = [0.0; MOST_NUMBERS];
+    let n = dist.numbers(&mut all).min(count as usize);
     to.extend(all[..n].iter().enumerate().map(|(i, x)| (first + i as u32, *x as f32)));
-}
-
-/// The parameters of a prior that are inputs, and how many these are.
-pub fn of_prior(dist: &Dist, to: &mut [f64; PARAMETERS]) -> usize {
-    let mut put = |all: &[f64]| {
-        to[..all.len()].copy_from_slice(all);
-        all.len()
-    };
-    match dist {
-        Dist::Bernoulli { p } | Dist::Geometric { p } => put(&[*p]),
-        Dist::DiscreteUniform { lo, hi } => put(&[*lo as f64, *hi as f64]),
-        Dist::Poisson { rate } | Dist::Exponential { rate } => put(&[*rate]),
-        Dist::Binomial { n, p } => put(&[*n as f64, *p]),
-        Dist::Uniform { lo, hi } => put(&[*lo, *hi]),
-        Dist::Gaussian { mean, sd } | Dist::LogNormal { mean, sd } => put(&[*mean, *sd]),
-        Dist::Gamma { shape, scale } | Dist::InverseGamma { shape, scale } => put(&[*shape, *scale]),
-        Dist::Beta { a, b } => put(&[*a, *b]),
-        Dist::Laplace { loc, scale } | Dist::Cauchy { loc, scale } => put(&[*loc, *scale]),
-        Dist::StudentT { df, loc, scale } => put(&[*df, *loc, *scale]),
-        Dist::VonMises { mean, concentration } => put(&[*mean, *concentration]),
-        Dist::TruncatedGaussian { mean, sd, lo, hi } => put(&[*mean, *sd, *lo, *hi]),
-        Dist::Categorical(_) | Dist::Dirichlet(_) | Dist::MultivariateGaussian(_) => 0,
-        Dist::DiagonalGaussian(_) | Dist::Multinomial(_) | Dist::MultivariateBernoulli(_) => 0,
-        Dist::Mixture(_) | Dist::Delta(_) => 0,
-    }
 }

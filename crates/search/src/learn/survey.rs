@@ -3,8 +3,8 @@
 use super::lessons::{Example, follow};
 use niwaki_geom::WindowForm;
 use niwaki_guide::Head;
-use niwaki_math::Dist;
-use niwaki_propose::guide::bound::{OF_PART, PARAMETERS, of_prior};
+use niwaki_math::{Dist, MOST_NUMBERS};
+use niwaki_propose::guide::bound::OF_PART;
 use niwaki_propose::guide::form::{FORMAT, GuideForm, SiteForm, VariableForm};
 use niwaki_propose::guide::inputs::Kind;
 use niwaki_run::Failure;
@@ -66,7 +66,7 @@ impl Survey {
                 family: dist.family().name().to_string(),
                 head: Head::of(dist, components),
                 variables: Vec::new(),
-                parameters: of_prior(dist, &mut [0.0; PARAMETERS]),
+                parameters: dist.numbers(&mut [0.0; MOST_NUMBERS]),
                 visits: 0,
             };
             self.sites.push((at.site.key, met));
@@ -99,7 +99,7 @@ impl Survey {
         }
         let met = &mut self.sites[number].1;
         met.visits += 1;
-        met.parameters = met.parameters.min(of_prior(dist, &mut [0.0; PARAMETERS]));
+        met.parameters = met.parameters.min(dist.numbers(&mut [0.0; MOST_NUMBERS]));
         met.head = met.head.and_then(|head| head.also(dist, components));
     }
 

@@ -1,4 +1,5 @@
-//! The built-in functions of the language, by number: one table, in the order of the files beside it.
+//! The built-in functions of the language, by number: one table, in the order of the files beside it. The words for shapes come
+//! last, from the table of solids.
 //!
 //! - [`arithmetic`]: conversions, rounding, small functions of numbers
 //! - [`mathematics`]: Python's `math`
@@ -24,6 +25,10 @@ pub mod shapes;
 pub mod soft;
 pub mod strings;
 pub mod vectors;
+
+use std::sync::Arc;
+
+use niwaki_geom::TriMesh;
 
 use crate::fault::Fault;
 use crate::value::{Scalar, Value, index, ops};
@@ -84,16 +89,23 @@ pub fn builtins<S: Scalar>() -> &'static [Builtin<S>] {
     Table::<S>::ALL
 }
 
+/// The word `mesh`, of a mesh that was read before: the first two arguments are not read.
+pub fn placed_mesh<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
+    shapes::made::<S, niwaki_geom::solids::mesh::MeshWord<S>>(args, Some(mesh))
+}
+
 /// Carries the table of each scalar.
 struct Table<S>(std::marker::PhantomData<S>);
 
 const ANY: usize = usize::MAX;
 
 macro_rules! table {
-    ($($name:literal $min:tt $max:tt $run:expr;)*) => {
+    ([$($file:ident $word:ident)*] $($name:literal $min:tt $max:tt $run:expr;)*) => {
         impl<S: Scalar> Table<S> {
-            const ALL: &'static [Builtin<S>] =
-                &[$(Builtin { name: $name, min_args: $min, max_args: $max, run: $run }),*];
+            const ALL: &'static [Builtin<S>] = &[
+                $(Builtin { name: $name, min_args: $min, max_args: $max, run: $run },)*
+                $(shapes::builtin::<S, niwaki_geom::solids::$file::$word<S>>(),)*
+            ];
         }
     };
 }
@@ -106,7 +118,8 @@ fn one_or_many<S: Scalar>(args: &[Value<S>]) -> Result<Vec<Value<S>>, Fault> {
     }
 }
 
-table! {
+niwaki_geom::words_of_solids! {
+    table
     "add" 2 2 |a| ops::add(&a[0], &a[1]);
     "sub" 2 2 |a| ops::sub(&a[0], &a[1]);
     "mul" 2 2 |a| ops::mul(&a[0], &a[1]);
@@ -234,15 +247,6 @@ table! {
     "polygon_distance" 2 2 polygons::distance;
     "polygon_disc_area" 3 3 polygons::disc_area;
     "polygon_inset" 2 2 polygons::inset;
-
-    "box" 2 9 shapes::cuboid;
-    "cylinder" 3 10 shapes::cylinder;
-    "limb" 4 9 shapes::limb;
-    "segment" 3 7 shapes::segment;
-    "mesh" 2 8 shapes::mesh;
-    "stroke" 3 5 shapes::stroke;
-    "ellipse" 3 5 shapes::ellipse;
-    "disc" 2 3 shapes::disc;
 }
 
 #[cfg(test)]

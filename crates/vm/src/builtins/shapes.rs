@@ -1,15 +1,16 @@
-//! Shapes from values: the words of [`WORDS`]. Models and plain Python runs both use this file.
+//! Shapes from values: the words that `niwaki_geom`'s solids describe. Models and plain Python runs both use this file.
 //!
 //! A scene is made of plain numbers: a recording scalar gives only its value here. Where the shape is it may note
-//! ([`Scalar::note`]): its middle, and three directions, of which some may be zero. A point that is fixed to the shape
-//! is the middle and a sum of these.
+//! ([`Scalar::note`]).
 
 use std::any::Any;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use niwaki_geom::{Bark, Frame, GeomError, Look, Mat3, Shape, TriMesh, Vec3, vec3};
+use niwaki_geom::solids::word::{Arguments, Description, Word};
+use niwaki_geom::{Bark, Frame, GeomError, Shape, Solid, TriMesh, Vec3};
 
+use super::Builtin;
 use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole};
 use super::vectors::three;
@@ -17,107 +18,43 @@ use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_get, iter_len};
 use crate::value::{Scalar, Value, same};
 
-/// The words that make shapes, and their parameters in order; those of `niwaki.words` are the same.
-pub const WORDS: &[(&str, &[&str])] = &[
-    (
-        "box",
-        &["center", "size", "rotation", "taper", "taper_axis", "bevel", "color", "metalness", "roughness"],
-    ),
-    (
-        "cylinder",
-        &[
-            "center",
-            "radius",
-            "length",
-            "axis",
-            "top_radius",
-            "rotation",
-            "bevel",
-            "color",
-            "metalness",
-            "roughness",
-        ],
-    ),
-    (
-        "limb",
-        &[
-            "start",
-            "end",
-            "start_radius",
-            "end_radius",
-            "start_normal",
-            "end_normal",
-            "color",
-            "metalness",
-            "roughness",
-        ],
-    ),
-    ("segment", &["start", "split", "end", "onto", "color", "metalness", "roughness"]),
-    ("mesh", &["vertices", "faces", "center", "rotation", "scale", "color", "metalness", "roughness"]),
-    ("stroke", &["start", "end", "width", "end_width", "color"]),
-    ("ellipse", &["center", "length", "width", "angle", "color"]),
-    ("disc", &["center", "radius", "color"]),
-];
-
 /// One word's arguments; those left out are `None`.
-struct Arguments<'a, S: Scalar> {
-    word: &'static str,
+struct Given<'a, S: Scalar> {
+    word: &'static Description,
     args: &'a [Value<S>],
+    /// A mesh that was read before: the first two arguments are not read.
+    mesh: Option<&'a Arc<TriMesh>>,
 }
 
-impl<S: Scalar> Arguments<'_, S> {
+impl<S: Scalar> Given<'_, S> {
     fn given(&self, at: usize) -> Option<&Value<S>> {
         self.args.get(at).filter(|arg| !matches!(arg, Value::None))
     }
 
+    #[inline]
     fn needed(&self, at: usize) -> Result<&Value<S>, Fault> {
         self.given(at).ok_or_else(|| {
-            Fault::bad_argument(format!("argument {} of `{}` cannot be None", at + 1, self.word))
+            Fault::bad_argument(format!("argument {} of `{}` cannot be None", at + 1, self.word.name))
         })
     }
 
     /// Reads an argument, or a part of one; what is wrong with it names the parameter.
+    #[inline]
     fn read<T>(
         &self,
         at: usize,
         value: &Value<S>,
         read: impl FnOnce(&str, &Value<S>) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
-        read(self.word, value).map_err(|fault| self.named(at, &fault))
+        read(self.word.name, value).map_err(|fault| self.named(at, &fault))
     }
 
     #[cold]
     fn named(&self, at: usize, fault: &Fault) -> Fault {
-        let parameters = WORDS.iter().find(|(word, _)| *word == self.word).map(|(_, parameters)| *parameters);
-        let name = parameters.and_then(|names| names.get(at)).copied().unwrap_or("an argument");
-        let (word, named) = (format!("`{}`", self.word), format!("`{name}` of `{}`", self.word));
+        let name = self.word.parameters().nth(at).map_or("an argument", |parameter| parameter.name);
+        let word = self.word.name;
+        let (word, named) = (format!("`{word}`"), format!("`{name}` of `{word}`"));
         Fault::new(fault.code, fault.message.replacen(&word, &named, 1))
-    }
-
-    fn number_or(&self, at: usize, default: f64) -> Result<f64, Fault> {
-        self.given(at).map_or(Ok(default), |arg| self.read(at, arg, real).map(Scalar::value))
-    }
-
-    /// A length, a width or a factor of them.
-    fn measure(&self, at: usize) -> Result<f64, Fault> {
-        self.read(at, self.needed(at)?, measured)
-    }
-
-    fn measure_or(&self, at: usize, default: f64) -> Result<f64, Fault> {
-        self.given(at).map_or(Ok(default), |arg| self.read(at, arg, measured))
-    }
-
-    /// Three lengths.
-    fn measures(&self, at: usize) -> Result<Vec3, Fault> {
-        self.triple(at).map(|[x, y, z]| vec3(signed(x), signed(y), signed(z)))
-    }
-
-    fn point(&self, at: usize) -> Result<Vec3, Fault> {
-        self.read(at, self.needed(at)?, point)
-    }
-
-    fn direction(&self, at: usize) -> Result<Option<Vec3>, Fault> {
-        self.given(at).map(|arg| self.read(at, arg, point)).transpose()
     }
 
     /// The parts of a tuple, list or record of `count`.
@@ -125,253 +62,126 @@ impl<S: Scalar> Arguments<'_, S> {
         let arg = self.needed(at)?;
         let several = matches!(arg, Value::Tuple(_) | Value::List(_) | Value::Record(_));
         if !several || iter_len(arg)? != count {
-            return Err(self.named(at, &unfit(self.word, expected, arg)));
+            return Err(self.named(at, &unfit(self.word.name, expected, arg)));
         }
         iter_all(arg)
     }
+}
 
-    fn frame(&self, at: usize) -> Result<Frame, Fault> {
-        let parts = self.several(at, 4, "a frame (center, forward, up, radius)")?;
-        let [center, forward, up, radius] = &parts[..] else { unreachable!("counted above") };
-        let place = |value| self.read(at, value, point);
-        let radius = self.read(at, radius, measured)?;
-        Ok(Frame { center: place(center)?, forward: place(forward)?, up: place(up)?, radius })
+impl<S: Scalar> Arguments<S> for Given<'_, S> {
+    type Fault = Fault;
+
+    #[inline]
+    fn is_given(&self, at: usize) -> bool {
+        self.given(at).is_some()
     }
 
-    fn rotation(&self, at: usize) -> Result<Option<Mat3>, Fault> {
-        let rows = self.rows(at)?;
-        Ok(rows.map(|rows| Mat3::from_rows(rows.map(|row| row.map(Scalar::value)))))
-    }
-
-    /// The rows of a rotation.
-    fn rows(&self, at: usize) -> Result<Option<[[S; 3]; 3]>, Fault> {
-        let Some(arg) = self.given(at) else { return Ok(None) };
-        if let Value::Rotation(r) = arg {
-            return Ok(Some([[r[0], r[1], r[2]], [r[3], r[4], r[5]], [r[6], r[7], r[8]]]));
-        }
-        let rows = matches!(arg, Value::Tuple(_) | Value::List(_)) && iter_len(arg)? == 3;
-        if !rows {
-            return Err(self.named(at, &unfit(self.word, "a rotation such as `rotation(axis, angle)`", arg)));
-        }
-        let row = |row: usize| self.read(at, &iter_get(arg, row), three);
-        Ok(Some([row(0)?, row(1)?, row(2)?]))
-    }
-
-    /// The same, with the rows of no turn where it is left out.
-    fn turn(&self, at: usize) -> Result<[[S; 3]; 3], Fault> {
-        let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        Ok(self.rows(at)?.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64))))
-    }
-
-    fn triple(&self, at: usize) -> Result<[S; 3], Fault> {
-        self.read(at, self.needed(at)?, three)
-    }
-
-    fn scalar(&self, at: usize) -> Result<S, Fault> {
+    #[inline]
+    fn real(&self, at: usize) -> Result<S, Fault> {
         self.read(at, self.needed(at)?, real)
     }
 
-    /// The look; of solids, metalness and roughness come after the colour.
-    fn look(&self, rotation: Option<usize>, bevel: Option<usize>, first: usize) -> Result<Look, Fault> {
-        let rotation = rotation.map_or(Ok(None), |at| self.rotation(at))?;
-        let bevel = match bevel {
-            Some(at) => self.given(at).map(|arg| self.read(at, arg, measured)).transpose()?,
-            None => None,
+    #[inline]
+    fn three(&self, at: usize) -> Result<[S; 3], Fault> {
+        self.read(at, self.needed(at)?, three)
+    }
+
+    fn rows(&self, at: usize) -> Result<[[S; 3]; 3], Fault> {
+        let arg = self.needed(at)?;
+        if let Value::Rotation(r) = arg {
+            return Ok([[r[0], r[1], r[2]], [r[3], r[4], r[5]], [r[6], r[7], r[8]]]);
+        }
+        let rows = matches!(arg, Value::Tuple(_) | Value::List(_)) && iter_len(arg)? == 3;
+        if !rows {
+            return Err(
+                self.named(at, &unfit(self.word.name, "a rotation such as `rotation(axis, angle)`", arg))
+            );
+        }
+        let row = |row: usize| self.read(at, &iter_get(arg, row), three);
+        Ok([row(0)?, row(1)?, row(2)?])
+    }
+
+    fn letter(&self, at: usize) -> Result<usize, Fault> {
+        let arg = self.needed(at)?;
+        let found = match arg {
+            Value::Str(text) => ["x", "y", "z"].iter().position(|letter| *letter == &**text),
+            _ => None,
         };
-        let color = self.given(first).map(|arg| self.read(first, arg, three)).transpose()?;
-        let color = color.map(|color| color.map(|part| part.value() as f32));
-        let share = |at: usize| {
-            let read = |arg| {
-                let share = self.read(at, arg, real)?;
-                let _ = share > S::from_f64(1.0);
-                Ok(signed(share) as f32)
-            };
-            self.given(at).map(read).transpose()
-        };
-        let (metalness, roughness) = (share(first + 1)?, share(first + 2)?);
-        Ok(Look { rotation, bevel, color, metalness, roughness })
+        found.ok_or_else(|| {
+            let shown = crate::value::repr(arg).unwrap_or_default();
+            let word = self.word.name;
+            Fault::bad_shape(format!("an axis of `{word}` is {shown}, expected \"x\", \"y\" or \"z\""))
+        })
+    }
+
+    fn axis(&self, at: usize) -> Result<[S; 3], Fault> {
+        match self.needed(at)? {
+            Value::Str(_) => Ok(Vec3::AXES[self.letter(at)?].to_array().map(S::from_f64)),
+            direction => self.read(at, direction, three),
+        }
+    }
+
+    fn frame(&self, at: usize) -> Result<([S; 3], Frame), Fault> {
+        let parts = self.several(at, 4, "a frame (center, forward, up, radius)")?;
+        let middle = self.read(at, &parts[0], three)?;
+        let [forward, up] = [self.read(at, &parts[1], point)?, self.read(at, &parts[2], point)?];
+        let radius = self.read(at, &parts[3], measured)?;
+        Ok((middle, Frame { center: Vec3::from(middle.map(Scalar::value)), forward, up, radius }))
+    }
+
+    fn bark(&self, at: usize) -> Result<Bark, Fault> {
+        let parts = self.several(at, 4, "a piece of bark (low, low_radius, high, high_radius)")?;
+        let place = |part: usize| self.read(at, &parts[part], point);
+        let radius = |part: usize| self.read(at, &parts[part], measured);
+        Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
+    }
+
+    fn mesh(&self, at: usize) -> Result<Arc<TriMesh>, Fault> {
+        match self.mesh {
+            Some(mesh) => Ok(Arc::clone(mesh)),
+            None => kept_mesh(self, self.needed(at)?, self.needed(at + 1)?),
+        }
     }
 }
 
 fn point<S: Scalar>(word: &str, value: &Value<S>) -> Result<Vec3, Fault> {
-    three(word, value).map(|[x, y, z]| vec3(x.value(), y.value(), z.value()))
+    three(word, value).map(|parts| Vec3::from(parts.map(Scalar::value)))
 }
 
-/// A measure as a plain number. Whether there is such a shape depends on its sign, so a recording holds only where the sign
+/// A length within an argument. Whether there is such a shape depends on its sign, so a recording holds only where the sign
 /// stays: the comparison notes that.
-fn signed<S: Scalar>(measure: S) -> f64 {
-    let _ = measure > S::from_f64(0.0);
-    measure.value()
-}
-
 fn measured<S: Scalar>(word: &str, value: &Value<S>) -> Result<f64, Fault> {
-    real(word, value).map(signed)
+    let measure = real(word, value)?;
+    let _ = measure > S::from_f64(0.0);
+    Ok(measure.value())
 }
 
-/// The middle of a shape, and three directions.
-type At<S> = [[S; 3]; 4];
+/// The built-in function of a word.
+pub(super) const fn builtin<S: Scalar, W: Word<S>>() -> Builtin<S>
+where
+    Solid: From<W::Solid>,
+{
+    let (min_args, max_args) = W::DESCRIPTION.counts();
+    Builtin { name: W::DESCRIPTION.name, min_args, max_args, run: |args| made::<S, W>(args, None) }
+}
 
-/// A shape, and where it is.
-fn shape<S: Scalar>(
-    given: &Arguments<'_, S>,
-    result: Result<Shape, GeomError>,
-    at: impl FnOnce() -> Result<At<S>, Fault>,
-) -> Answer<S> {
-    let shape = result.map_err(|error| refused(error).of_call(given.word, given.args))?;
-    // The same arguments have given a shape.
-    S::note(shape.address(), || at().map_or_else(|_| Vec::new(), |at| at.concat()));
+/// The shape of a call; `mesh` is that of a word whose first two arguments were read before.
+pub(super) fn made<S: Scalar, W: Word<S>>(args: &[Value<S>], mesh: Option<&Arc<TriMesh>>) -> Answer<S>
+where
+    Solid: From<W::Solid>,
+{
+    let (word, called) = (W::DESCRIPTION.name, W::read(&Given { word: &W::DESCRIPTION, args, mesh })?);
+    let made =
+        called.solid().and_then(|(solid, placement)| Shape::new(solid.into(), placement, called.look()));
+    let shape = made.map_err(|error| refused(error).of_call(word, args))?;
+    S::note(shape.address(), || called.at().concat());
     Ok(Value::Shape(shape))
-}
-
-/// Between two points, and from the one to the other.
-fn between<S: Scalar>(start: [S; 3], end: [S; 3]) -> At<S> {
-    let (half, zero) = (S::from_f64(0.5), [S::from_f64(0.0); 3]);
-    let along = [0, 1, 2].map(|k| end[k] - start[k]);
-    [[0, 1, 2].map(|k| start[k] + half * along[k]), zero, along, zero]
-}
-
-/// Turned, the directions of the coordinates times `size`.
-fn turned<S: Scalar>(center: [S; 3], rotation: [[S; 3]; 3], size: [S; 3]) -> At<S> {
-    let along = |j: usize| [0, 1, 2].map(|i| rotation[i][j] * size[j]);
-    [center, along(0), along(1), along(2)]
 }
 
 /// The faults of the geometry crate keep their messages. They are about measures and places: the kinds of arguments were
 /// checked before.
 fn refused(error: GeomError) -> Fault {
     Fault::bad_shape(error.message)
-}
-
-/// 0, 1 or 2 for `"x"`, `"y"`, `"z"`.
-fn letter<S: Scalar>(word: &str, value: &Value<S>) -> Result<usize, Fault> {
-    let at = match value {
-        Value::Str(text) => ["x", "y", "z"].iter().position(|letter| *letter == &**text),
-        _ => None,
-    };
-    at.ok_or_else(|| {
-        let shown = crate::value::repr(value).unwrap_or_default();
-        Fault::bad_shape(format!("an axis of `{word}` is {shown}, expected \"x\", \"y\" or \"z\""))
-    })
-}
-
-/// The word `box`.
-pub fn cuboid<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "box", args };
-    let (center, size) = (given.point(0)?, given.measures(1)?);
-    let taper = given.measure_or(3, 1.0)?;
-    let axis = given.given(4).map_or(Ok(2), |arg| letter("box", arg))?;
-    let look = given.look(Some(2), Some(5), 6)?;
-    shape(&given, Shape::tapered_box(center, size, taper, axis, &look), || {
-        Ok(turned(given.triple(0)?, given.turn(2)?, given.triple(1)?))
-    })
-}
-
-/// The word `cylinder`.
-pub fn cylinder<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "cylinder", args };
-    let axis = match given.given(3) {
-        None => Vec3::AXES[1],
-        Some(name @ Value::Str(_)) => Vec3::AXES[letter("cylinder", name)?],
-        Some(direction) => given.read(3, direction, point)?,
-    };
-    let top = given.given(4).map(|arg| given.read(4, arg, measured)).transpose()?;
-    let (radius, length) = (given.measure(1)?, given.measure(2)?);
-    let look = given.look(Some(5), Some(6), 7)?;
-    shape(&given, Shape::cylinder(given.point(0)?, radius, length, axis, top, &look), || {
-        let axis = match given.given(3) {
-            Some(direction) if !matches!(direction, Value::Str(_)) => three("cylinder", direction)?,
-            _ => axis.to_array().map(S::from_f64),
-        };
-        let norm = axis.iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt();
-        let (turn, length) = (given.turn(5)?, given.scalar(2)? / norm);
-        let along = turn.map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * length);
-        let zero = [S::from_f64(0.0); 3];
-        Ok([given.triple(0)?, zero, along, zero])
-    })
-}
-
-/// The word `limb`.
-pub fn limb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "limb", args };
-    let radii = (given.measure(2)?, given.measure(3)?);
-    let normals = (given.direction(4)?, given.direction(5)?);
-    let look = given.look(None, None, 6)?;
-    shape(&given, Shape::limb(given.point(0)?, given.point(1)?, radii, normals, &look), || {
-        Ok(between(given.triple(0)?, given.triple(1)?))
-    })
-}
-
-/// The word `segment`.
-pub fn segment<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "segment", args };
-    let onto = given.given(3).map(|_| {
-        let parts = given.several(3, 4, "a piece of bark (low, low_radius, high, high_radius)")?;
-        let place = |at: usize| given.read(3, &parts[at], point);
-        let radius = |at: usize| given.read(3, &parts[at], measured);
-        Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
-    });
-    let frames = [given.frame(0)?, given.frame(1)?, given.frame(2)?];
-    shape(&given, Shape::segment(frames, onto.transpose()?, &given.look(None, None, 4)?), || {
-        let center = |at: usize| three("segment", &given.several(at, 4, "a frame")?[0]);
-        Ok(between(center(0)?, center(2)?))
-    })
-}
-
-/// The word `stroke`.
-pub fn stroke<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "stroke", args };
-    let width = given.measure(2)?;
-    let widths = (width, given.measure_or(3, width)?);
-    shape(
-        &given,
-        Shape::stroke(given.point(0)?, given.point(1)?, widths, &given.look(None, None, 4)?),
-        || Ok(between(given.triple(0)?, given.triple(1)?)),
-    )
-}
-
-/// The word `ellipse`.
-pub fn ellipse<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "ellipse", args };
-    let (size, angle) = ((given.measure(1)?, given.measure(2)?), given.number_or(3, 0.0)?);
-    shape(&given, Shape::ellipse(given.point(0)?, size, angle, &given.look(None, None, 4)?), || {
-        let angle = given.given(3).map_or(Ok(S::from_f64(0.0)), |arg| real("ellipse", arg))?;
-        let (c, s, zero) = (angle.cos(), angle.sin(), S::from_f64(0.0));
-        let rows = [[c, -s, zero], [s, c, zero], [zero; 3]];
-        Ok(turned(given.triple(0)?, rows, [given.scalar(1)?, given.scalar(2)?, zero]))
-    })
-}
-
-/// The word `disc`.
-pub fn disc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "disc", args };
-    let width = 2.0 * given.measure(1)?;
-    shape(&given, Shape::ellipse(given.point(0)?, (width, width), 0.0, &given.look(None, None, 2)?), || {
-        let (radius, zero) = (given.scalar(1)?, S::from_f64(0.0));
-        let rows = [[radius, zero, zero], [zero, radius, zero], [zero; 3]];
-        Ok(turned(given.triple(0)?, rows, [S::from_f64(1.0); 3]))
-    })
-}
-
-/// The word `mesh`.
-pub fn mesh<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "mesh", args };
-    placed(&kept_mesh(&given, given.needed(0)?, given.needed(1)?)?, args)
-}
-
-/// The word `mesh`, of a mesh that was read before: the first two arguments are not read.
-pub fn placed<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
-    let given = Arguments { word: "mesh", args };
-    let center = given.given(2).map_or(Ok(vec3(0.0, 0.0, 0.0)), |arg| given.read(2, arg, point))?;
-    shape(
-        &given,
-        Shape::mesh(mesh, center, given.measure_or(4, 1.0)?, &given.look(Some(3), None, 5)?),
-        || {
-            let zero = [S::from_f64(0.0); 3];
-            let center = given.given(2).map_or(Ok(zero), |arg| three("mesh", arg))?;
-            let scale = given.given(4).map_or(Ok(S::from_f64(1.0)), |arg| real("mesh", arg))?;
-            Ok(turned(center, given.turn(3)?, [scale; 3]))
-        },
-    )
 }
 
 /// Meshes that a thread keeps, newest last.
@@ -387,7 +197,7 @@ thread_local! {
 }
 
 fn kept_mesh<S: Scalar>(
-    given: &Arguments<'_, S>,
+    given: &Given<'_, S>,
     vertices: &Value<S>,
     faces: &Value<S>,
 ) -> Result<Arc<TriMesh>, Fault> {
@@ -410,11 +220,11 @@ fn kept_mesh<S: Scalar>(
 }
 
 fn read_mesh<S: Scalar>(
-    given: &Arguments<'_, S>,
+    given: &Given<'_, S>,
     vertices: &Value<S>,
     faces: &Value<S>,
 ) -> Result<TriMesh, Fault> {
-    let invalid = |fault: Fault| fault.of_call(given.word, given.args);
+    let invalid = |fault: Fault| fault.of_call(given.word.name, given.args);
     let points = iter_all(vertices)?.iter().map(|v| given.read(0, v, point)).collect::<Result<_, _>>()?;
     let corner = |value: &Value<S>| {
         let n = given.read(1, value, whole)?;
@@ -433,21 +243,10 @@ fn read_mesh<S: Scalar>(
 
 #[cfg(test)]
 mod tests {
-    use super::WORDS;
     use crate::builtins::tests::{V, call, code, reals};
-    use crate::builtins::{builtin, builtin_id};
     use crate::value::Value;
     use niwaki_geom::{Shape, Solid, vec3};
     use std::sync::Arc;
-
-    #[test]
-    fn each_word_is_a_builtin_that_takes_its_parameters() {
-        for (name, parameters) in WORDS {
-            let id =
-                builtin_id(name).unwrap_or_else(|| panic!("`{name}` is missing in the table of builtins"));
-            assert_eq!(builtin::<f64>(id).max_args, parameters.len(), "parameters of `{name}`");
-        }
-    }
 
     fn shape_of(name: &str, args: &[V]) -> Shape {
         match call(name, args) {

@@ -239,31 +239,7 @@ FAULTS = (
         cure="gaussian(0, max(s, 1e-6))",
         about=(
             "In a search such a run has probability zero; it is an error in a single run, and if every run of a search has "
-            "it. These are the ranges; every number is finite.\n\n"
-            "| distribution | parameters |\n| --- | --- |\n"
-            "| `bernoulli` (`flip`) | p from 0 to 1 |\n"
-            "| `categorical` | weights 0 or more, at least one above 0 |\n"
-            "| `discrete_uniform` | integers, lo not above hi |\n"
-            "| `poisson` | rate from 0 to 1e15 |\n"
-            "| `exponential` | rate above 0 |\n"
-            "| `binomial` | n an integer, 0 or more; p from 0 to 1 |\n"
-            "| `geometric` | p above 0, not above 1 |\n"
-            "| `uniform` | lo below hi |\n"
-            "| `gaussian` | sd above 0 |\n"
-            "| `log_normal` | sd above 1e-147, mean at most 1e150 times sd away from 0 |\n"
-            "| `gamma`, `inverse_gamma` | shape and scale above 0 |\n"
-            "| `beta` | a and b above 0 |\n"
-            "| `laplace`, `cauchy` | scale above 0 |\n"
-            "| `student_t` | df and scale above 0 |\n"
-            "| `von_mises` | concentration 0 or more |\n"
-            "| `truncated_gaussian` | sd above 0, lo below hi |\n"
-            "| `dirichlet` | all concentrations above 0, at most 1e300 together |\n"
-            "| `multivariate_gaussian` | covariance symmetric and positive definite, of the size of the mean |\n"
-            "| `diagonal_gaussian` | every sd above 0, as many as means |\n"
-            "| `multinomial` | n an integer, 0 or more; weights as of `categorical` |\n"
-            "| `multivariate_bernoulli` | every p from 0 to 1 |\n"
-            "| `mixture` | weights as of `categorical`, one for each component |\n"
-            "| `delta` | any value |"
+            "it. The table of [choices](../guide/language.md#choices) has the ranges; every number is finite."
         ),
     ),
     Message(
@@ -278,7 +254,7 @@ FAULTS = (
         "not-a-shape",
         "a value that is not a shape is added to the scene",
         "not a shape",
-        help="emit the results of `box`, `cylinder`, `limb`, `segment`, `mesh`, `stroke`, `ellipse` and `disc`, or lists of them",
+        help="emit what `box`, `cylinder` and the other words for shapes give, or lists of it",
         example="emit((0, 0, 0))",
         cure="emit(box((0, 0, 0), (1, 1, 1)))",
     ),

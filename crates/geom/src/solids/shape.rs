@@ -1,14 +1,17 @@
 //! A shape: a solid, its place and its look. It never changes and is shared by counting references.
 //!
-//! Scores use the coarse mesh of its solid (`coarse`), whose hull is computed with the shape, but not held by it
-//! ([`crate::store`]). Pictures make a finer mesh from the same solid.
+//! Scores use the coarse mesh of its solid, whose hull is computed with the shape, but not held by it
+//! ([`crate::store`]). Pictures and files show the fine mesh of the same solid.
 
+use super::measured::{Form, Tone, no_inside};
+use super::{Cuboid, Solid};
 use crate::bounds::Aabb;
-use crate::coarse::{aabb, convex, mesh, no_inside};
 use crate::convex::{Convex, is_aligned};
 use crate::error::{GeomError, bad_shape};
+use crate::fine::FineMesh;
 use crate::look::{Look, Paint};
-use crate::solid::{Placement, Solid};
+use crate::mesh::TriMesh;
+use crate::placement::Placement;
 use crate::store::{self, Number, WorldMesh};
 use crate::vector::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
@@ -113,15 +116,14 @@ impl Shape {
         placement.check()?;
         let paint = Paint::of(look)?;
         let (mut width, mut number) = (f64::INFINITY, Number::NONE);
-        let aabb = match &solid {
-            Solid::Box { .. } => aabb(&solid, &placement)?,
-            Solid::Mesh(_) => {
+        let aabb = match solid.form() {
+            Form::Box | Form::Flat => solid.aabb(&placement)?,
+            Form::Mesh => {
                 number = Number::new();
-                aabb(&solid, &placement)?
+                solid.aabb(&placement)?
             }
-            flat if flat.is_flat() => aabb(flat, &placement)?,
-            solid => {
-                let Some(hull) = convex(solid, &placement) else { return no_inside(solid) };
+            Form::Convex => {
+                let Some(hull) = solid.hull(&placement) else { return no_inside(solid.kind()) };
                 (width, number) = (hull.width(), Number::new());
                 let aabb = Aabb::around(hull.corners().iter().copied());
                 store::keep_hull(&number, Rc::new(hull));
@@ -182,9 +184,14 @@ impl Shape {
         Some(self.0.paint().finish[1]).filter(|share| !share.is_nan())
     }
 
-    /// `box`, `tapered-box`, `cylinder`, `tapered-cylinder`, `limb`, `segment`, `mesh`, `stroke` or `ellipse`.
+    /// The kind of its solid: one of [`super::KINDS`].
     pub fn kind(&self) -> &'static str {
         self.0.solid.kind()
+    }
+
+    /// Its tone where it has no colour.
+    pub fn tone(&self) -> Tone {
+        self.0.solid.tone()
     }
 
     /// Its address in memory: no other shape has it while this one exists.
@@ -216,31 +223,49 @@ impl Shape {
     #[inline]
     pub fn is_aligned_box(&self) -> bool {
         let turned = || self.0.rotation.as_deref().is_some_and(|rotation| !is_aligned(rotation));
-        matches!(self.0.solid, Solid::Box { .. }) && !turned()
+        matches!(self.0.solid, Solid::Box(_)) && !turned()
     }
 
-    /// True for all but a mesh and flat shapes, which are treated as the meshes of their plates.
+    /// True for a box and a convex solid; flat shapes are treated as the meshes of their plates.
     #[inline]
     pub fn is_convex(&self) -> bool {
-        !matches!(self.0.solid, Solid::Mesh(_)) && !self.0.solid.is_flat()
+        matches!(self.0.solid.form(), Form::Box | Form::Convex)
     }
 
-    /// The convex solid; `None` for a mesh and for a flat shape. A segment's is a little larger than it: see [`Convex::pieces`].
+    /// The convex solid; `None` for what has a mesh. A segment's is a little larger than it: see [`Convex::pieces`].
     #[inline]
     pub fn convex(&self) -> Option<Convex<'static>> {
         let Inner { solid, number, .. } = &*self.0;
-        match solid {
-            Solid::Box { size } => Some(Convex::cuboid(*size, &self.placement())),
-            _ if !self.is_convex() => None,
-            _ => store::hull(number, || convex(solid, &self.placement())).map(Convex::Coarse),
+        match (solid, solid.form()) {
+            (Solid::Box(Cuboid { size }), _) => Some(Convex::cuboid(*size, &self.placement())),
+            (_, Form::Convex) => store::hull(number, || solid.hull(&self.placement())).map(Convex::Coarse),
+            _ => None,
         }
     }
 
     /// The coarse mesh as triangles in the world.
     pub fn world_mesh(&self) -> WorldMesh {
         let (Inner { solid, number, .. }, placement) = (&*self.0, self.placement());
-        let compute = || mesh(solid, &placement, self.convex());
+        let compute = || match self.convex() {
+            Some(convex) => TriMesh::new(convex.vertices().to_vec(), convex.topology().triangles.clone()),
+            None => solid.mesh(&placement),
+        };
         store::mesh(number, || compute().expect("the same numbers gave a mesh when the shape was made"))
+    }
+
+    /// The mesh with many sides in the world, for pictures and files: rounded edges, round cylinders, smooth normals (the high
+    /// resolution of chapter 5's figures). Where a flat face meets a round rim they share vertices, because their normals agree
+    /// there.
+    pub fn fine_mesh(&self) -> FineMesh {
+        let bevel = self.bevel().map(|bevel| bevel.clamp(0.0, 1.0));
+        let (mut mesh, placement) = (self.0.solid.fine(bevel).without_unused(), self.placement());
+        for p in &mut mesh.vertices {
+            *p = placement.apply(*p);
+        }
+        for n in &mut mesh.normals {
+            *n = placement.rotation.apply(*n);
+        }
+        mesh
     }
 
     /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
@@ -248,7 +273,7 @@ impl Shape {
         let e = self.0.aabb.extent();
         let boxed = e.x.min(e.y).min(e.z);
         match &self.0.solid {
-            Solid::Box { size } => boxed.min(size.x.min(size.y).min(size.z)),
+            Solid::Box(Cuboid { size }) => boxed.min(size.x.min(size.y).min(size.z)),
             _ => boxed.min(self.0.width),
         }
     }

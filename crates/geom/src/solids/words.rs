@@ -1,19 +1,15 @@
-//! The shape functions of a model: `box`, `cylinder`, `limb`, `segment`, `stroke`, `ellipse` and `mesh`, with centres, axes and defaults.
+//! Shapes made in Rust, by the functions that the words of the language use: `Shape::cuboid`, `Shape::limb`, ...
 
+use super::shape::Shape;
+use super::stroke::Stroke;
+use super::{Cuboid, Solid, cuboid, cylinder, ellipse, limb, mesh};
 use crate::error::GeomError;
 use crate::look::Look;
 use crate::mesh::TriMesh;
-use crate::ring::Ring;
-use crate::shape::Shape;
-use crate::solid::{Placement, Round, Solid};
+use crate::placement::Placement;
 use crate::tube::{Bark, Frame, Tube};
-use crate::vector::{Mat3, Vec3, vec3};
+use crate::vector::{Mat3, Vec3};
 use std::sync::Arc;
-
-/// Default number of sides of a cylinder (dissertation chapter 5's coarse mesh).
-pub const CYLINDER_SIDES: usize = 8;
-/// Default number of sides of a limb.
-pub const LIMB_SIDES: usize = 10;
 
 impl Shape {
     /// A solid around `center`, turned by `laid` to its axis before the look turns it.
@@ -30,7 +26,7 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn cuboid(center: Vec3, size: Vec3, look: &Look) -> Result<Shape, GeomError> {
-        Shape::placed(Solid::Box { size }, center, Mat3::IDENTITY, look)
+        Shape::placed(Cuboid { size }.into(), center, Mat3::IDENTITY, look)
     }
 
     /// A box whose face at the + end of coordinate `axis` (0, 1 or 2) is scaled by `taper` in the other two.
@@ -44,20 +40,8 @@ impl Shape {
         axis: usize,
         look: &Look,
     ) -> Result<Shape, GeomError> {
-        if axis > 2 {
-            return Err(GeomError::new("bad-shape", format!("the taper axis is {axis}, expected 0, 1 or 2")));
-        }
-        if taper == 1.0 {
-            return Shape::cuboid(center, size, look);
-        }
-        // The solid tapers along its own z; the size is meant in the coordinates before `look.rotation`.
-        let laid = Mat3::between(Vec3::AXES[2], Vec3::AXES[axis]);
-        let size = match axis {
-            0 => vec3(size.z, size.y, size.x),
-            1 => vec3(size.x, size.z, size.y),
-            _ => size,
-        };
-        Shape::placed(Solid::TaperedBox { size, taper }, center, laid, look)
+        let (solid, laid) = cuboid::tapered(size, taper, axis)?;
+        Shape::placed(solid.into(), center, laid, look)
     }
 
     /// A cylinder around `center` along `axis` (any length), its `top_radius` at the end that `axis` points to.
@@ -72,14 +56,8 @@ impl Shape {
         top_radius: Option<f64>,
         look: &Look,
     ) -> Result<Shape, GeomError> {
-        let sides = CYLINDER_SIDES;
-        let solid = match top_radius {
-            Some(top_radius) if top_radius != radius => {
-                Solid::TaperedCylinder { radius, top_radius, length, sides }
-            }
-            _ => Solid::Cylinder { radius, length, sides },
-        };
-        Shape::placed(solid, center, Mat3::between(Vec3::AXES[1], direction(axis, "axis")?), look)
+        let (solid, laid) = cylinder::along(radius, length, axis, top_radius)?;
+        Shape::placed(solid.into(), center, laid, look)
     }
 
     /// A bent, tapered segment between two round ends; a normal left out is the direction from start to end.
@@ -93,19 +71,7 @@ impl Shape {
         normals: (Option<Vec3>, Option<Vec3>),
         look: &Look,
     ) -> Result<Shape, GeomError> {
-        for (what, p) in [("start", start), ("end", end)] {
-            if !p.is_finite() {
-                let message = format!("the {what} of a limb is {:?}, expected finite numbers", p.to_array());
-                return Err(GeomError::new("bad-shape", message));
-            }
-        }
-        let same = || format!("the start and the end of a limb are the same point, {:?}", start.to_array());
-        let along = || (end - start).unit().ok_or_else(|| GeomError::new("bad-shape", same()));
-        let normal = |given: Option<Vec3>, what| given.map_or_else(along, |given| direction(given, what));
-        let start = Ring { center: start, normal: normal(normals.0, "start normal")?, radius: radii.0 };
-        let end = Ring { center: end, normal: normal(normals.1, "end normal")?, radius: radii.1 };
-        let solid = Solid::Limb { rings: Box::new([start, end]), sides: LIMB_SIDES };
-        Shape::placed(solid, Vec3::ZERO, Mat3::IDENTITY, look)
+        Shape::placed(limb::bent(start, end, radii, normals)?.into(), Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// A segment of a tree over the frames `[start, split, end]`, its base on `onto` where that is given.
@@ -113,7 +79,7 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn segment(frames: [Frame; 3], onto: Option<Bark>, look: &Look) -> Result<Shape, GeomError> {
-        Shape::placed(Solid::Segment(Tube::new(frames, onto)), Vec3::ZERO, Mat3::IDENTITY, look)
+        Shape::placed(Tube::new(frames, onto).into(), Vec3::ZERO, Mat3::IDENTITY, look)
     }
 
     /// Flat: a straight stroke with round ends, from one width to another; both ends have the same z.
@@ -121,9 +87,7 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn stroke(start: Vec3, end: Vec3, widths: (f64, f64), look: &Look) -> Result<Shape, GeomError> {
-        let round = |center, width| Round { center, radius: 0.5 * width };
-        let solid = Solid::Stroke { ends: Box::new([round(start, widths.0), round(end, widths.1)]) };
-        Shape::new(solid, Placement::IDENTITY, look)
+        Shape::new(Stroke::new(start, end, widths).into(), Placement::IDENTITY, look)
     }
 
     /// Flat: an ellipse of a length and a width, its length turned by `angle` (radians) from +x to +y.
@@ -131,12 +95,8 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`].
     pub fn ellipse(center: Vec3, size: (f64, f64), angle: f64, look: &Look) -> Result<Shape, GeomError> {
-        if !angle.is_finite() {
-            let message = format!("the angle of an ellipse is {angle}, expected a finite number");
-            return Err(GeomError::new("bad-shape", message));
-        }
-        let placement = Placement { rotation: Mat3::rotation(Vec3::AXES[2], angle), translation: center };
-        Shape::new(Solid::Ellipse { size: [size.0, size.1] }, placement, look)
+        let (solid, placement) = ellipse::at_angle(center, size, angle)?;
+        Shape::new(solid.into(), placement, look)
     }
 
     /// A mesh, scaled about its own origin, turned and moved to `center`.
@@ -144,26 +104,15 @@ impl Shape {
     /// # Errors
     /// `bad-shape`, as for [`Shape::new`], and for a scale that is not positive.
     pub fn mesh(mesh: &Arc<TriMesh>, center: Vec3, scale: f64, look: &Look) -> Result<Shape, GeomError> {
-        if !(scale > 0.0 && scale.is_finite()) {
-            return Err(GeomError::new(
-                "bad-shape",
-                format!("the scale is {scale}, expected a positive number"),
-            ));
-        }
-        let mesh = if scale == 1.0 { mesh.clone() } else { Arc::new(mesh.placed(|p| p * scale)) };
-        Shape::placed(Solid::Mesh(mesh), center, Mat3::IDENTITY, look)
+        Shape::placed(mesh::scaled(mesh, scale)?.into(), center, Mat3::IDENTITY, look)
     }
-}
-
-fn direction(v: Vec3, what: &str) -> Result<Vec3, GeomError> {
-    let message = || format!("the {what} is {:?}, expected a direction", v.to_array());
-    v.unit().ok_or_else(|| GeomError::new("bad-shape", message()))
 }
 
 #[cfg(test)]
 mod tests {
     //! Shapes have the place of their arguments, and impossible ones are refused.
     use super::*;
+    use crate::vector::vec3;
 
     const PLAIN: Look = Look { rotation: None, bevel: None, color: None, metalness: None, roughness: None };
 

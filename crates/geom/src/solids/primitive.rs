@@ -1,7 +1,7 @@
 //! A primitive: the shapes of one `emit`. One barrier, one score; its shapes are never tested against each other.
 
 use crate::bounds::Aabb;
-use crate::shape::Shape;
+use crate::solids::shape::Shape;
 use crate::tree::Boxed;
 use std::sync::Arc;
 

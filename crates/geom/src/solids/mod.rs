@@ -1,0 +1,165 @@
+//! The solids, one file for each: its measures, its meshes and its word. [`Solid`] is the table of them.
+//!
+//! To add a solid, write a file like `cylinder.rs` (a type that is [`Measured`], and a [`word::Word`]) and a row below.
+//!
+//! - [`measured`]: what each kind of solid must say of itself
+//! - [`word`]: the words of the language that make solids, as data
+//! - [`shape`], [`words`], [`primitive`]: the placed solids that a model emits
+//! - `plate`: flat shapes as solids
+
+#[macro_use]
+pub mod word;
+
+pub mod cuboid;
+pub mod cylinder;
+pub mod ellipse;
+pub mod limb;
+pub mod measured;
+pub mod mesh;
+mod plate;
+pub mod primitive;
+pub mod segment;
+pub mod shape;
+pub mod stroke;
+#[cfg(test)]
+pub(crate) mod testing;
+pub mod words;
+
+use crate::bounds::Aabb;
+use crate::convex::Coarse;
+use crate::error::GeomError;
+use crate::fine::FineMesh;
+use crate::mesh::TriMesh;
+use crate::placement::Placement;
+use crate::tube::Tube;
+pub use cuboid::{Cuboid, TaperedCuboid};
+pub use cylinder::{Cylinder, TaperedCylinder};
+pub use ellipse::Ellipse;
+pub use limb::Limb;
+pub use measured::{Checks, Form, Measured, Tone};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+pub use stroke::Stroke;
+use word::{Called, Description, Either};
+
+/// Declares [`Solid`] and the list of words. A row is the name of the kind in stored scenes (in snake case), the type of its
+/// measures, and the words that make it, each by its file. Rows are never moved: stored scenes may name a kind by its place.
+macro_rules! solids {
+    ($d:tt $($(#[$doc:meta])* $variant:ident($measures:ty) $([$($file:ident::$word:ident),*])?;)*) => {
+        /// The solid of a shape, centred at the origin (a limb, a segment and a mesh: at their coordinates).
+        #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Solid { $($(#[$doc])* $variant($measures),)* }
+
+        $(impl From<$measures> for Solid {
+            #[inline]
+            fn from(measures: $measures) -> Solid {
+                Solid::$variant(measures)
+            }
+        })*
+
+        /// Every word that makes a solid, in the order of the table.
+        pub const WORDS: &[Description] = &[$($($(<$file::$word<f64> as Called<f64>>::DESCRIPTION),*,)?)*];
+
+        /// Every kind of solid, in the order of the table.
+        pub const KINDS: &[&str] = &[$(<$measures as Measured>::KIND),*];
+
+        impl Solid {
+            /// Its name in messages: one of [`KINDS`].
+            pub fn kind(&self) -> &'static str {
+                match self { $(Solid::$variant(_) => <$measures as Measured>::KIND,)* }
+            }
+
+            /// What its surface is.
+            #[inline]
+            pub fn form(&self) -> Form {
+                match self { $(Solid::$variant(_) => <$measures as Measured>::FORM,)* }
+            }
+
+            /// Its tone where it has no colour.
+            pub fn tone(&self) -> Tone {
+                match self { $(Solid::$variant(_) => <$measures as Measured>::TONE,)* }
+            }
+
+            /// Bytes that it takes beside itself, and of a mesh those of its triangles.
+            pub(crate) fn bytes(&self) -> usize {
+                match self { $(Solid::$variant(solid) => Measured::bytes(solid),)* }
+            }
+
+            /// Refuses measures that no solid has.
+            ///
+            /// # Errors
+            /// `bad-shape` for sizes that are not positive and finite, and for directions that are none.
+            #[inline]
+            pub(crate) fn check(&self) -> Result<(), GeomError> {
+                match self { $(Solid::$variant(solid) => solid.check(Checks::of::<$measures>()),)* }
+            }
+
+            /// [`Measured::hull`].
+            pub(crate) fn hull(&self, placement: &Placement) -> Option<Coarse> {
+                match self { $(Solid::$variant(solid) => solid.hull(placement),)* }
+            }
+
+            /// [`Measured::mesh`].
+            pub(crate) fn mesh(&self, placement: &Placement) -> Result<TriMesh, GeomError> {
+                match self { $(Solid::$variant(solid) => Measured::mesh(solid, placement),)* }
+            }
+
+            /// [`Measured::aabb`].
+            #[inline]
+            pub(crate) fn aabb(&self, placement: &Placement) -> Result<Aabb, GeomError> {
+                match self { $(Solid::$variant(solid) => Measured::aabb(solid, placement),)* }
+            }
+
+            /// [`Measured::fine`].
+            pub(crate) fn fine(&self, bevel: Option<f64>) -> FineMesh {
+                match self { $(Solid::$variant(solid) => solid.fine(bevel),)* }
+            }
+        }
+
+        /// Calls a macro with the words, each as its file and its type, before what else is given.
+        #[macro_export]
+        macro_rules! words_of_solids {
+            ($d then:ident $d($d rest:tt)*) => { $d then! { [$($($($file $word)*)?)*] $d($d rest)* } };
+        }
+    };
+}
+
+solids! {
+    $
+    /// A box.
+    Box(Cuboid) [cuboid::BoxWord];
+    /// A box whose +z face is scaled about its middle.
+    TaperedBox(TaperedCuboid);
+    /// A prism along +y over a regular polygon.
+    Cylinder(Cylinder) [cylinder::CylinderWord];
+    /// A cylinder with two radii.
+    TaperedCylinder(TaperedCylinder);
+    /// Convex hull of two rings: a bent, tapered segment.
+    Limb(Limb) [limb::LimbWord];
+    /// A bent, tapered tube over three rings whose base may lie on a parent's bark: see [`crate::segment`].
+    Segment(Tube) [segment::SegmentWord];
+    /// Any closed mesh.
+    Mesh(Arc<TriMesh>) [mesh::MeshWord];
+    /// Flat: a straight stroke with round ends.
+    Stroke(Stroke) [stroke::StrokeWord];
+    /// Flat: an ellipse on a plane parallel to z = 0.
+    Ellipse(Ellipse) [ellipse::EllipseWord, ellipse::DiscWord];
+}
+
+impl Solid {
+    /// True for what lies on a plane parallel to z = 0; in space it is a thin plate.
+    pub fn is_flat(&self) -> bool {
+        self.form() == Form::Flat
+    }
+}
+
+impl<A: Into<Solid>, B: Into<Solid>> From<Either<A, B>> for Solid {
+    #[inline]
+    fn from(solid: Either<A, B>) -> Solid {
+        match solid {
+            Either::Plain(solid) => solid.into(),
+            Either::Other(solid) => solid.into(),
+        }
+    }
+}

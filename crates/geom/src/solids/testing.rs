@@ -1,0 +1,32 @@
+//! What holds of every solid.
+
+use super::shape::Shape;
+use crate::mesh::TriMesh;
+
+fn volume(mesh: &TriMesh) -> f64 {
+    mesh.corners().map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
+}
+
+/// Both meshes are closed. The fine one has nearly this volume (a share of which is the tolerance), unit normals that agree
+/// with its faces, and no vertex without a face. The coarse one lies in the shape's box, and has an inside.
+pub(crate) fn sound(shape: &Shape, expected: f64, tolerance: f64) {
+    let coarse = shape.world_mesh();
+    assert_eq!(coarse.open_edges(), 0, "{}", shape.kind());
+    assert!(volume(&coarse) > 0.0 && shape.aabb().grown(1e-9).contains(&coarse.aabb()), "{}", shape.kind());
+
+    let fine = shape.fine_mesh();
+    let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();
+    assert_eq!(mesh.open_edges(), 0, "{}", shape.kind());
+    let found = volume(&mesh);
+    assert!((found / expected - 1.0).abs() < tolerance, "{}: {found} for {expected}", shape.kind());
+    let used: std::collections::HashSet<u32> = fine.faces.iter().flatten().copied().collect();
+    assert_eq!(used.len(), fine.vertices.len(), "{}", shape.kind());
+    for face in &fine.faces {
+        let [a, b, c] = face.map(|i| fine.vertices[i as usize]);
+        let across = (b - a).cross(c - a);
+        for &i in face {
+            assert!((fine.normals[i as usize].norm() - 1.0).abs() < 1e-9);
+            assert!(fine.normals[i as usize].dot(across) > -1e-9, "{}", shape.kind());
+        }
+    }
+}

@@ -1,0 +1,11 @@
+"""What follows from the engine's table of solids is written in the package and in the manual."""
+
+import pytest
+import words
+
+TEXTS = words.texts()
+
+
+@pytest.mark.parametrize("file", TEXTS)
+def test_what_follows_from_the_engine_is_written(file: str) -> None:
+    assert (words.ROOT / file).read_text(encoding="utf-8") == TEXTS[file], "run python tests/house/words.py"
