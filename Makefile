@@ -39,6 +39,8 @@
 #   make package  both, and their tests: empty environments without a toolchain, one for each Python of the machine
 #                 (PYTHONS="/path/to/python3.12 ...": those), and a wheel from the sdist (15 minutes)
 #   make licences write THIRD-PARTY again, after a change of Cargo.lock; `make lint` compares it
+#   make words    Python's words for shapes and distributions, and what the manual has of them, from the engine's tables; a test
+#                 compares them
 #   make imports  circles of imports, and the map docs/ideas/imports.md again; a test compares it
 #   make docs     the manual, into docs/_build/html, and the engine's pages, into target/doc; runs every snippet of the
 #                 manual first (ONLY="files chains": those pages; minutes)
@@ -73,7 +75,7 @@ PYTHONS :=
 MINUTES := 10
 JOBS := 1
 
-.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports
+.PHONY: all demo guides test test-binaries lint-rust lint-python studio-page test-studio studio-pictures blender test-blender blender-pictures lint counts recorded bench bench-c3 bench-hmc bench-vi bench-wait bench-sketches bench-drag bench-searches bench-batch figures-sosmc figures-hmc figures-guides soak cluster fuzz sanitize mutants wheel sdist package licences docs format locks clean imports words
 all: $(STAMPS)/engine
 
 # ---- set-up: one stamp for each thing that is made, older than what depends on it
@@ -257,6 +259,9 @@ package: $(STAMPS)/engine $(STAMPS)/test wheel sdist
 
 licences: $(STAMPS)/venv
 	$(PY) tests/house/licences.py --write
+
+words: $(STAMPS)/engine
+	$(PY) tests/house/words.py
 
 imports: $(STAMPS)/venv
 	$(PY) tests/house/imports.py --write

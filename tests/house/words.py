@@ -1,6 +1,6 @@
 """Writes what follows from the engine's tables of solids and of families; a test compares it.
 
-`python tests/house/words.py`: the words for shapes, the classes of distributions and the words that draw from them in
+`make words`: the words for shapes, the classes of distributions and the words that draw from them in
 Python, with their docstrings; what the manual has of them; and their names in the package's stub.
 """
 
