@@ -1,12 +1,13 @@
 """What is asked, as values that a worker process is sent.
 
-All points are Blender's, with z up. A model grows from its origin; `Ask.origin` is where that is in Blender.
+Points of meshes and eyes are Blender's, with z up. A model grows from its origin; `Order.origin` is where that is in
+Blender. What a search is asked is in scene units from there, by the options of `niwaki.targets.asks`.
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -83,63 +84,20 @@ class Eye:
         )
 
 
-@dataclass(frozen=True)
-class Ask:
-    """What a result should be like.
+def direction(way: Triple) -> Triple:
+    """A direction of Blender in a scene."""
+    x, y, z = axes.to_scene(way).tolist()
+    return x, y, z
 
-    Attributes
-    ----------
-    origin
-        Where the model's origin stands.
-    target
-        What to fill.
-    obstacles
-        What nothing comes near.
-    floor
-        The height below which nothing reaches.
-    silhouette, camera
-        What the result looks like, (rows, columns), to a camera.
-    shadow, light, receiver
-        What shadow the result casts, (rows, columns), in which direction the light travels, and on what; it is seen
-        by the camera, or along the light where there is none.
-    """
 
-    origin: Triple = (0.0, 0.0, 0.0)
-    target: Mesh | None = None
-    obstacles: Sequence[Mesh] = ()
-    floor: float | None = None
-    silhouette: NDArray[np.bool_] | None = None
-    camera: Eye | None = None
-    shadow: NDArray[np.bool_] | None = None
-    light: Triple | None = None
-    receiver: Mesh | None = None
-
-    def score(self) -> nw.Score:
-        """The sketches beside the target.
-
-        Raises
-        ------
-        ValueError
-            A picture comes without its camera, or without its light.
-        niwaki.errors.NiwakiError
-            A mesh or a picture cannot be used.
-        """
-        score = nw.Score()
-        if self.floor is not None:
-            score *= nw.floor(self.floor - self.origin[2])
-        for obstacle in self.obstacles:
-            score *= nw.avoid(obstacle.target(self.origin))
-        if self.silhouette is not None:
-            if self.camera is None:
-                raise ValueError("The silhouette has no camera: choose the one that sees it")
-            score *= nw.match_image(self.silhouette, self.camera.camera(self.origin))
-        if self.shadow is not None:
-            if self.light is None or self.receiver is None:
-                raise ValueError("The shadow needs a light, and a mesh that it falls on: choose both")
-            light = tuple(axes.to_scene(self.light).tolist())
-            seen_by = None if self.camera is None else self.camera.camera(self.origin)
-            score *= nw.match_shadow(self.shadow, light, self.receiver.receiver(self.origin), seen_by)
-        return score
+#: What a picture is nothing without, in the panel's words.
+NEEDED = {
+    "match_image": ({"camera"}, "The silhouette has no camera: choose the one that sees it"),
+    "match_shadow": (
+        {"light", "receiver"},
+        "The shadow needs a light, and a mesh that it falls on: choose both",
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -150,6 +108,10 @@ class Order:
     ----------
     model
         A name of the gallery, or `file.py:function`.
+    asked
+        What the result should be like: options of `niwaki.targets.asks`, in scene units from the origin.
+    origin
+        Where the model's origin stands.
     effort
         Rounds of the search, in its usual number.
     count
@@ -157,24 +119,30 @@ class Order:
     """
 
     model: str
-    ask: Ask = Ask()
+    asked: Mapping[str, Any] = field(default_factory=dict)
+    origin: Triple = (0.0, 0.0, 0.0)
     arguments: dict[str, Any] = field(default_factory=dict)
     count: int = 1
     effort: float = 1.0
     seed: int = 1
 
     def job(self) -> GrowValues:
-        """The worker's job; errors as of `Ask.score`."""
+        """The worker's job.
+
+        Raises
+        ------
+        ValueError
+            A picture comes without its camera, or without its light.
+        """
+        for picture, (others, text) in NEEDED.items():
+            if picture in self.asked and not others <= self.asked.keys():
+                raise ValueError(text)
         write = Writer("inside")
-        target = None if self.ask.target is None else write(self.ask.target.target(self.ask.origin))
-        settings = Settings(count=self.count, effort=self.effort)
-        score = self.ask.score().data(write)
         return GrowValues(
             model=self.model,
             arguments=self.arguments,
-            target=target,
-            score=score,
-            settings=settings,
+            asked={name: write(value) for name, value in self.asked.items()},
+            settings=Settings(count=self.count, effort=self.effort),
             run=0,
             seed=self.seed,
             file="",

@@ -143,7 +143,7 @@ class NIWAKI_OT_grow(_Grows, bpy.types.Operator):
         """Start the search of the panel."""
         settings = context.scene.niwaki_settings
         order = settings.order(context, self.count)
-        self._origin = order.ask.origin
+        self._origin = order.origin
         return growing.Growing(order.job(), naming.words())
 
     def place(self) -> Sequence[float]:

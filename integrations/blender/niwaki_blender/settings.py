@@ -15,7 +15,7 @@ from bpy.props import (
 )
 
 from . import naming, reading
-from .asking import Ask, Order
+from .asking import Order, Triple, direction
 
 
 @cache
@@ -119,32 +119,35 @@ class Settings(bpy.types.PropertyGroup):
             raise ValueError(f"The arguments are no JSON: {error}") from None
         if not isinstance(arguments, dict):
             raise ValueError('The arguments are no table: write {"name": value}')
-        return Order(reference, self._ask(context), arguments, count or self.count, self.effort, self.seed)
+        origin = (0.0, 0.0, 0.0) if self.target is None else tuple(self.target.matrix_world.translation)
+        asked = self._asked(context, origin)
+        return Order(reference, asked, origin, arguments, count or self.count, self.effort, self.seed)
 
-    def _ask(self, context: bpy.types.Context) -> Ask:
+    def _asked(self, context: bpy.types.Context, origin: Triple) -> dict[str, Any]:
+        """Options of `niwaki.targets.asks`, in scene units from an origin."""
         found: dict[str, Any] = {}
         if self.target is not None:
-            found["target"] = reading.mesh(self.target, context)
-            found["origin"] = tuple(self.target.matrix_world.translation)
+            found["target"] = reading.mesh(self.target, context).target(origin)
         if self.obstacles is not None:
             things = [one for one in self.obstacles.all_objects if one.type == "MESH" and one != self.target]
-            found["obstacles"] = [reading.mesh(one, context) for one in things]
+            found["avoid"] = [reading.mesh(one, context).target(origin) for one in things]
         if self.use_floor:
-            found["floor"] = self.floor
-        if self.camera is not None:
-            found["camera"] = reading.eye(self.camera, context.scene)
+            found["floor"] = self.floor - origin[2]
         if self.silhouette is not None:
-            reading.check_shape(self.silhouette, context.scene)
-            found["silhouette"] = reading.mask(self.silhouette)
+            found["match_image"] = reading.mask(self.silhouette)
         if self.shadow is not None:
-            if self.camera is not None:
-                reading.check_shape(self.shadow, context.scene)
-            found["shadow"] = reading.mask(self.shadow)
+            found["match_shadow"] = reading.mask(self.shadow)
             if self.light is not None:
-                found["light"] = reading.light(self.light)
+                found["light"] = direction(reading.light(self.light))
             if self.receiver is not None:
-                found["receiver"] = reading.mesh(self.receiver, context)
-        return Ask(**found)
+                found["receiver"] = reading.mesh(self.receiver, context).receiver(origin)
+        if self.camera is not None:
+            pictures = [one for one in (self.silhouette, self.shadow) if one is not None]
+            for one in pictures:
+                reading.check_shape(one, context.scene)
+            if pictures:
+                found["camera"] = reading.eye(self.camera, context.scene).camera(origin)
+        return found
 
 
 def register() -> None:

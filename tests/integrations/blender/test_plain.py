@@ -49,7 +49,7 @@ def grown(job: object, words: tuple[str, ...] = ()) -> growing.Growing:
 
 
 def ship(**settings: object) -> growing.Growing:
-    order = asking.Order("spaceship", asking.Ask(target=BLOCK), effort=0.2, **settings)
+    order = asking.Order("spaceship", {"target": BLOCK.target()}, effort=0.2, **settings)
     one = grown(order.job())
     assert one.grown is not None, one.problem
     return one
@@ -83,7 +83,10 @@ def test_an_order_is_the_search_that_python_makes() -> None:
     wall = asking.Mesh("wall", CORNERS + (0.0, 0.0, 5.0), FACES)
     one = grown(
         asking.Order(
-            "spaceship", asking.Ask(target=BLOCK, obstacles=[wall], floor=-3.0), effort=0.2, seed=4
+            "spaceship",
+            {"target": BLOCK.target(), "avoid": [wall.target()], "floor": -3.0},
+            effort=0.2,
+            seed=4,
         ).job()
     )
     assert one.grown is not None, one.problem
@@ -99,6 +102,31 @@ def test_an_order_is_the_search_that_python_makes() -> None:
     )
     one.clear()
     assert not one.grown.files[0].exists()
+
+
+def test_a_floor_alone_is_asked_beside_what_is_usual_for_the_model(tmp_path: Path) -> None:
+    one = grown(asking.Order("spaceship", {"floor": -3.0}, effort=0.1).job())
+    assert one.grown is not None, one.problem
+    found = Search.of_data(json.loads(one.grown.run)["search"])
+    assert [ask.function for ask in found.score.asks] == ["no_self_intersection", "floor", "match_volume"]
+    # A file says nothing of what is usual.
+    file = tmp_path / "towers.py"
+    file.write_text(MODEL.format(mark=str(tmp_path / "mark")))
+    naming.name(file)
+    assert grown(asking.Order(str(file), {"floor": -3.0}).job(), naming.words()).code == "no-target"
+
+
+def test_a_shadow_is_cast_along_blender_s_light() -> None:
+    asked = {
+        "match_shadow": np.eye(8, dtype=bool),
+        "light": asking.direction((0.25, 0.5, -1.0)),
+        "receiver": BLOCK.receiver((0.0, 0.0, 9.0)),
+    }
+    one = grown(asking.Order("spaceship", asked, effort=0.1).job())
+    assert one.grown is not None, one.problem
+    (view,) = Search.of_data(json.loads(one.grown.run)["search"]).score.views
+    assert view.kind == "shadow" and view.light == (0.25, -1.0, -0.5)
+    assert view.receiver.bounds.tolist() == [[-1, -9, -4], [1, -7, 4]]
 
 
 def test_a_stored_search_gives_the_same_bits() -> None:
@@ -145,7 +173,7 @@ def test_a_cancelled_search_keeps_the_best_until_then() -> None:
 def test_a_file_is_run_only_where_a_person_named_it(tmp_path: Path) -> None:
     file, mark = tmp_path / "towers.py", tmp_path / "mark"
     file.write_text(MODEL.format(mark=str(mark)))
-    order = asking.Order(str(file), asking.Ask(target=BLOCK), effort=0.1)
+    order = asking.Order(str(file), {"target": BLOCK.target()}, effort=0.1)
     with pytest.raises(naming.Unnamed):
         naming.check(file)
     refused = grown(order.job(), naming.words())
@@ -170,12 +198,12 @@ def test_a_file_is_run_only_where_a_person_named_it(tmp_path: Path) -> None:
 
 def test_what_is_missing_is_said() -> None:
     with pytest.raises(ValueError, match="no camera"):
-        asking.Ask(silhouette=np.ones((4, 4), dtype=bool)).score()
+        asking.Order("spaceship", {"match_image": np.ones((4, 4), dtype=bool)}).job()
     with pytest.raises(ValueError, match="a light"):
-        asking.Ask(shadow=np.ones((4, 4), dtype=bool)).score()
+        asking.Order("spaceship", {"match_shadow": np.ones((4, 4), dtype=bool)}).job()
     flat = asking.Mesh("flat", CORNERS * (1, 1, 0), FACES)
     with pytest.raises(nw.errors.NiwakiError, match="flat"):
-        asking.Order("spaceship", asking.Ask(target=flat)).job()
+        flat.target()
     assert grown(asking.Order("spacesip").job()).problem.count("spaceship")
 
 

@@ -4,25 +4,20 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from msgspec import UNSET, Meta, Struct, UnsetType, field
+from msgspec import UNSET, Meta, Struct, UnsetType, defstruct, field
+from msgspec.structs import fields
 
 from niwaki.studio.messages.document import (
     Address,
     Addresses,
+    Ask,
     Color,
     Count,
-    Effort,
     Key,
-    Length,
-    Light,
     Number,
-    Obstacles,
     Point,
-    RulesAsk,
-    Seed,
-    Sketch,
+    Settings,
     Strength,
-    TargetAsk,
     Text,
 )
 
@@ -47,15 +42,14 @@ class ChooseModel(Command, tag="model"):
     reference: Text
 
 
-class AskChange(Struct, frozen=True, forbid_unknown_fields=True):
-    """Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target."""
+def _changes(kind: type[Struct]) -> type[Struct]:
+    """The fields of a part of the document, each of which may be left out."""
+    members = [(one.name, one.type | UnsetType, UNSET) for one in fields(kind)]
+    return defstruct(f"{kind.__name__}Fields", members, frozen=True, forbid_unknown_fields=True)
 
-    target: TargetAsk | None | UnsetType = UNSET
-    sketch: Sketch | None | UnsetType = UNSET
-    floor: Length | None | UnsetType = UNSET
-    obstacles: Obstacles | UnsetType = UNSET
-    light: Light | UnsetType = UNSET
-    rules: RulesAsk | None | UnsetType = UNSET
+
+class AskChange(_changes(Ask)):  # type: ignore[misc]
+    """Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target."""
 
 
 class SetAsk(Command, tag="ask"):
@@ -64,13 +58,8 @@ class SetAsk(Command, tag="ask"):
     ask: AskChange
 
 
-class SettingsChange(Struct, frozen=True, forbid_unknown_fields=True):
+class SettingsChange(_changes(Settings)):  # type: ignore[misc]
     """Other values of some fields of `Settings`."""
-
-    count: Count | UnsetType = UNSET
-    seed: Seed | None | UnsetType = UNSET
-    effort: Effort | UnsetType = UNSET
-    strength: Strength | UnsetType = UNSET
 
 
 class Set(Command, tag="set"):

@@ -62,14 +62,14 @@ class GrowValues(Job, tag="grow-values"):
 
     Attributes
     ----------
-    target, score
-        As `niwaki.search.data.Writer` and `Score.data` write them; with neither, what is usual for the gallery's model.
+    asked
+        Options of `niwaki.targets.asks` by name, as `niwaki.search.data.Writer` writes them; where they match nothing,
+        what is usual for the gallery's model as well.
     """
 
     model: str
     arguments: dict[str, Any]
-    target: dict[str, Any] | None
-    score: list[Any]
+    asked: dict[str, Any]
     settings: Settings
     run: int
     seed: int

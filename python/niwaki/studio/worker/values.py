@@ -1,6 +1,6 @@
 """Searches that another program asks for by values, and stored ones that are carried out again.
 
-A program with meshes of its own sends a target and a score as plain data. What comes back is a run.json, which has the
+A program with meshes of its own sends what it asks as plain data. What comes back is a run.json, which has the
 whole search: the same program keeps it, and sends it again for the same results, or for others with held choices.
 """
 
@@ -23,15 +23,11 @@ from niwaki.studio.worker import allowed, jobs, models, runs
 
 def grow(job: GrowValues, send: Any, check: Callable[[], None]) -> Answer:
     """Search for results that differ."""
-    found, read = models.reference(job.model), Reader()
-    target = None if job.target is None else read(job.target)
-    score = nw.Score.of_data(job.score, read)
-    if target is None and not job.score:
-        score = targets.asks.score(found.asked({}))
+    found = models.reference(job.model)
+    asked = found.asked(Reader().table(job.asked))
     result = nw.grow(
         found.model,
-        target,
-        score=score,
+        score=targets.asks.score(asked),
         rounds=max(1, round(jobs.ROUNDS * job.settings.effort)),
         diverse=job.settings.count if job.settings.count > 1 else None,
         seed=job.seed,
