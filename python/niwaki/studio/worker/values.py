@@ -1,7 +1,7 @@
 """Searches that another program asks for by values, and stored ones that are carried out again.
 
-A program with meshes of its own sends what it asks as plain data. What comes back is a run.json, which has the
-whole search: the same program keeps it, and sends it again for the same results, or for others with held choices.
+A program with meshes of its own sends what it asks as plain data. What comes back is a run.json, which has the whole
+search: the same program keeps it, and sends it again for the same results, or for others with held choices.
 """
 
 from __future__ import annotations
