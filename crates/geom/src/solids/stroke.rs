@@ -9,7 +9,7 @@ use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
-use crate::vector::{Vec3, vec3};
+use crate::vector::{Mat3, Vec3, vec3};
 use niwaki_math::Scalar;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -94,6 +94,14 @@ impl Measured for Stroke {
             ));
         }
         Ok(boxed)
+    }
+
+    /// Its start; x towards its end, by a turn about z.
+    fn frame(&self, placement: &Placement) -> Placement {
+        let [start, end] = self.ends.each_ref().map(|end| end.center);
+        let x = vec3(end.x - start.x, end.y - start.y, 0.0).unit().unwrap_or(vec3(1.0, 0.0, 0.0));
+        let rotation = Mat3 { columns: [x, vec3(-x.y, x.x, 0.0), vec3(0.0, 0.0, 1.0)] };
+        placement.after(&Placement { rotation, translation: start })
     }
 
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
