@@ -99,8 +99,15 @@ impl Measured for Stroke {
     /// Its start; x towards its end, by a turn about z.
     fn frame(&self, placement: &Placement) -> Placement {
         let [start, end] = self.ends.each_ref().map(|end| end.center);
-        let x = vec3(end.x - start.x, end.y - start.y, 0.0).unit().unwrap_or(vec3(1.0, 0.0, 0.0));
-        let rotation = Mat3 { columns: [x, vec3(-x.y, x.x, 0.0), vec3(0.0, 0.0, 1.0)] };
+        let along = end - start;
+        // In two steps: files keep all digits of a turn, and the first may vanish for a tiny stroke.
+        let near = match along.y.mul_add(along.y, along.x * along.x).sqrt() {
+            0.0 => along,
+            length => along / length,
+        };
+        let length = near.x.hypot(near.y);
+        let (x, y) = if length > 0.0 { (near.x / length, near.y / length) } else { (1.0, 0.0) };
+        let rotation = Mat3 { columns: [vec3(x, y, 0.0), vec3(-y, x, 0.0), vec3(0.0, 0.0, 1.0)] };
         placement.after(&Placement { rotation, translation: start })
     }
 
