@@ -106,13 +106,12 @@ def embree(place: Path) -> float | None:
     best = run_files.replayed(run_files.load(place), path=place)
     if best.search.score.window is not None:
         return None
-    meshes = [(vertices, faces) for vertices, faces, *_ in surfaces(best.scene)]
-    clouds = [vertices for vertices, _ in meshes] + ([best.target.vertices] if best.target else [])
-    eye, middle, up, fov = _engine.frame_camera(np.concatenate(clouds), aspect=SIZE[0] / SIZE[1])
+    points = best.target.vertices if best.target else None
+    eye, middle, up, fov = _engine.frame_camera(surfaces(best.scene), points, aspect=SIZE[0] / SIZE[1])
     origins, directions = rays(np.asarray(eye), np.asarray(middle), np.asarray(up), fov)
     began = time.perf_counter()
     scene = EmbreeScene()
-    for vertices, faces in meshes:
+    for vertices, faces, *_ in _engine.meshes([[one] for part in best.scene.parts for one in part.shapes]):
         TriangleMesh(scene, np.ascontiguousarray(vertices[faces], dtype=np.float32))
     for _ in range(SAMPLES):
         hit = scene.run(origins, directions)

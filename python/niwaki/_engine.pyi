@@ -15,6 +15,7 @@ __all__ = [
     "Density",
     "Drawing",
     "EngineFault",
+    "FAR",
     "FAMILIES",
     "Guide",
     "Lessons",
@@ -30,6 +31,7 @@ __all__ = [
     "Site",
     "Sketch",
     "SketchSpec",
+    "Surfaces",
     "Target",
     "Task",
     "Trace",
@@ -42,7 +44,6 @@ __all__ = [
     "draw_at",
     "enumerate_support",
     "explain",
-    "fine_mesh",
     "fingerprint",
     "frame_camera",
     "guide_net",
@@ -51,6 +52,7 @@ __all__ = [
     "log_density",
     "machine",
     "matches",
+    "meshes",
     "nearest",
     "population",
     "raise_bound",
@@ -63,6 +65,9 @@ __all__ = [
 ]
 
 __version__: str
+
+#: The distance from the origin at which a box is far, in its longest sides.
+FAR: float
 
 #: The families: class, what it is, parameters as for words, where its values lie, what a draw is, ranges of parameters.
 FAMILIES: dict[str, tuple[str, str, list[tuple[str, str, str | None, str]], str, str, str]]
@@ -78,7 +83,13 @@ _Corner = tuple[float, float, float]
 _Lens = tuple[_Triple, _Triple, _Triple, bool, float, float]
 _Eye = tuple[_Corner, _Corner, _Corner, float]
 _Surface = tuple[float, float, float, float]
-_Mesh = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64] | None, _Corner, _Surface]
+#: Vertices, faces, normals; the origin and the axes of the frame.
+_Mesh = tuple[
+    NDArray[np.float64],
+    NDArray[np.uint32],
+    NDArray[np.float64],
+    tuple[NDArray[np.float64], NDArray[np.float64]],
+]
 
 @final
 class Shape:
@@ -167,9 +178,15 @@ class Drawing:
     def size(self) -> tuple[int, int]: ...
     def mask(self, shapes: Sequence[Shape]) -> NDArray[np.bool_]: ...
 
+@final
+class Surfaces:
+    def __new__(cls, painted: Sequence[tuple[Shape, _Corner, _Surface]]) -> Surfaces: ...
+    @property
+    def triangles(self) -> int: ...
+
 def render(
-    meshes: Sequence[_Mesh],
-    ghost: _Mesh | None = None,
+    surfaces: Surfaces,
+    ghost: Surfaces | None = None,
     *,
     camera: _Eye | None = None,
     width: int = 640,
@@ -180,7 +197,8 @@ def render(
     ghost_color: _Corner | None = None,
 ) -> NDArray[np.uint8]: ...
 def frame_camera(
-    points: NDArray[np.float64],
+    surfaces: Surfaces,
+    points: NDArray[np.float64] | None = None,
     *,
     azimuth: float | None = None,
     elevation: float | None = None,
@@ -189,7 +207,7 @@ def frame_camera(
     aspect: float = ...,
 ) -> _Eye: ...
 def shape(word: str, /, *args: Any, **named: Any) -> Shape: ...
-def fine_mesh(shape: Shape) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]: ...
+def meshes(groups: Sequence[Sequence[Shape]], *, fine: bool = True) -> list[_Mesh]: ...
 
 class BadParameter(ValueError):
     family: str

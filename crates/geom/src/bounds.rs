@@ -2,6 +2,9 @@
 
 use crate::vector::{Vec3, vec3};
 
+/// The distance from the origin at which a box is far, in its longest sides: 32 bits keep 170,000 steps of it there.
+pub const FAR: f64 = 100.0;
+
 /// A closed box along the axes. The empty box has `low` above `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
@@ -61,6 +64,13 @@ impl Aabb {
     /// The middle.
     pub fn center(&self) -> Vec3 {
         (self.low + self.high) * 0.5
+    }
+
+    /// Whether it is [`FAR`] from the origin.
+    pub fn is_far(&self) -> bool {
+        let most = |v: Vec3| v.x.max(v.y).max(v.z);
+        let longest = most(self.extent());
+        longest > 0.0 && most(self.high.max(self.low * -1.0)) / longest > FAR
     }
 
     /// True when there is no point inside.

@@ -43,7 +43,7 @@ pub mod view;
 pub mod voxel;
 pub mod window;
 
-pub use bounds::Aabb;
+pub use bounds::{Aabb, FAR};
 pub use bricks::Target;
 pub use convex::{Coarse, Convex};
 pub use error::GeomError;

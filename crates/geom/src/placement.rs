@@ -35,4 +35,12 @@ impl Placement {
     pub fn apply(&self, p: Vec3) -> Vec3 {
         self.rotation.apply(p) + self.translation
     }
+
+    /// What is placed by `inner` first, and by this one then.
+    pub fn after(&self, inner: &Placement) -> Placement {
+        Placement {
+            rotation: self.rotation.after(&inner.rotation),
+            translation: self.apply(inner.translation),
+        }
+    }
 }

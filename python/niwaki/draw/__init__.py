@@ -15,7 +15,6 @@ parts.py        the meshes of its parts, by their paints
 instances.py    which parts are one mesh in several places
 glb.py          GLB: a node for each part
 hierarchy.py    the nodes above the parts: the calls of the model
-pivots.py       the frames of shapes: where a node turns
 mesh_files.py   OBJ and PLY: plain meshes
 solid.py        the union as one solid, for printing
 print_files.py  the solid as STL and 3MF

@@ -103,14 +103,9 @@ class Assembly:
         vertices : (n, 3) float64
         faces : (m, 3) int64
         """
-        vertices, faces, count = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)], 0
-        for part in self.parts:
-            for shape in part.shapes:
-                v, f = _engine.fine_mesh(shape)[:2] if fine else (shape.vertices(), shape.faces())
-                vertices.append(v)
-                faces.append(f + count)
-                count += len(v)
-        return np.concatenate(vertices), np.concatenate(faces)
+        shapes = [shape for part in self.parts for shape in part.shapes]
+        ((vertices, faces, _, _),) = _engine.meshes([shapes], fine=fine)
+        return vertices, faces.astype(np.int64)
 
 
 def _natural(address: str) -> tuple[tuple[str, int], ...]:

@@ -9,11 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from niwaki._engine import FAR
 from niwaki.draw.assembly import Assembly
 from niwaki.errors.warned import warn
-
-#: The distance from the origin at which a scene is far, in longest sides of it: 32 bits keep 170,000 steps of it there.
-FAR = 100.0
 
 
 class FarSceneWarning(UserWarning):

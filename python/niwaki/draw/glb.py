@@ -5,8 +5,8 @@ container, 3.6 for buffers, 3.5.3 for nodes). The node of a part carries its add
 run is an extra of the node of its call. Parts of equal geometry (`niwaki.draw.instances`) share its buffers; where
 their paints are equal too they share the whole mesh, so that a modelling program opens them as linked copies.
 
-Lengths are metres, y is up, as glTF requires. A part's node has the part's own frame (`niwaki.draw.pivots`): its first
-shape's. The node of a call stands where its first part stands, with the scene's axes. A scene far from the origin
+Lengths are metres, y is up, as glTF requires. A part's node has the part's own frame (`niwaki.draw.parts.Pivot`): its
+first shape's. The node of a call stands where its first part stands, with the scene's axes. A scene far from the origin
 (`niwaki.draw.far`) is below one node more, `origin`, which has the offset.
 """
 

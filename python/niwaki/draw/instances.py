@@ -24,7 +24,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from niwaki.draw.parts import PartMesh
-from niwaki.draw.pivots import Pivot, pivot
 
 #: Largest distance between vertices that count as one, as a share of the part's extent.
 TOLERANCE = 1e-6
@@ -61,21 +60,18 @@ class Geometry:
     Attributes
     ----------
     part
-        The first part that has it.
-    pivot
-        That part's own frame, which is the frame of the geometry's own coordinates.
+        The first part that has it; its frame is that of the geometry's own coordinates.
     """
 
     part: PartMesh
-    pivot: Pivot
 
     def local(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points of the scene in the geometry's own coordinates, (n, 3)."""
-        return self.local_directions(points - self.pivot.origin)
+        return self.local_directions(points - self.part.pivot.origin)
 
     def local_directions(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
         """Directions of the scene in the geometry's own coordinates, (n, 3)."""
-        found: NDArray[np.float64] = directions @ self.pivot.axes
+        found: NDArray[np.float64] = directions @ self.part.pivot.axes
         return found
 
 
@@ -107,13 +103,13 @@ def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]
                     break
         if found is None:
             number = len(geometries)
-            geometries.append(Geometry(part, pivot(part.first)))
+            geometries.append(Geometry(part))
             clouds.append(cloud)
             bucket.numbers.append(number)
             bucket.measures.append(measure)
             found = 1.0, np.eye(3), np.zeros(3)
         scale, rotation, shift = found
-        own = geometries[number].pivot
+        own = geometries[number].part.pivot
         placed.append(Instance(number, scale, rotation @ own.axes, shift + scale * rotation @ own.origin))
     return geometries, placed
 
@@ -159,7 +155,7 @@ def _triangles(part: PartMesh) -> bytes:
     digest = hashlib.sha256()
     for piece in part.pieces:
         digest.update(f"{len(piece.vertices)} {len(piece.faces)};".encode())
-        digest.update(np.ascontiguousarray(piece.faces, dtype="<i8").tobytes())
+        digest.update(piece.faces.tobytes())
     return digest.digest()
 
 

@@ -7,7 +7,7 @@ to see), so that a file has a few dozen materials and not one for each part; col
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,21 @@ from niwaki.draw.palette import Paint, paints
 TONE_STEP = 1 / 32
 
 
+class Pivot(NamedTuple):
+    """The frame of a shape in the scene: where it is, and the axes about which a person would turn it.
+
+    Attributes
+    ----------
+    origin : (3,) float64
+        Scene units.
+    axes : (3, 3) float64
+        Unit directions x, y and z as columns, right-handed.
+    """
+
+    origin: NDArray[np.float64]
+    axes: NDArray[np.float64]
+
+
 @dataclass(frozen=True)
 class Piece:
     """The shapes of one paint in a part, merged.
@@ -32,50 +47,44 @@ class Piece:
         How it looks.
     vertices, normals : (n, 3) float64
         Scene units; unit length.
-    faces : (m, 3) int64
+    faces : (m, 3) uint32
         Counter-clockwise seen from outside.
     """
 
     paint: Paint
     vertices: NDArray[np.float64]
     normals: NDArray[np.float64]
-    faces: NDArray[np.int64]
+    faces: NDArray[np.uint32]
 
 
 @dataclass(frozen=True)
 class PartMesh:
-    """A part's address, its pieces, and its first shape, whose frame is the part's own."""
+    """A part's address, its pieces, and its own frame, which is that of its first shape."""
 
     address: str
     pieces: tuple[Piece, ...]
-    first: Shape
+    pivot: Pivot
 
 
 def part_meshes(scene: Assembly) -> list[PartMesh]:
     """The fine meshes of every part that has a shape, in the order of the addresses."""
-    out = []
-    for part, part_paints in zip(scene.parts, paints(scene), strict=True):
-        groups: dict[Paint, list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]] = {}
+    groups: dict[tuple[int, Paint], list[Shape]] = {}
+    for number, (part, part_paints) in enumerate(zip(scene.parts, paints(scene), strict=True)):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
             shown = paint if shape.color is not None else _stepped(paint)
-            vertices, faces, normals = _engine.fine_mesh(shape)
-            # Files keep 32 bits of each number.
-            floats(vertices, part.address)
-            floats(normals, part.address, "its normals")
-            groups.setdefault(shown, []).append((vertices, faces, normals))
-        if groups:
-            pieces = tuple(_merged(paint, group) for paint, group in groups.items())
-            out.append(PartMesh(part.address, pieces, part.shapes[0]))
-    return out
+            groups.setdefault((number, shown), []).append(shape)
+    out: dict[int, PartMesh] = {}
+    meshes = _engine.meshes(list(groups.values()))
+    for (number, paint), (vertices, faces, normals, frame) in zip(groups, meshes, strict=True):
+        address = scene.parts[number].address
+        # Files keep 32 bits of each number.
+        floats(vertices, address)
+        floats(normals, address, "its normals")
+        part_mesh = out.setdefault(number, PartMesh(address, (), Pivot(*frame)))
+        out[number] = replace(part_mesh, pieces=(*part_mesh.pieces, Piece(paint, vertices, normals, faces)))
+    return list(out.values())
 
 
 def _stepped(paint: Paint) -> Paint:
     red, green, blue = (round(round(c / TONE_STEP) * TONE_STEP, 6) for c in paint.color)
     return replace(paint, color=(red, green, blue))
-
-
-def _merged(paint: Paint, meshes: list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]) -> Piece:
-    starts = np.cumsum([0, *(len(vertices) for vertices, _, _ in meshes)])
-    faces = [mesh[1] + start for mesh, start in zip(meshes, starts, strict=False)]
-    vertices, normals = (np.concatenate([mesh[k] for mesh in meshes]) for k in (0, 2))
-    return Piece(paint, vertices, normals, np.concatenate(faces))

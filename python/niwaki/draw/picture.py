@@ -130,20 +130,23 @@ def picture(
             clear=clear,
             like=like,
         )
-    meshes = surfaces(scene, like)
+    shown = surfaces(scene, like)
     ghost = None if target is None else _ghost(target)
-    check_rays(size, sum(len(faces) for _, faces, *_ in [*meshes, *([] if ghost is None else [ghost])]))
+    check_rays(size, sum(part.triangles for part in (shown, ghost) if part is not None))
     if camera is None:
-        seen = surfaces(frame) if frame is not None else meshes
-        clouds = [mesh[0] for mesh in seen] + ([] if target is None else [target.vertices])
-        points = np.concatenate(clouds)
         camera = _engine.frame_camera(
-            points, azimuth=azimuth, elevation=elevation, fov_y=fov, margin=margin, aspect=width / height
+            shown if frame is None else surfaces(frame),
+            None if target is None else target.vertices,
+            azimuth=azimuth,
+            elevation=elevation,
+            fov_y=fov,
+            margin=margin,
+            aspect=width / height,
         )
     standing = scene if like is None else like
     low, high = standing.bounds if len(standing) else target.bounds  # type: ignore[union-attr]
     pixels = _engine.render(
-        meshes,
+        shown,
         ghost,
         camera=camera,
         width=width,
@@ -155,15 +158,15 @@ def picture(
     return Image.fromarray(pixels, "RGBA")
 
 
-def surfaces(scene: Assembly, like: Assembly | None = None) -> list[tuple[Any, ...]]:
-    """Make the fine meshes of all shapes with their paint, as the engine's `render` takes them."""
-    meshes = []
-    for part, part_paints in zip(scene.parts, paints(scene, like), strict=True):
-        for shape, paint in zip(part.shapes, part_paints, strict=True):
-            vertices, faces, normals = _engine.fine_mesh(shape)
-            surface = (paint.gloss, paint.metalness, paint.rough, paint.pitch)
-            meshes.append((vertices, faces, normals, paint.color, surface))
-    return meshes
+def surfaces(scene: Assembly, like: Assembly | None = None) -> _engine.Surfaces:
+    """Make the surfaces of all shapes with their paint, as the engine's `render` takes them."""
+    return _engine.Surfaces(
+        [
+            (shape, paint.color, (paint.gloss, paint.metalness, paint.rough, paint.pitch))
+            for part, part_paints in zip(scene.parts, paints(scene, like), strict=True)
+            for shape, paint in zip(part.shapes, part_paints, strict=True)
+        ]
+    )
 
 
 def png(image: Image.Image) -> bytes:
@@ -213,7 +216,7 @@ def preview(scene: Assembly) -> bytes:
     return png(picture(scene, size=(800, 600)) if len(scene) else Image.new("RGBA", (1, 1)))
 
 
-def _ghost(target: Volume) -> tuple[Any, ...]:
-    """Make the target's mesh with normals that are smooth where it is smooth."""
-    vertices, faces, normals = _engine.fine_mesh(_engine.shape("mesh", target.vertices, target.faces))
-    return (vertices, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))
+def _ghost(target: Volume) -> _engine.Surfaces:
+    """Make the target's surface, with normals that are smooth where it is smooth."""
+    shape = _engine.shape("mesh", target.vertices, target.faces)
+    return _engine.Surfaces([(shape, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])

@@ -131,9 +131,9 @@ def _solids(scene: Assembly, tools: Any, swell: float) -> list[Any]:
     # The solid is moved anyway, and the library's tolerance grows with the distance from the origin.
     origin = scene.bounds[0] if is_far(scene.bounds) else np.zeros(3)
     for part in scene.parts:
-        for number, shape in enumerate(part.shapes):
-            vertices, faces, normals = _engine.fine_mesh(shape)
-            vertices, faces = _swollen(vertices - origin, faces, normals, swell)
+        meshes = _engine.meshes([[shape] for shape in part.shapes])
+        for number, (vertices, triangles, normals, _) in enumerate(meshes):
+            vertices, faces = _swollen(vertices - origin, triangles, normals, swell)
             solid = tools.Manifold(tools.Mesh64(vertices, faces.astype(np.uint64)))
             reason = ""
             if (count := _open_edges(faces)) or solid.status() != tools.Error.NoError:

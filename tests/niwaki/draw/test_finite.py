@@ -94,9 +94,9 @@ def test_a_mesh_that_is_not_finite_is_written_nowhere(
     tmp_path: Path, suffix: str, bad: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Shapes are within 1e12 of the origin: this is what a fault of the engine would give.
-    found = parts._engine.fine_mesh(scene(1.0).parts[1].shapes[0])
-    found[bad][0] = math.inf, math.nan, 0.0
-    monkeypatch.setattr(parts, "_engine", SimpleNamespace(fine_mesh=lambda _: found))
+    found = parts._engine.meshes([part.shapes for part in scene(1.0).parts])
+    found[0][bad][0] = math.inf, math.nan, 0.0
+    monkeypatch.setattr(parts, "_engine", SimpleNamespace(meshes=lambda _: found))
     with pytest.raises(FileError, match="ship/body has numbers"):
         scene(1.0).export(tmp_path / f"ship.{suffix}")
     assert list(tmp_path.iterdir()) == []

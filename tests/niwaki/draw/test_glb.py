@@ -15,12 +15,15 @@ import trimesh
 from niwaki import _engine, gallery, rotation
 from niwaki._engine import Shape
 from niwaki.draw.glb import About, glb
-from niwaki.draw.parts import part_meshes
-from niwaki.draw.pivots import pivot
+from niwaki.draw.parts import Pivot, part_meshes
 from niwaki.draw.scene import Scene
 
 TURN = rotation((0.36, 0.48, 0.8), 0.9)
 UP = (0.0, 0.6, 0.8)
+
+
+def pivot(shape: Shape) -> Pivot:
+    return part_meshes(Scene([("one", [shape])]))[0].pivot
 
 
 def document(data: bytes) -> dict[str, Any]:

@@ -78,7 +78,7 @@ def test_the_same_bytes_on_one_thread_and_four() -> None:
 
 def test_framing_shows_every_corner() -> None:
     points = np.array([[x, y, z] for x in (-9.0, 9.0) for y in (0.0, 3.0) for z in (-10.0, 5.0)])
-    eye, target, up, fov = _engine.frame_camera(points, aspect=1.5, margin=0.1)
+    eye, target, up, fov = _engine.frame_camera(_engine.Surfaces([]), points, aspect=1.5, margin=0.1)
     forward = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
     right = np.cross(forward, up) / np.linalg.norm(np.cross(forward, up))
     seen = points - eye
@@ -105,8 +105,3 @@ def test_bad_settings_are_refused() -> None:
     for settings in ({"size": (0, 10)}, {"size": (10, 10), "samples": 0}):
         with pytest.raises(InputError, match=r"width|samples"):
             picture(block(), **settings)
-    vertices, faces, normals = _engine.fine_mesh(block().parts[0].shapes[0])
-    with pytest.raises(ValueError, match="mesh 0: vertex 0 is not finite"):
-        _engine.render([(vertices * np.nan, faces, normals, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])
-    with pytest.raises(ValueError, match="beyond the last"):
-        _engine.render([(vertices, faces + 10_000, None, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])

@@ -31,6 +31,24 @@ def test_bounds_and_meshes() -> None:
     assert len(Scene([])) == 0 and Scene([]).bounds.tolist() == [[0, 0, 0], [0, 0, 0]]
 
 
+def test_meshes_of_groups_are_those_of_their_shapes() -> None:
+    box = _engine.shape("box", (1, 2, 3), (2, 2, 2))
+    limb = _engine.shape("limb", (4, 0, 0), (4, 1, 0), 0.2, 0.1)
+    for fine in (False, True):
+        group, first, second, empty = _engine.meshes([[box, limb], [box], [limb], []], fine=fine)
+        assert [array.dtype.name for array in group[:3]] == ["float64", "uint32", "float64"]
+        for joined, one, two, start in zip(
+            group[:3], first[:3], second[:3], (0, len(first[0]), 0), strict=True
+        ):
+            assert np.array_equal(joined, np.concatenate([one, two + start]))
+        assert len(group[2]) == (len(group[0]) if fine else 0)
+        assert group[3][0].tolist() == first[3][0].tolist() == [1, 2, 3]
+        assert second[3][0].tolist() == [4, 0, 0]
+        assert [array.shape for array in empty[:3]] == [(0, 3)] * 3
+    light = _engine.meshes([[limb]], fine=False)[0]
+    assert np.array_equal(light[0], limb.vertices()) and np.array_equal(light[1], limb.faces())
+
+
 def test_notebooks_see_a_png() -> None:
     scene = Scene([("a", [_engine.shape("box", (0, 0, 0), (2, 2, 2))])])
     assert scene._repr_png_().startswith(b"\x89PNG")

@@ -143,9 +143,7 @@ def test_parts_that_touch_in_any_turn_make_one_closed_solid(angle: float, tmp_pa
 )
 def test_every_kind_of_shape_is_a_solid(shape: Shape) -> None:
     solid = union(Scene([("one", [shape])]), scale=1.0, fuse=0.0)
-    from niwaki._engine import fine_mesh
-
-    vertices, faces, _ = fine_mesh(shape)
+    ((vertices, faces, *_),) = _engine.meshes([[shape]])
     assert solid.volume == pytest.approx(volume(vertices, faces), rel=1e-4)
     assert solid.pieces == 1 and closed(solid)
 

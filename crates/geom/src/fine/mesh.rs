@@ -1,5 +1,6 @@
 //! Triangles with normals, built piece by piece.
 
+use crate::mesh::TriMesh;
 use crate::vector::Vec3;
 
 /// Sides of everything round.
@@ -11,7 +12,7 @@ pub const ARC: usize = 6;
 pub struct FineMesh {
     /// Scene units.
     pub vertices: Vec<Vec3>,
-    /// As many as vertices.
+    /// As many as vertices, or none.
     pub normals: Vec<Vec3>,
     /// Counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
@@ -55,6 +56,28 @@ impl FineMesh {
         }
         kept.faces = self.faces.iter().map(|face| face.map(|corner| numbers[corner as usize])).collect();
         kept
+    }
+}
+
+/// All as one mesh, without joining them.
+impl FromIterator<FineMesh> for FineMesh {
+    fn from_iter<I: IntoIterator<Item = FineMesh>>(meshes: I) -> FineMesh {
+        let mut meshes = meshes.into_iter();
+        let mut all = meshes.next().unwrap_or_default();
+        for mesh in meshes {
+            let start = all.vertices.len() as u32;
+            all.vertices.extend(mesh.vertices);
+            all.normals.extend(mesh.normals);
+            all.faces.extend(mesh.faces.iter().map(|face| face.map(|corner| corner + start)));
+        }
+        all
+    }
+}
+
+impl From<&TriMesh> for FineMesh {
+    /// Without normals.
+    fn from(mesh: &TriMesh) -> FineMesh {
+        FineMesh { vertices: mesh.vertices().to_vec(), normals: Vec::new(), faces: mesh.triangles().to_vec() }
     }
 }
 

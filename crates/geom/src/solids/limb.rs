@@ -10,7 +10,7 @@ use crate::limb::band;
 use crate::placement::Placement;
 use crate::polytope::Hull;
 use crate::ring::Ring;
-use crate::vector::Vec3;
+use crate::vector::{Mat3, Vec3, vec3};
 use niwaki_math::Scalar;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -54,6 +54,20 @@ impl Measured for Limb {
             None => Hull::around(vertices),
         };
         hull.map(Coarse::new)
+    }
+
+    /// The middle of its first ring; y along the ring's direction, by the shortest turn (Moller and Hughes 1999).
+    fn frame(&self, placement: &Placement) -> Placement {
+        let Ring { center, normal, .. } = self.rings[0];
+        let [x, y, z] = normal.to_array();
+        let columns = if y < -1.0 + 1e-12 {
+            // A half turn, about x.
+            [vec3(1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -1.0)]
+        } else {
+            let h = 1.0 / (1.0 + y);
+            [vec3(1.0 - h * x * x, -x, -h * x * z), normal, vec3(-h * x * z, -z, 1.0 - h * z * z)]
+        };
+        placement.after(&Placement { rotation: Mat3 { columns }, translation: center })
     }
 
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {

@@ -90,6 +90,11 @@ pub trait Measured {
         self.mesh(placement).map(|mesh| mesh.aabb())
     }
 
+    /// The frame about which a person would turn it, in the world: a point of it, and its own axes.
+    fn frame(&self, placement: &Placement) -> Placement {
+        *placement
+    }
+
     /// The mesh for pictures and files, around the origin: closed, round, with a unit normal at each vertex; its edges are
     /// rounded by `bevel` (a share of the half lengths, from 0 to 1) where the shape gives one.
     fn fine(&self, bevel: Option<f64>) -> FineMesh;

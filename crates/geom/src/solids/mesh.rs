@@ -33,6 +33,14 @@ impl Measured for Arc<TriMesh> {
         Ok(Aabb::around(self.corners().flatten().map(|p| placement.apply(p))))
     }
 
+    /// Its own origin, or its middle where that is far away.
+    fn frame(&self, placement: &Placement) -> Placement {
+        let Ok(around) = Measured::aabb(self, placement) else { return *placement };
+        let own = placement.translation;
+        let is_far = Aabb { low: around.low - own, high: around.high - own }.is_far();
+        Placement { translation: if is_far { around.center() } else { own }, ..*placement }
+    }
+
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {
         crease::creased(self, crease::SHARP)
     }

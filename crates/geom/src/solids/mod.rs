@@ -111,6 +111,11 @@ macro_rules! solids {
                 match self { $(Solid::$variant(solid) => Measured::aabb(solid, placement),)* }
             }
 
+            /// [`Measured::frame`].
+            pub(crate) fn frame(&self, placement: &Placement) -> Placement {
+                match self { $(Solid::$variant(solid) => Measured::frame(solid, placement),)* }
+            }
+
             /// [`Measured::fine`].
             pub(crate) fn fine(&self, bevel: Option<f64>) -> FineMesh {
                 match self { $(Solid::$variant(solid) => solid.fine(bevel),)* }

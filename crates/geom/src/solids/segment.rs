@@ -9,8 +9,8 @@ use crate::fine::{FineMesh, segment as tubes};
 use crate::placement::Placement;
 use crate::polytope::Hull;
 use crate::segment;
-use crate::tube::Tube;
-use crate::vector::Vec3;
+use crate::tube::{Frame, Tube};
+use crate::vector::{Mat3, Vec3};
 use niwaki_math::Scalar;
 
 impl Measured for Tube {
@@ -45,6 +45,13 @@ impl Measured for Tube {
     fn hull(&self, _placement: &Placement) -> Option<Coarse> {
         let whole = Hull::nearly(segment::corners(self)?, segment::tube())?;
         Some(Coarse::of_segment(whole, self.is_welded()))
+    }
+
+    /// The middle of its first ring; y forward and z up.
+    fn frame(&self, placement: &Placement) -> Placement {
+        let [Frame { center, forward, up, .. }, ..] = self.frames();
+        let rotation = Mat3 { columns: [forward.cross(up), forward, up] };
+        placement.after(&Placement { rotation, translation: center })
     }
 
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {

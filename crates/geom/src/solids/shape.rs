@@ -268,6 +268,11 @@ impl Shape {
         mesh
     }
 
+    /// The frame about which a person would turn it: a point of it, and its own axes.
+    pub fn frame(&self) -> Placement {
+        self.0.solid.frame(&self.placement())
+    }
+
     /// Smallest length of the solid: the scale of the tolerance between touching and overlapping.
     pub fn thickness(&self) -> f64 {
         let e = self.0.aabb.extent();

@@ -9,7 +9,7 @@ use crate::error::{GeomError, bad_shape as bad};
 use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
-use crate::vector::{Vec3, vec3};
+use crate::vector::{Mat3, Vec3, vec3};
 use niwaki_math::Scalar;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -94,6 +94,21 @@ impl Measured for Stroke {
             ));
         }
         Ok(boxed)
+    }
+
+    /// Its start; x towards its end, by a turn about z.
+    fn frame(&self, placement: &Placement) -> Placement {
+        let [start, end] = self.ends.each_ref().map(|end| end.center);
+        let along = end - start;
+        // In two steps: files keep all digits of a turn, and the first may vanish for a tiny stroke.
+        let near = match along.y.mul_add(along.y, along.x * along.x).sqrt() {
+            0.0 => along,
+            length => along / length,
+        };
+        let length = near.x.hypot(near.y);
+        let (x, y) = if length > 0.0 { (near.x / length, near.y / length) } else { (1.0, 0.0) };
+        let rotation = Mat3 { columns: [vec3(x, y, 0.0), vec3(-y, x, 0.0), vec3(0.0, 0.0, 1.0)] };
+        placement.after(&Placement { rotation, translation: start })
     }
 
     fn fine(&self, _bevel: Option<f64>) -> FineMesh {

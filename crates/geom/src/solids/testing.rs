@@ -1,6 +1,7 @@
 //! What holds of every solid.
 
 use super::shape::Shape;
+use crate::bounds::Aabb;
 use crate::mesh::TriMesh;
 
 fn volume(mesh: &TriMesh) -> f64 {
@@ -8,11 +9,20 @@ fn volume(mesh: &TriMesh) -> f64 {
 }
 
 /// Both meshes are closed. The fine one has nearly this volume (a share of which is the tolerance), unit normals that agree
-/// with its faces, and no vertex without a face. The coarse one lies in the shape's box, and has an inside.
+/// with its faces, and no vertex without a face. The coarse one lies in the shape's box, and has an inside. Its own frame is
+/// at it.
 pub(crate) fn sound(shape: &Shape, expected: f64, tolerance: f64) {
     let coarse = shape.world_mesh();
     assert_eq!(coarse.open_edges(), 0, "{}", shape.kind());
     assert!(volume(&coarse) > 0.0 && shape.aabb().grown(1e-9).contains(&coarse.aabb()), "{}", shape.kind());
+
+    let frame = shape.frame();
+    assert!(
+        frame.rotation.defect() < 1e-9
+            && shape.aabb().grown(1e-9).contains(&Aabb::around([frame.translation])),
+        "{}",
+        shape.kind()
+    );
 
     let fine = shape.fine_mesh();
     let mesh = TriMesh::new(fine.vertices.clone(), fine.faces.clone()).unwrap();

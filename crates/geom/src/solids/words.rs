@@ -174,4 +174,18 @@ mod tests {
         assert!(Shape::cuboid(Vec3::ZERO, vec3(1.0, 1.0, 1.0), &skew).is_err());
         assert!(TriMesh::new(vec![], vec![]).is_err());
     }
+
+    #[test]
+    fn a_mesh_far_from_its_origin_turns_about_its_middle() {
+        let corner = |far: f64| {
+            [[0.0; 3], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]
+                .map(|p| vec3(far, 0.0, 0.0) + Vec3::from(p))
+        };
+        for (far, expected) in [(190.0, vec3(1.0, 2.0, 3.0)), (210.0, vec3(212.0, 3.0, 4.0))] {
+            let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+            let mesh = Arc::new(TriMesh::new(corner(far).to_vec(), faces).unwrap());
+            let shape = Shape::mesh(&mesh, vec3(1.0, 2.0, 3.0), 1.0, &PLAIN).unwrap();
+            assert_eq!(shape.frame().translation, expected);
+        }
+    }
 }

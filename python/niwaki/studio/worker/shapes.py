@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from niwaki import _engine
 from niwaki.draw.palette import Paint, paints
 from niwaki.draw.parts import part_meshes
 from niwaki.draw.scene import Scene
@@ -56,10 +57,11 @@ def _fine(scene: Scene) -> list[Piece]:
 
 
 def _light(scene: Scene) -> list[Piece]:
+    meshes = iter(_engine.meshes([[one] for part in scene.parts for one in part.shapes], fine=False))
     return [
-        (number, paint, one.vertices(), None, one.faces())
-        for number, (part, worn) in enumerate(zip(scene.parts, paints(scene), strict=True))
-        for one, paint in zip(part.shapes, worn, strict=True)
+        (number, paint, vertices, None, faces)
+        for number, worn in enumerate(paints(scene))
+        for paint, (vertices, faces, *_) in zip(worn, meshes, strict=False)
     ]
 
 

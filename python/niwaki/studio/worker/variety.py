@@ -71,9 +71,6 @@ def distances(samples: Sequence[Sample]) -> NDArray[np.float64]:
 def _points(one: Sample) -> NDArray[np.float64]:
     """Points of the surfaces: each triangle by a small lattice."""
     steps = np.array([(i, j, 6 - i - j) for i in range(7) for j in range(7 - i)]) / 6.0
-    found = [np.zeros((0, 3))]
-    for part in one.scene.parts:
-        for shape in part.shapes:
-            corners = shape.vertices()[shape.faces()]
-            found.append(np.einsum("sk,tkc->tsc", steps, corners).reshape(-1, 3))
-    return np.concatenate(found)
+    vertices, faces = one.scene.merged(fine=False)
+    points: NDArray[np.float64] = np.einsum("sk,tkc->tsc", steps, vertices[faces]).reshape(-1, 3)
+    return points
