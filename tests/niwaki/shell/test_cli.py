@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from niwaki.errors import NiwakiError
+from niwaki.search.checkpoint import Stored
 from niwaki.shell import resuming
 from niwaki.shell.main import app
 from typer.testing import CliRunner
@@ -184,13 +185,17 @@ def test_a_process_prints_errors_without_a_traceback() -> None:
     assert done.stdout == ""
 
 
+def has_result(path: Path) -> bool:
+    """Whether a checkpoint has the result of a whole run; it may be written before."""
+    return path.exists() and any(name.endswith("/done") for name in Stored.read(path).parts)
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 def test_ctrl_c_writes_the_best_so_far(tmp_path: Path) -> None:
     out = tmp_path / "out"
     words = [*GROW, "--runs", "100000", "--no-picture", "-o", str(out)]
     child = subprocess.Popen([sys.executable, "-m", "niwaki.shell.main", *words], stdout=subprocess.PIPE)
-    # The first checkpoint is written when there is a result to keep.
-    while not (out / resuming.NAME).exists() and child.poll() is None:
+    while not has_result(out / resuming.NAME) and child.poll() is None:
         time.sleep(0.02)
     child.send_signal(signal.SIGINT)
     assert child.wait(timeout=60) == 130
