@@ -41,7 +41,7 @@ class Keeper:
     Raises
     ------
     InputError
-        The file cannot be gone on with.
+        Niwaki cannot resume from the file.
     """
 
     def __init__(

@@ -57,8 +57,8 @@ BATCHES = (
     Message(
         "executor-broken",
         "the executor of this batch broke: {reason}",
-        why="it belongs to the program that made it, so that it cannot be made anew here",
-        help="run the batch again with another one: it goes on from what it has",
+        why="it belongs to the program that made it, so the batch cannot make a new executor",
+        help="run the batch again with another executor: it continues from the stored searches",
         example="niwaki.batch(..., executor=ProcessPoolExecutor()), one of whose processes was killed",
         cure="niwaki.batch(...), whose own processes are replaced",
     ),
@@ -76,7 +76,7 @@ BATCHES = (
         "{count} of {total} searches have no result",
         why="the first is case {case}, seed {seed}; three workers were lost with it, or could not do it: {reason}",
         help="all others are stored. Look into the log for the rest of the message, and run the batch again: it tries "
-        "these anew. Where memory ran out, `--processes 1` leaves more to each",
+        "these again. If memory ran out, `--processes 1` leaves more to each search",
         example="a model whose host function ends the process",
         cure="a host function that returns",
     ),

@@ -25,8 +25,8 @@ CHAINS = (
     Message(
         "in-use",
         "these chains cannot be used here",
-        why="what moves is only half changed; in a child of a fork the thread that moves it is not there",
-        help="wait for their end; fork before they move, or go on in the parent",
+        why="a moving chain is only half changed, and a child of a fork does not have the thread that moves it",
+        help="wait until they end; fork before they move, or continue in the parent",
         example="os.fork() while another thread is in `result.more(10_000)`",
         cure="result.more(10_000); os.fork()",
     ),

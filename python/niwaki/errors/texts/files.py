@@ -163,7 +163,7 @@ FILES = (
         "broken-extra",
         "{task} needs the extra `{extra}`, which is installed but does not load",
         why="loading `{module}`: {reason}",
-        help="install what it asks for, or the extra again: `pip install --force-reinstall 'niwaki[{extra}]'`",
+        help="install the missing library, or the extra again: `pip install --force-reinstall 'niwaki[{extra}]'`",
         example="stacks.simulated(made) where MuJoCo does not find a library of the system",
         cure="the same after that library was installed",
     ),
