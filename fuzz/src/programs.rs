@@ -1,8 +1,8 @@
 //! Programs run: forwards, as chains by all four strategies, as particles; under small limits, with machine code and without.
 
 use crate::core_text::on_stack_for;
-use niwaki_chain::Settings;
 use niwaki_agreement::compare;
+use niwaki_chain::Settings;
 use niwaki_chain::kernel::Kernel;
 use niwaki_geom::{Aabb, Rule, no_overshoot, no_self_intersection, vec3};
 use niwaki_particles::{Moment, Rejuvenation, smc};
@@ -99,9 +99,10 @@ pub fn run(plain: &Task, compiled: &Task, head: &[u8]) {
     let found = |task| match smc(task, &settings, &mut |_| true) {
         Err(failure) => failure.to_string(),
         Ok(found) => {
-            let all = found.particles.iter().map(|p| {
-                format!("{:?} {:?} {:?} {:?}", p.value, p.log_prior, p.log_score, p.log_weight)
-            });
+            let all = found
+                .particles
+                .iter()
+                .map(|p| format!("{:?} {:?} {:?} {:?}", p.value, p.log_prior, p.log_score, p.log_weight));
             format!("{:?} {:?}", all.collect::<Vec<_>>(), found.log_normaliser)
         }
     };
