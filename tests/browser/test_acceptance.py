@@ -109,7 +109,7 @@ def test_pinned_choices_are_equal_after_searches(open_page, served):
     effort(page, 0)
 
 
-def test_a_pin_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_page, served):
+def test_a_hold_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_page, served):
     page = open_page(served)
     choose(page, "spaceship", 1, seed=3)
     effort(page, -2)
@@ -122,7 +122,7 @@ def test_a_pin_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_pag
     # In one go, so that no answer comes between them.
     press = "key => dispatchEvent(new KeyboardEvent('keydown', key))"
     seen = page.evaluate(
-        f"() => {{ const press = {press}; press({{key: 'p'}}); press({{key: 'z', ctrlKey: true}});"
+        f"() => {{ const press = {press}; press({{key: 'h'}}); press({{key: 'z', ctrlKey: true}});"
         " return new Promise(done => setTimeout(() => done(document.querySelectorAll('.held li').length))); }"
     )
     assert seen == 1
@@ -131,7 +131,7 @@ def test_a_pin_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_pag
     until(page, "document.querySelectorAll('.held li').length == 0")
     assert page.evaluate("window.__studio.view.held") == []
     first = page.evaluate("window.__studio.view.picked.run")
-    page.evaluate(f"() => {{ const press = {press}; press({{key: 'p'}}); press({{key: 'Enter'}}); }}")
+    page.evaluate(f"() => {{ const press = {press}; press({{key: 'h'}}); press({{key: 'Enter'}}); }}")
     until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {first}")
     held = page.evaluate("window.__studio.view.held[0].choices")
     data = run_files.load(
