@@ -34,8 +34,8 @@ pub mod total;
 pub mod vector;
 
 pub use distributions::{
-    BadParameter, COORDINATES, Dist, Draw, Family, Interval, LEAST, MOST_NUMBERS, Param, Placed, Space,
-    Support, logistic,
+    BadParameter, COORDINATES, Dist, Draw, Family, Interval, LEAST, MOST_NUMBERS, Param, Parameter, Placed,
+    Space, Support, logistic,
 };
 pub use first_blocks::FirstBlocks;
 pub use rounding::grid;

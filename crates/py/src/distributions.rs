@@ -218,7 +218,7 @@ fn manuals(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let all = PyDict::new(py);
     for &family in Family::ALL {
         let said = family.manual();
-        let parameters = said.parameters.iter().map(|one| (one.name, one.python, one.default, one.doc));
+        let parameters = said.parameters.iter().map(math::Parameter::row);
         let space = format!("{:?}", family.space());
         let said: Said = (said.class, said.doc, parameters.collect(), space, said.gives, said.limits);
         all.set_item(family.name(), said)?;

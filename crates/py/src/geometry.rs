@@ -6,11 +6,11 @@
 use crate::values::Classes;
 use crate::views::{PyDrawing, PyPicture};
 use niwaki_geom::solids::WORDS;
-use niwaki_geom::solids::word::Parameter;
 use niwaki_geom::{
     Ellipse, GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh,
     Vec3,
 };
+use niwaki_math::Parameter;
 use niwaki_vm::builtins::{builtin, builtin_id, placed_mesh};
 use niwaki_vm::value::Value;
 use numpy::ndarray::{Array2, Array3};
@@ -398,8 +398,7 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(shape, module)?)?;
     let words = PyDict::new(module.py());
     for word in WORDS {
-        let row = |one: &Parameter| (one.name, one.python, one.default, one.doc);
-        let parameters: Vec<Row> = word.parameters().map(row).collect();
+        let parameters: Vec<Row> = word.parameters().map(Parameter::row).collect();
         words.set_item(word.name, (word.doc, parameters))?;
     }
     module.add("SHAPES", words)?;

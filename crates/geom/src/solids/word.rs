@@ -9,21 +9,9 @@ use crate::mesh::TriMesh;
 use crate::placement::Placement;
 use crate::tube::{Bark, Frame};
 use crate::vector::{Mat3, Vec3};
+use niwaki_math::Parameter;
 use niwaki_math::Scalar;
 use std::sync::Arc;
-
-/// A parameter of a word.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameter {
-    /// Its name in a call.
-    pub name: &'static str,
-    /// Its type in Python.
-    pub python: &'static str,
-    /// What is taken where it is left out, as Python writes it; none for what must be given.
-    pub default: Option<&'static str>,
-    /// What the manual says of it.
-    pub doc: &'static str,
-}
 
 /// A word as data.
 #[derive(Clone, Copy, Debug)]
@@ -390,7 +378,7 @@ macro_rules! word {
             const DESCRIPTION: $crate::solids::word::Description = $crate::solids::word::Description {
                 name: $name,
                 doc: concat!($($doc, "\n"),*),
-                measures: &[$($crate::solids::word::Parameter {
+                measures: &[$(niwaki_math::Parameter {
                     name: stringify!($field),
                     python: <$kind as $crate::solids::word::kinds::Kind>::PYTHON,
                     default: if <$kind as $crate::solids::word::kinds::Kind>::OPTIONAL {

@@ -146,17 +146,24 @@ pub struct Manual {
     pub limits: &'static str,
 }
 
-/// A parameter of a family.
+/// A parameter of a family, or of a word of the language that makes a solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// Its name.
+    /// Its name in a call.
     pub name: &'static str,
     /// Its type in Python.
     pub python: &'static str,
-    /// What is taken where it is left out; none for what must be given.
+    /// What is taken where it is left out, as Python writes it; none for what must be given.
     pub default: Option<&'static str>,
-    /// What it is.
+    /// What the manual says of it.
     pub doc: &'static str,
+}
+
+impl Parameter {
+    /// Its fields, in their order.
+    pub fn row(&self) -> (&'static str, &'static str, Option<&'static str>, &'static str) {
+        (self.name, self.python, self.default, self.doc)
+    }
 }
 
 /// Declares the enums from the table, and what follows from it.

@@ -68,7 +68,7 @@ pub use check::BadParameter;
 pub use coordinates::{Interval, Placed, logistic};
 pub use draw::Draw;
 pub use ends::{COORDINATES, LEAST};
-pub use family::{Dist, Family, MOST_NUMBERS};
+pub use family::{Dist, Family, MOST_NUMBERS, Parameter};
 pub use lists::{DiagonalGaussian, Multinomial};
 pub use mixture::Mixture;
 pub use param::Param;
