@@ -63,7 +63,7 @@ class Worker:
         self._one = asyncio.Lock()
         self._ids = count(1)
         self._job: int | None = None
-        self._killed = False
+        self._killed = self._again = False
         self._loading = Loading()
         self._stamp: Stamp | None = None
 
@@ -76,9 +76,18 @@ class Worker:
         """Do a job: after those that were given before it. A failure is an answer with a problem."""
         async with self._one:
             self._job = job.id = next(self._ids)
-            self._killed, self._loading = False, Loading()
+            self._killed = self._again = False
             try:
-                return await self._done(job, report)
+                while True:
+                    self._loading = Loading()
+                    try:
+                        return await self._done(job, report)
+                    except (EOFError, OSError):
+                        if not self._again:
+                            raise
+                        # The file that it loaded has changed: a fresh process loads the new one.
+                        self._again = False
+                        await self.kill()
             except TimeoutError:
                 await self.kill()
                 return Answer(problem=self._late())
@@ -158,9 +167,9 @@ class Worker:
         return problem(InputError("model-file-failed", path=self._loading.path, reason=reason))
 
     async def drop(self, paths: Iterable[Path]) -> None:
-        """End the process at once where it runs one of these files, which has changed."""
+        """Restart the present job in a fresh process where it still loads one of these files, which has changed."""
         if self._job is not None and self._loading.path and Path(self._loading.path) in paths:
-            self._killed = True
+            self._again = True
             await self.kill()
 
     async def stop(self, grace: float = GRACE) -> None:

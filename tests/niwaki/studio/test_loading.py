@@ -114,6 +114,29 @@ def test_a_file_that_is_mended_while_it_loads_is_not_waited_for(tmp_path, monkey
     alive(work())
 
 
+def test_a_search_survives_a_change_of_the_file_that_it_loads(tmp_path, monkeypatch):
+    monkeypatch.setattr(process, "LOADING", 1e6)
+    place = tmp_path / "pile.py"
+    place.write_text("while True: pass\n")
+    ask = m.Question(str(place), {}, m.Ask(target=m.TargetAsk("box")), m.Settings(count=1, effort=0.25))
+
+    async def work() -> None:
+        worker = Worker(str(place))
+        try:
+            job = m.Grow(question=ask, run=1, seed=1, file=str(tmp_path / "1.json"))
+            search = asyncio.create_task(worker.do(job))
+            while worker._loading.path != str(place):
+                await asyncio.sleep(0.02)
+            place.write_text(PILE)
+            await worker.drop([place])
+            answer = await search
+            assert answer.problem is None and not answer.interrupted and len(answer.outcomes) == 1
+        finally:
+            await worker.kill()
+
+    alive(work())
+
+
 def test_a_host_function_that_does_not_end_does_not_hold_the_desk_for_ever(tmp_path):
     place = tmp_path / "pile.py"
     text = PILE.replace("from niwaki import", "import niwaki\nfrom niwaki import")
