@@ -32,7 +32,8 @@ PRONOUNS = frozenset(
 )
 OPENINGS = re.compile(
     r"(?:The same\b(?! \w+ (?:is|are|as))|That of\b|Those of\b|That which\b|Of (?!course)"
-    r"|What\b(?![^.]*\?)|Which\b(?![^.]*\?)|Whether nobody\b|Whether somebody\b|So (?:is|does|do|are)\b|As (?:it|they) (?:is|are)\b)"
+    r"|What\b(?![^.]*\?)|Which\b(?![^.]*\?)|Whether (?:no|some)body\b"
+    r"|So (?:is|does|do|are)\b|As (?:it|they) (?:is|are)\b)"
 )
 LONGEST = 35  # words
 RUST_NAME = re.compile(
