@@ -9,6 +9,7 @@
 
 use crate::forks::end_if_forked;
 use crate::values::Classes;
+use niwaki_run::inside::Inside;
 use niwaki_run::task::Hosts;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
@@ -98,6 +99,28 @@ impl Hosts for PyHosts {
     fn raised(&self) -> Option<Box<dyn Any + Send>> {
         let error = self.raised.lock().unwrap_or_else(PoisonError::into_inner).take();
         error.map(|error| Box::new(error) as Box<dyn Any + Send>)
+    }
+}
+
+/// The functions of a model, and those of the users' proposals that its search calls: whichever raises an exit ends the search.
+pub struct WithProposals {
+    /// Functions of the model.
+    pub model: Arc<dyn Hosts>,
+    /// Functions of each proposal.
+    pub proposals: Vec<Arc<dyn Hosts>>,
+}
+
+impl Hosts for WithProposals {
+    fn call(&self, constant: u16, args: &[Value], steps: &mut u64) -> Result<Value, Fault> {
+        self.model.call(constant, args, steps)
+    }
+
+    fn raised(&self) -> Option<Box<dyn Any + Send>> {
+        self.model.raised().or_else(|| self.proposals.iter().find_map(|hosts| hosts.raised()))
+    }
+
+    fn inference(&self, constant: u16) -> Option<Inside> {
+        self.model.inference(constant)
     }
 }
 

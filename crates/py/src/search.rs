@@ -10,7 +10,7 @@ use crate::forks::end_if_forked;
 use crate::geometry::PySketchSpec;
 use crate::gradients::PyDensity;
 use crate::guides::PyGuide;
-use crate::hosts;
+use crate::hosts::{self, WithProposals};
 use crate::model::PyProgram;
 use crate::positions::PyPlacer;
 use crate::runs::{PyRun, PyTrace};
@@ -396,7 +396,7 @@ impl PyTask {
         py: Python<'_>,
         given: &[Bound<'_, PyAny>],
     ) -> PyResult<(Task, Vec<Attached>)> {
-        let mut attached = Vec::new();
+        let (mut attached, mut proposals) = (Vec::new(), Vec::new());
         let mut task = None;
         for one in given {
             if let Ok(guide) = one.cast::<PyGuide>() {
@@ -408,16 +408,21 @@ impl PyTask {
                 attached.push(Attached::Guide(Arc::new(guide.map_err(|fault| faults::setting(py, &fault))?)));
                 task = Some(kept);
             } else {
-                let function = User::new(one.cast::<PyTask>()?.get().task.clone());
+                let proposal = &one.cast::<PyTask>()?.get().task;
+                proposals.push(proposal.hosts.clone());
+                let function = User::new(proposal.clone());
                 attached.push(Attached::Function(Arc::new(
                     function.map_err(|fault| faults::setting(py, &fault))?,
                 )));
             }
         }
-        let task = match task {
+        let mut task = match task {
             Some(task) => task,
             None => self.keeping(py, &attached)?,
         };
+        if !proposals.is_empty() {
+            task.hosts = Arc::new(WithProposals { model: task.hosts, proposals });
+        }
         Ok((task, attached))
     }
 

@@ -466,3 +466,35 @@ def test_a_plain_run_raises_it_too(kind: type[BaseException]) -> None:
         nw.run_python(model, seed=1)
     with pytest.raises(kind, match="now"):
         nw.run(model, seed=1)
+
+
+@pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit, MemoryError])
+@pytest.mark.parametrize("method", ["mh", "smc"])
+def test_an_exit_inside_a_proposal_is_raised_as_it_is(kind: type[BaseException], method: str) -> None:
+    calls = 0
+
+    @nw.host
+    def leaving() -> float:
+        nonlocal calls
+        calls += 1
+        if calls >= 3:
+            raise kind("now")
+        return 0.5
+
+    @nw.model
+    def model() -> float:
+        x = nw.gaussian(0, 1)
+        nw.observe(Gaussian(x, 1.0), 1.0)
+        y = nw.gaussian(x, 1)
+        return y
+
+    kernel = nw.kernels.on("y", nw.kernels.proposal(lambda x: Gaussian(x * leaving(), 1.0)))
+    search = {
+        "mh": nw.mh(steps=200, kernel=kernel),
+        "smc": nw.smc(50, rejuvenate=kernel),
+    }[method]
+    with pytest.raises(kind, match="now"):
+        nw.run(model, method=search, seed=1, threads=1)
+    # Nothing of it is left for the next search.
+    calls = -(10**9)
+    nw.run(model, method=search, seed=1)
