@@ -127,7 +127,7 @@ def path_target() -> nw.Target:
 
 
 def test_what_dies_as_usual_is_tried_in_other_forms_and_told() -> None:
-    with pytest.raises(nw.InputError, match="every run is impossible"):
+    with pytest.raises(nw.InputError, match="every run of the search is impossible"):
         nw.grow(garden_path, path_target(), particles=100, seed=1)
     result = nw.grow(garden_path, path_target(), seed=1)
     assert result.info.attempts[0].died_at is not None and result.info.attempts[-1].died_at is None
