@@ -137,7 +137,7 @@ from typing import Any, ClassVar
 
 _BASE = '''@dataclass(frozen=True)
 class Distribution:
-    """What all distributions have in common: the family's name and the parameters in order."""
+    """Base class of all distributions, with the family's name and the parameters in order."""
 
     family: ClassVar[str] = ""
 

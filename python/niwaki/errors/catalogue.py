@@ -1,6 +1,6 @@
-"""The manual's pages about errors, written from the table of messages: one page for each code.
+"""Pages of the manual about errors, one for each code, written from the table of messages.
 
-`python -m niwaki.errors.catalogue docs/errors` writes them; a test compares the pages with the table.
+`python -m niwaki.errors.catalogue docs/errors` writes the pages; a test compares them with the table.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ KINDS = (
 
 
 class _Shown(dict[str, str]):
-    """Names of templates as a reader sees them."""
+    """A template's names, which a page shows in capitals."""
 
     def __missing__(self, key: str) -> str:
         return key.upper()
 
 
-def page(message: Message, found: str) -> str:
-    """One page, Markdown."""
+def page(message: Message, time: str) -> str:
+    """Return a message's page in Markdown; `time` says when Niwaki reports the error."""
     title, why, cure = (text.format_map(_Shown()) for text in (message.title, message.why, message.help))
-    parts = [f"# {message.code}", f"{_sentence(title)} {found}"]
+    parts = [f"# {message.code}", f"{_sentence(title)} {time}"]
     if message.about:
         parts += ["## Why", message.about]
     elif message.why not in ("", "{reason}"):
@@ -41,14 +41,14 @@ def page(message: Message, found: str) -> str:
     if message.example:
         parts += ["## Example", _block(message.example)]
     named = message.help in ("{suggestion}", "{cure}")
-    parts += ["## What to do", "The message suggests what to write." if named else _sentence(cure)]
+    parts += ["## What to do", "Follow the suggestion of the message." if named else _sentence(cure)]
     if message.cure:
         parts.append(_block(message.cure))
     return "\n\n".join(parts) + "\n"
 
 
 def _block(text: str) -> str:
-    """A block of code: Python, a shell command, or text of a file."""
+    """Return a block of Markdown: Python, a shell command, or the text of a file."""
     try:
         ast.parse(text)
         language = "python"
@@ -58,19 +58,19 @@ def _block(text: str) -> str:
 
 
 def _sentence(text: str) -> str:
-    """A message as a sentence."""
+    """Return a message as a sentence."""
     plain = fill(text, {})
     start = plain[:1] if plain.startswith("`") else plain[:1].upper()
     return start + plain[1:] + ("" if plain.endswith(("?", ".", "`:")) else ".")
 
 
 def pages() -> dict[str, str]:
-    """Every page by its file name."""
-    return {f"{message.code}.md": page(message, found) for table, found in KINDS for message in table}
+    """Return all pages by file name."""
+    return {f"{message.code}.md": page(message, time) for table, time in KINDS for message in table}
 
 
 def write(folder: Path) -> None:
-    """Write every page into a folder, and take away pages of codes that are gone; the index stays."""
+    """Write all pages into a folder, and remove pages of old codes; the index stays."""
     texts = pages()
     for old in folder.glob("*.md"):
         if old.name not in texts and old.name != "index.md":

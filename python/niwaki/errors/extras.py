@@ -1,4 +1,4 @@
-"""Libraries that only some users install: the extras, what each is for, and the error where one is missing."""
+"""Optional libraries: the extras, their uses, and the error about a missing library."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any
 
 from niwaki.errors.files import FileError
 
-#: The extras that users install, and what each is for. The packages of each are in the package's own metadata.
+#: The use of each extra. The package's metadata lists the libraries of each extra.
 EXTRAS = {
     "arviz": "plots and tables of draws by ArviZ (`result.to_arviz()`)",
     "cluster": "batches on Ray or Dask (`niwaki batch --engine`)",
     "color": "pictures of coloured drawings (`niwaki color`)",
-    "notebook": "a viewer in a notebook that can be given other results (`niwaki.view(...).widget()`)",
+    "notebook": "a viewer in a notebook whose results can be replaced (`niwaki.view(...).widget()`)",
     "parquet": "a batch's table as Parquet (`niwaki batch export --format parquet`)",
     "print": "one closed solid for a printer (`--format stl`, `--format 3mf`)",
     "stacks": "judging structures of blocks, and their cutting sheets (`niwaki.stacks`)",
@@ -22,7 +22,7 @@ EXTRAS = {
 
 
 def install(extra: str) -> str:
-    """The command that installs an extra."""
+    """Return the command that installs an extra."""
     return f"pip install 'niwaki[{extra}]'"
 
 
@@ -34,16 +34,16 @@ def optional(module: str, task: str, extra: str, instead: str = "") -> Any:
     module
         The library, or a module of this package that needs it.
     task
-        What it is needed for, in words.
+        The task that needs the library, in words.
     extra
         A name of `EXTRAS`.
     instead
-        What else a person can do, in words.
+        Another way to do the task, in words.
 
     Raises
     ------
     FileError
-        `missing-extra`, where a package is not installed; `broken-extra`, where it is, and does not load.
+        `missing-extra`: a library is not installed; `broken-extra`: a library is installed and does not load.
     """
     try:
         return import_module(module)
@@ -51,7 +51,7 @@ def optional(module: str, task: str, extra: str, instead: str = "") -> Any:
         lacks = (error.name or "").partition(".")[0] if isinstance(error, ModuleNotFoundError) else ""
         if lacks == "niwaki":
             raise
-        # Python's own modules are not on every system.
+        # Some systems lack modules of Python's standard library.
         if lacks and lacks not in sys.stdlib_module_names:
             cure = f"install it with `{install(extra)}`" + (f", or {instead}" if instead else "")
             raise FileError("missing-extra", task=task, extra=extra, cure=cure) from None

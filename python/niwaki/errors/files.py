@@ -1,6 +1,6 @@
-"""Files that are read or written, and the errors about them; their texts are in `niwaki.errors.texts.files`.
+"""Writing of whole files, and errors about files (texts in `niwaki.errors.texts.files`).
 
-A message has a code, a title, the file it is about, the reason and the cure.
+A message has a code, a title, the file, the reason and the cure.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from typing import Any
 from niwaki.errors.kinds import NiwakiError
 from niwaki.errors.texts.files import FILES
 
-#: How the name of a file begins and ends while it is written.
+#: The beginning and the end of the temporary name of a file that is being written.
 PART = (".niwaki-", ".part")
 
-#: code: (title, why, help); the names in braces are filled in where the error is raised.
+#: Title, reason and help by code; the raiser of an error gives values for the names in braces.
 FILE_MESSAGES: dict[str, tuple[str, str, str]] = {
     message.code: (message.title, message.why, message.help) for message in FILES
 }
 
 
 class FileError(NiwakiError):
-    """A file cannot be used.
+    """Error about a file that cannot be used.
 
     Parameters
     ----------
@@ -37,13 +37,13 @@ class FileError(NiwakiError):
     place
         The file, if there is one.
     values
-        What the message's templates name.
+        Values for the names in the message's templates.
 
     Examples
     --------
     >>> print(FileError("scene-empty", verb="draw"))
-    error[scene-empty]: there is nothing to draw
-     = why: the scene has no parts
+    error[scene-empty]: there is nothing to draw: the scene has no parts
+     = why: only `emit` adds parts to a scene
      = help: let the model `emit` at least one shape
     """
 
@@ -63,7 +63,7 @@ class FileError(NiwakiError):
 
 
 def is_file(place: Path) -> bool:
-    """Whether there is a regular file; a name that no file can have is none."""
+    """Return whether a regular file has this name; False for a name that no file can have."""
     try:
         return place.is_file()
     except (OSError, ValueError):
@@ -71,25 +71,25 @@ def is_file(place: Path) -> bool:
 
 
 def write_whole(place: Path, data: bytes, private: bool = False) -> Path:
-    """Write a file so that readers see all of it or none, also after the power fails.
+    """Write a file so that readers see all of it or none, also after a power failure.
 
-    The bytes go to a file of their own in the same folder, to the disk, and then take the name. So of two writers, in
-    threads or in processes, one leaves its file. Where anything fails the file that was there stays.
+    The bytes go to a temporary file in the same folder, then to the disk, and then the file gets its name. Of two
+    writers, in threads or processes, one wins with its whole file. After any failure the old file stays.
 
     Parameters
     ----------
     place
-        The file. A link is followed, and a file that is there keeps its permissions.
+        The file. A link is followed, and an existing file keeps its permissions.
     data
-        Its bytes.
+        The file's bytes.
     private
-        Whether the file is for this user alone: a new file takes the place of whatever has the name, also of a link,
-        and where the system has permissions nobody else may read it.
+        Whether the file is for this user alone: a new file replaces an old file or a link of the name, and no other
+        user may read it, where the system has permissions.
 
     Raises
     ------
     FileError
-        `file-unwritable`: no folder, no permission, no room, or the place is not a regular file.
+        `file-unwritable`: no folder, no permission, a full disk, or the place is not a regular file.
     """
     with written_beside(place, data, private) as take_place:
         take_place()
@@ -97,7 +97,7 @@ def write_whole(place: Path, data: bytes, private: bool = False) -> Path:
 
 
 def write_all(number: int, data: bytes) -> None:
-    """Write all bytes to an open file: the system may take fewer at a time."""
+    """Write all bytes to an open file, also where the system takes fewer bytes at a time."""
     left = memoryview(data)
     while left:
         left = left[os.write(number, left) :]
@@ -105,14 +105,14 @@ def write_all(number: int, data: bytes) -> None:
 
 @contextmanager
 def written_beside(place: Path, data: bytes, private: bool = False) -> Iterator[Callable[[], None]]:
-    """Write a file beside its place, on the disk; the function that is given puts it there, in one step."""
+    """Write a temporary file beside its place, and yield a function that moves it there in one step."""
     temporary: Path | None = None
     try:
-        # A link keeps pointing to the file: what it points to is replaced, not the link. A private file replaces it.
+        # The file behind a link is replaced, and the link stays. A private file replaces the link.
         real = place if private else Path(os.path.realpath(place))
         mode = None if private else _replaceable(real)
         temporary = real.with_name(f"{PART[0]}{secrets.token_hex(8)}{PART[1]}")
-        # The system gives the permissions that it gives to any new file; `O_EXCL`: the file is ours alone.
+        # Permissions are those of any new file; `O_EXCL` refuses a file that another process created.
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
         number = os.open(temporary, flags, 0o600 if private else 0o666)
         with os.fdopen(number, "wb") as file:
@@ -141,12 +141,12 @@ def written_beside(place: Path, data: bytes, private: bool = False) -> Iterator[
 
 
 def check_place(place: Path) -> Path:
-    """Refuse, before the work, a place where no file can be written.
+    """Check, before a long search, that a file can be written to a place.
 
     Raises
     ------
     FileError
-        There is no such folder; what is there is no regular file, or write-protected; or no file can have the name.
+        The folder does not exist, a file there is not regular or is write-protected, or the name is impossible.
     """
     try:
         if not os.path.isdir(place.parent):
@@ -158,21 +158,21 @@ def check_place(place: Path) -> Path:
 
 
 def _discard(temporary: Path | None) -> None:
-    """Remove a file that did not get its place."""
+    """Remove a temporary file that did not get its place."""
     if temporary is not None:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
 
 
 def sync_folder(folder: Path) -> None:
-    """Bring the names of a folder to the disk, where the system can."""
+    """Flush a folder's names to the disk, where the system can."""
     if os.name == "nt":
         return
     number = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(number)
     except OSError as error:
-        # Some file systems cannot do this to a folder; the file itself is on the disk.
+        # Some file systems cannot flush a folder; the file itself is on the disk.
         if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.EBADF):
             raise
     finally:
@@ -180,23 +180,23 @@ def sync_folder(folder: Path) -> None:
 
 
 def unwritable(place: str | PathLike[str], error: Exception) -> FileError:
-    """The error about a place that cannot be written to."""
+    """Return the error about a place that cannot be written to."""
     reason = getattr(error, "strerror", None) or str(error)
     return FileError("file-unwritable", place, reason=reason)
 
 
 @contextmanager
-def unreadable(place: Path, what: str = "a file") -> Iterator[None]:
-    """What the system says inside, as the error about a place that cannot be read."""
+def unreadable(place: Path, kind: str = "a file") -> Iterator[None]:
+    """Turn an `OSError` of the block into the error about a place that cannot be read."""
     try:
         yield
     except OSError as error:
         reason = error.strerror or str(error)
-        raise FileError("file-unreadable", place, suffix=what, reason=reason) from error
+        raise FileError("file-unreadable", place, suffix=kind, reason=reason) from error
 
 
 def ensure_folder(place: Path) -> Path:
-    """The folder, created if it does not exist."""
+    """Return the folder, created if it does not exist."""
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -205,15 +205,15 @@ def ensure_folder(place: Path) -> Path:
 
 
 def _replaceable(place: Path) -> int | None:
-    """The permissions of the file that is there, None where there is none; an error where it must not be replaced."""
+    """Return the permissions of an existing file, or None without a file; refuse a file that must not be replaced."""
     try:
-        found = place.stat()
+        status = place.stat()
     except FileNotFoundError:
         return None
-    if stat.S_ISDIR(found.st_mode):
+    if stat.S_ISDIR(status.st_mode):
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
-    if not stat.S_ISREG(found.st_mode):
-        raise OSError(errno.EINVAL, "it is a device or a pipe, and only regular files are replaced")
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(errno.EINVAL, "it is a device or a pipe, and only a regular file can be replaced")
     if not os.access(place, os.W_OK):
-        raise PermissionError(errno.EACCES, "the file that is there is write-protected")
-    return stat.S_IMODE(found.st_mode)
+        raise PermissionError(errno.EACCES, "the existing file is write-protected")
+    return stat.S_IMODE(status.st_mode)

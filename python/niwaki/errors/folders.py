@@ -1,10 +1,10 @@
-"""A folder of results belongs to one run at a time.
+"""Locks on folders of results: a folder belongs to one run at a time.
 
-A run holds the folder from its start to its last file. Another one that wants it meanwhile gets a message at once, and
-not after its search. The system holds the lock and frees it when the process ends, whatever ends it: no file is left
-that a person would have to remove.
+A run holds its folder from its start to its last file. Another run that needs the folder meanwhile fails at once, not
+after its search. The operating system holds the lock and frees it when the process ends for whatever reason, so no
+lock file is left behind.
 
-Which files belong to a run is in its `run.json` (`niwaki.shell.run_files`).
+A run's `run.json` lists the files that belong to the run (`niwaki.shell.run_files`).
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-#: Parts of files older than this were left by a process that was killed; seconds.
+#: Seconds after which the part of a file counts as left over by a killed process.
 LEFT_OVER = 3600.0
 
-#: What a system answers when somebody else has the lock.
-_TAKEN = (errno.EACCES, errno.EAGAIN, errno.EWOULDBLOCK, errno.EDEADLK)
+#: The system's answers when another process has the lock.
+_LOCKED = (errno.EACCES, errno.EAGAIN, errno.EWOULDBLOCK, errno.EDEADLK)
 
 
 @contextmanager
 def held_folder(folder: Path) -> Iterator[Path]:
-    """The folder, made where it is missing, for this run alone.
+    """Hold a folder for this run alone; a missing folder is created.
 
     Raises
     ------
     FileError
-        `folder-in-use`: another run writes there; `file-unwritable`: it cannot be made.
+        `folder-in-use`: another run writes to the folder; `file-unwritable`: the folder cannot be created.
     """
     try:
-        found = folder.exists()
+        existed = folder.exists()
         folder.mkdir(parents=True, exist_ok=True)
         number = _opened(folder)
     except (OSError, ValueError) as error:
@@ -52,8 +52,8 @@ def held_folder(folder: Path) -> Iterator[Path]:
         try:
             yield folder
         finally:
-            if not found:
-                # It stays only with something in it.
+            if not existed:
+                # A folder that this run created stays only if it has files.
                 with suppress(OSError):
                     folder.rmdir()
             _unlock(number)
@@ -62,7 +62,7 @@ def held_folder(folder: Path) -> Iterator[Path]:
 
 
 def _opened(folder: Path) -> int:
-    """What is locked: the folder itself; on Windows, which cannot lock a folder, a file in it."""
+    """Open the folder for the lock; on Windows, which cannot lock a folder, open a file in it."""
     if sys.platform == "win32":
         return os.open(folder / ".niwaki.lock", os.O_RDWR | os.O_CREAT | os.O_TEMPORARY)
     return os.open(folder, os.O_RDONLY)
@@ -75,13 +75,13 @@ def _lock(number: int, folder: Path) -> None:
         else:
             fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
-        if error.errno in _TAKEN:
+        if error.errno in _LOCKED:
             raise FileError("folder-in-use", folder) from None
-        # A file system without locks, such as some network disks: files are still whole, one by one.
+        # The file system has no locks, as some network disks: each file is still written whole.
 
 
 def _unlock(number: int) -> None:
-    """Free it also for children of a fork, which hold the same lock."""
+    """Free the lock, also for children of a fork, which hold the same lock."""
     with suppress(OSError):
         if sys.platform == "win32":
             msvcrt.locking(number, msvcrt.LK_UNLCK, 1)

@@ -1,10 +1,10 @@
-"""Every error that Niwaki raises on purpose, and the one renderer that draws them.
+"""Classes of the errors that Niwaki raises on purpose, and the renderer of their messages.
 
-ModelError   a model breaks a rule of the language; found when it is compiled, with one or two places in the source
-ModelFault   a model failed while it ran; with the model's own call stack
+ModelError   a model breaks a rule of the language; raised by the compiler, with one or two places in the source
+ModelFault   a model failed while it ran; with the call stack of the model
 InputError   a file, a setting or an argument cannot be used
 
-All texts are in one table, `niwaki.errors.messages`; `str(error)` is the complete message.
+The table `niwaki.errors.messages` has all texts; `str(error)` is the complete message.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ from niwaki.errors.source import SourceFile, Span
 
 
 class NiwakiError(Exception):
-    """The parent of every error that Niwaki raises on purpose.
+    """Base class of the errors that Niwaki raises on purpose.
 
     Attributes
     ----------
     code : str
-        The error's name, kebab-case; each has a page in docs/errors.
+        The error's name, kebab-case; docs/errors has a page for each code.
     """
 
     code: str = ""
 
     def render(self) -> str:
-        """The whole message, as in the manual."""
+        """Return the complete message, as in the manual."""
         raise NotImplementedError
 
     def __str__(self) -> str:
@@ -38,18 +38,18 @@ class NiwakiError(Exception):
 
 
 class ModelError(NiwakiError):
-    """A model breaks a rule of the language; raised when it is compiled.
+    """Error about a model that breaks a rule of the language; the compiler raises it.
 
     Parameters
     ----------
     code
         A code of the table of messages.
     span
-        The smallest place that is wrong.
+        The smallest place with the mistake.
     second
-        Another place that explains it.
+        Another place that explains the mistake.
     values
-        What the message's templates name.
+        Values for the names in the message's templates.
     """
 
     def __init__(self, code: str, span: Span, second: Span | None = None, **values: Any) -> None:
@@ -60,7 +60,7 @@ class ModelError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
-        """The message with its places."""
+        """Return the message with its places."""
         message = MESSAGES[self.code]
         first = (self.span, fill(message.label, self.values))
         other = (self.second, fill(message.second, self.values)) if self.second is not None else None
@@ -70,29 +70,29 @@ class ModelError(NiwakiError):
 
 @dataclass(frozen=True)
 class Call:
-    """One line of a model's call stack: a function's name and the place it had reached."""
+    """A line of a model's call stack: a function's name, and the place that the call had reached."""
 
     function: str
     span: Span | None
 
 
 class ModelFault(NiwakiError):
-    """A model failed while it ran.
+    """Error about a model that failed while it ran.
 
     Parameters
     ----------
     code
         The fault's name.
     message
-        What happened, with the values; the table's title when empty.
+        What happened, with the values; empty for the table's title.
     help
-        What to do; the table's when None.
+        What to do; None for the table's help.
     stack
-        The model's calls, outermost first; the last is where it happened.
+        The model's calls, outermost first; the last call failed.
     replay
-        What is needed to run it again (seed, or choices).
+        The settings that repeat the run (seed, or choices).
     values
-        What the table's templates name.
+        Values for the names in the table's templates.
     """
 
     def __init__(
@@ -121,12 +121,12 @@ class ModelFault(NiwakiError):
         stack: Sequence[tuple[str, str, tuple[int, int, int, int]]],
         replay: str = "",
     ) -> ModelFault:
-        """A fault as the engine reports it: each line of the stack is (function, path, (l, c, end l, end c))."""
+        """Make the error from the engine's report; a line of the stack is (function, path, (l, c, end l, end c))."""
         calls = [Call(function, place(path, *span)) for function, path, span in stack]
         return cls(code, message, help, calls, replay)
 
     def render(self) -> str:
-        """The message with its place and the model's calls."""
+        """Return the message with its place and the model's calls."""
         message = MESSAGES.get(self.code, _UNKNOWN)
         title = self.message or fill(message.title, self.values)
         lines = [f"error[{self.code}]: {title}"]
@@ -154,17 +154,16 @@ class ModelFault(NiwakiError):
 
 
 class InputError(NiwakiError):
-    """A file, a setting or an argument cannot be used.
+    """Error about a file, a setting or an argument that cannot be used.
 
     Parameters
     ----------
     code
         A code of the table of messages.
     places
-        Up to two places in a model that explain it, each with a label.
+        Up to two places in a model that explain the error, each with a label.
     values
-        Values for the message's templates; `detail`, `elsewhere`, `attempts` and `source` are shown on lines of their
-        own.
+        Values for the message's templates. `detail`, `elsewhere`, `attempts` and `source` are shown on separate lines.
     """
 
     def __init__(self, code: str, places: Sequence[tuple[Span, str]] = (), **values: Any) -> None:
@@ -174,13 +173,13 @@ class InputError(NiwakiError):
         self.values = values
 
     def render(self) -> str:
-        """The message, with its places if it has some."""
+        """Return the message, with its places if it has any."""
         message = MESSAGES.get(self.code, _UNKNOWN)
         lines = [f"error[{self.code}]: {fill(message.title, self.values)}"]
         margin = " "
         if self.places:
-            first, *others = self.places
-            lines += snippet(first, others[0] if others else None)
+            first, *further = self.places
+            lines += snippet(first, further[0] if further else None)
             margin = lines[-1].removesuffix("|")
         for name, label in (
             ("detail", "found"),
@@ -197,29 +196,29 @@ _UNKNOWN = Message("unknown", "the model failed")
 
 
 def fill(template: str, values: dict[str, Any]) -> str:
-    """A template with its names filled in; names without a value become empty."""
+    """Fill a template's names with values; a name without a value becomes empty."""
 
-    class Given(dict[str, Any]):
+    class Values(dict[str, Any]):
         def __missing__(self, key: str) -> str:
             return ""
 
-    return template.format_map(Given(values))
+    return template.format_map(Values(values))
 
 
 def place(path: str, line: int, column: int, end_line: int, end_column: int) -> Span:
-    """A span in a file known by its path."""
+    """Return a span in the file at a path."""
     lines = tuple(text.rstrip("\r\n") for text in linecache.getlines(path))
     return Span(SourceFile(path, lines), line, column, end_line, end_column)
 
 
 def notes(message: Message, values: dict[str, Any], help: str | None = None, margin: str = " ") -> list[str]:
-    """The lines `= why:` and `= help:`."""
+    """Return the lines `= why:` and `= help:` of a message."""
     why, cure = fill(message.why, values), help if help is not None else fill(message.help, values)
     return [f"{margin}= {kind}: {text}" for kind, text in (("why", why), ("help", cure)) if text]
 
 
 def snippet(first: tuple[Span, str], second: tuple[Span, str] | None) -> list[str]:
-    """The source lines with carets under the first place and dashes under the second, in the order of the file."""
+    """Return the source lines of places, with carets under the first and dashes under the second, in file order."""
     main = first[0]
     elsewhere = second is not None and second[0].file.path != main.file.path
     marks = [(main, first[1], "^")]

@@ -1,4 +1,4 @@
-"""Memory: how much a program can still get, and the refusal of what needs more, before any of it is taken."""
+"""Free memory, and checks that refuse a search before it takes more than that."""
 
 from __future__ import annotations
 
@@ -7,39 +7,39 @@ from pathlib import Path
 
 from niwaki.errors.kinds import InputError
 
-#: Where Linux says what a group of processes may use, and what it uses; its second and its first version.
+#: Linux's files with the memory limit and the use of a group of processes, of versions 2 and 1.
 _GROUPS = (
     ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
     ("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"),
 )
 
-#: A search stops when less is left: the system would end the process soon, and its results with it.
+#: A search stops when fewer bytes are free: the system would soon end the process, and lose its results.
 LEAST = 256 * 2**20
 
-#: More than any machine has: the answer of a system that does not say.
+#: The answer where the system does not tell the free memory: more bytes than any machine has.
 UNKNOWN = 1 << 62
 
 
-def check_room(name: str, count: int, each: int, what: str, beside: int = 0) -> None:
-    """Refuse a count that needs more memory than there is.
+def check_room(name: str, count: int, each: int, unit: str, beside: int = 0) -> None:
+    """Refuse a count that needs more memory than is free.
 
     Parameters
     ----------
     name
-        The setting, as the person wrote it.
+        The setting's name, as the user wrote it.
     count
-        How many are asked for.
+        The requested count.
     each
-        The least that one takes, bytes.
-    what
-        One of them, in words.
+        The least bytes that one of the count takes.
+    unit
+        The noun for one of the count, such as "particle".
     beside
-        Bytes that are needed for other things.
+        Bytes that other parts of the search need.
 
     Raises
     ------
     InputError
-        The numbers: asked for, one, together, free, and how many fit.
+        The message has the requested count, the bytes of each and of all, the free bytes, and the count that fits.
     """
     free = max(0, free_memory() - beside)
     if count * each > free:
@@ -47,7 +47,7 @@ def check_room(name: str, count: int, each: int, what: str, beside: int = 0) -> 
             "no-room",
             name=name,
             asked=f"{count:,}",
-            what=what,
+            what=unit,
             each=size(each),
             needed=size(count * each),
             free=size(free),
@@ -56,12 +56,12 @@ def check_room(name: str, count: int, each: int, what: str, beside: int = 0) -> 
 
 
 def check_left() -> None:
-    """Refuse to go on where nearly no memory is left. The engine calls it every 50 milliseconds while it works.
+    """Stop a search when almost no memory is free. The engine calls this every 50 milliseconds.
 
     Raises
     ------
     InputError
-        How much is free, and below what a search stops.
+        The message has the free bytes, and the least that a search needs.
     """
     free = free_memory()
     if free < LEAST:
@@ -69,7 +69,7 @@ def check_left() -> None:
 
 
 def size(count: int) -> str:
-    """A number of bytes, readable."""
+    """Return a number of bytes as text, such as "1.5 GB"."""
     for unit, factor in (("GB", 10**9), ("MB", 10**6), ("kB", 10**3)):
         if count >= factor:
             return f"{count // factor:,} {unit}" if count >= 100 * factor else f"{count / factor:.1f} {unit}"
@@ -77,7 +77,7 @@ def size(count: int) -> str:
 
 
 def free_memory() -> int:
-    """Bytes that this process can still get: of the machine, of its group of processes, and by its own limit."""
+    """Return the bytes that this process can still take from the machine, its group of processes and its own limit."""
     return max(0, min(_of_machine(), *(_of_group(*files) for files in _GROUPS), limit_of_process()))
 
 
@@ -95,7 +95,7 @@ def _of_machine() -> int:
 
 
 def _of_group(limit: str, used: str) -> int:
-    """What a container may still use. The use counts pages of files too, which the system gives up when it must."""
+    """Return the bytes that a container may still use; pages of files count as free, because the system drops them."""
     try:
         left = int(Path(limit).read_text("ascii")) - int(Path(used).read_text("ascii"))
         for line in Path(used).with_name("memory.stat").read_text("ascii").splitlines():
@@ -108,7 +108,7 @@ def _of_group(limit: str, used: str) -> int:
 
 
 def limit_of_process() -> int:
-    """What `ulimit -v` leaves."""
+    """Return the bytes that `ulimit -v` still allows."""
     try:
         import resource
     except ImportError:

@@ -1,4 +1,4 @@
-"""The one table of all messages, by code."""
+"""The table of all messages, by code."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""A worker process and all that it has started, ended as one.
+"""Worker processes, each ended together with all processes that it has started.
 
-On Unix a worker leads a session, and with it a group of processes; whatever it starts is of the group, unless it leaves
-it. Windows has no such groups: there `taskkill`, which is a part of it, ends the tree below a worker that still runs.
+On Unix a worker leads a session, and so a group of processes; processes that it starts belong to the group unless they
+leave it. Windows has no such groups: there the system's `taskkill` ends the tree below a worker that still runs.
 """
 
 from __future__ import annotations
@@ -16,23 +16,23 @@ from contextlib import suppress
 def lead() -> None:
     """Make this process the leader of a group."""
     if sys.platform != "win32":
-        # A process that leads a group already is refused.
+        # The system refuses a process that already leads a group.
         with suppress(PermissionError):
             os.setsid()
 
 
 def end_group(leader: int) -> None:
-    """End a process that leads a group, where it still runs, and all processes of the group.
+    """End all processes of a group, with the process that leads the group.
 
     Parameters
     ----------
     leader
-        The number of the process; that of this one ends it, too.
+        The leader's process number; this process can be the leader, and then ends, too.
     """
     if sys.platform == "win32":
         words = ["taskkill", "/F", "/T", "/PID", str(leader)]
         subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
     else:
-        # There is none, or what is left of it has become somebody else's.
+        # The group has no processes left, or its number now belongs to another user's processes.
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(leader, signal.SIGKILL)

@@ -1,7 +1,8 @@
-"""JSON that came from elsewhere: read, and held against a schema, once and before anything is done with it.
+"""JSON from files and messages, checked against a schema before anything uses it.
 
-A schema is a class of msgspec, or any type that it knows. What does not fit is an `Unfit`: the place in the JSON
-(`$.method.particles`), what was expected there and what stood there. Who reads a file turns it into its own error.
+A schema is a class of msgspec, or any other type that msgspec knows. A value that does not fit raises `Unfit`, with
+the place in the JSON (`$.method.particles`), the expected value and the actual one. The reader of each kind of file
+turns `Unfit` into an error of its own.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import msgspec
 
 from niwaki.errors import settings
 
-#: The types of JSON in words, for people.
+#: The types of JSON, in words.
 _WORDS = {
     "int": "a whole number",
     "float": "a number",
@@ -27,44 +28,44 @@ _WORDS = {
 }
 
 
-#: What a text should be.
+#: The expected value where a text is not JSON.
 JSON = "JSON"
 
 
 class Unfit(ValueError):
-    """A value of some JSON that does not fit.
+    """Error about a value in JSON that does not fit its schema.
 
     Attributes
     ----------
     at : str
-        Its place, from `$`, which is the whole.
+        The value's place, from `$`, the whole JSON.
     expected : str
-        What should stand there.
-    found : str
-        What stands there.
+        The expected value, in words.
+    actual : str
+        The actual value, in words.
     """
 
-    def __init__(self, at: str, expected: str, found: str) -> None:
-        super().__init__(at, expected, found)
-        self.at, self.expected, self.found = at, expected, found
+    def __init__(self, at: str, expected: str, actual: str) -> None:
+        super().__init__(at, expected, actual)
+        self.at, self.expected, self.actual = at, expected, actual
 
     def inside(self, step: str) -> Unfit:
-        """The same, seen from what holds the value: `step` leads from there to what `$` was."""
-        return Unfit(f"${step}{self.at[1:]}", self.expected, self.found)
+        """Return this error for the JSON around the value, in which `step` leads to the value."""
+        return Unfit(f"${step}{self.at[1:]}", self.expected, self.actual)
 
     def __str__(self) -> str:
         if self.expected == JSON:
-            return f"it is not JSON: {self.found}"
-        return f"at `{self.at}` there is {self.found}, expected {self.expected}"
+            return f"it is not JSON: {self.actual}"
+        return f"at `{self.at}` there is {self.actual}, expected {self.expected}"
 
 
 def decoded(text: str | bytes) -> Any:
-    """What a JSON text holds: numbers are finite, and tables are not nested without bound.
+    """Decode a JSON text. Numbers are finite, and the depth of nesting is limited.
 
     Raises
     ------
     Unfit
-        It is not JSON.
+        The text is not JSON.
     """
     try:
         return msgspec.json.decode(text)
@@ -76,12 +77,12 @@ def decoded(text: str | bytes) -> Any:
 
 
 def fitted(data: Any, kind: Any) -> Any:
-    """The data as the schema has it.
+    """Convert decoded data to the type of a schema.
 
     Raises
     ------
     Unfit
-        They do not fit.
+        The data do not fit the schema.
     """
     try:
         return msgspec.convert(data, kind)
@@ -91,7 +92,7 @@ def fitted(data: Any, kind: Any) -> Any:
 
 @contextmanager
 def inside(step: str) -> Iterator[None]:
-    """Inside, a value is read to which `step` leads; an `Unfit` is about the whole."""
+    """Turn an `Unfit` of the block, about the value at `step`, into an error about the whole JSON."""
     try:
         yield
     except Unfit as error:
@@ -99,7 +100,7 @@ def inside(step: str) -> Iterator[None]:
 
 
 def shown(value: Any) -> str:
-    """A value in a few characters."""
+    """Describe a value in a few characters."""
     if isinstance(value, dict):
         names = ", ".join(repr(name) for name in list(value)[:3])
         return f"a table with {names}{', ...' if len(value) > 3 else ''}" if value else "an empty table"
@@ -109,31 +110,31 @@ def shown(value: Any) -> str:
 
 
 def _unfit(message: str, data: Any) -> Unfit:
-    """What msgspec says, in our words."""
-    what, _, place = message.partition(" - at `")
+    """Translate an error of msgspec."""
+    text, _, place = message.partition(" - at `")
     at = place.removesuffix("`") or "$"
-    missing = re.fullmatch(r"Object missing required field `(.*)`", what)
+    missing = re.fullmatch(r"Object missing required field `(.*)`", text)
     if missing:
         return Unfit(f"{at}.{missing[1]}", "a value", "nothing")
-    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", what)
+    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", text)
     if unknown:
         return Unfit(f"{at}.{unknown[1]}", "no such name", "a value")
-    expected, _, got = what.removeprefix("Expected ").partition(", got ")
-    found = _found(data, at)
-    return Unfit(at, _in_words(expected), shown(found[0]) if found else _in_words(got) or "something else")
+    expected, _, got = text.removeprefix("Expected ").partition(", got ")
+    value = _value_at(data, at)
+    return Unfit(at, _in_words(expected), shown(value[0]) if value else _in_words(got) or "something else")
 
 
 def _in_words(text: str) -> str:
     """Replace `int | null` by words."""
 
-    def words(found: re.Match[str]) -> str:
-        return " or ".join(_WORDS.get(one, one) for one in found[1].split(" | "))
+    def words(match: re.Match[str]) -> str:
+        return " or ".join(_WORDS.get(word, word) for word in match[1].split(" | "))
 
     return re.sub(r"`([^`]*)`", words, text)
 
 
-def _found(data: Any, at: str) -> tuple[Any] | None:
-    """The value at a place, in a tuple; None where the place is not exact."""
+def _value_at(data: Any, at: str) -> tuple[Any] | None:
+    """Return the value at a place, in a tuple, or None where the place is not exact."""
     for name, number in re.findall(r"\.(\w+)|\[(\d+|\.\.\.)\]", at):
         try:
             data = data[name] if name else data[int(number)]

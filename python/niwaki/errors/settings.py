@@ -1,4 +1,4 @@
-"""Values of settings: what a number is, and the error about a value that a setting cannot have."""
+"""Checks of settings: which values are numbers, and the error about a value that a setting cannot have."""
 
 from __future__ import annotations
 
@@ -12,54 +12,54 @@ from niwaki.errors.kinds import InputError
 #: The largest count: the engine counts in 64 bits.
 MOST = 2**63 - 1
 
-#: What a run may use where nobody says otherwise: calls and loop steps, and bytes.
+#: Default limits of a run: steps (calls and loop iterations), and bytes.
 MAX_STEPS, MAX_MEMORY = 20_000_000, 1 << 30
 
-#: The most threads of a search, and the variable in the environment that names their number.
+#: The most threads of a search, and the environment's variable for their number.
 THREADS, VARIABLE = 1024, "RAYON_NUM_THREADS"
 
 #: The most characters of a value in a message.
 LONGEST = 200
 
 
-def bad(name: str, found: Any, expected: str, suggestion: str) -> InputError:
-    """The error about the value of a setting."""
-    return InputError("bad-setting", name=name, found=shown(found), expected=expected, suggestion=suggestion)
+def bad(name: str, value: Any, expected: str, suggestion: str) -> InputError:
+    """Return the error about the value of a setting."""
+    return InputError("bad-setting", name=name, value=shown(value), expected=expected, suggestion=suggestion)
 
 
 def shown(value: Any) -> str:
-    """A value as a message shows it: of a long one the beginning, of a huge number the number of its digits."""
+    """Return a value as messages show it: the beginning of a long text, the number of digits of a huge number."""
     if is_whole(value) and value.bit_length() > 256:
         return f"a number of about {round(value.bit_length() * 0.30103)} digits"
     try:
         text = repr(value)
     except (ValueError, RecursionError):
-        # Whole numbers of many digits within a value, and values within values, that Python refuses to write.
+        # Python refuses to write a value that has a number of very many digits, or that is nested very deeply.
         return "a value too long to write"
     return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def is_whole(value: Any) -> bool:
-    """Whether it is a whole number, which a truth value is not."""
+    """Return whether a value is a whole number; truth values are not."""
     return isinstance(value, int) and not isinstance(value, bool)
 
 
 def is_number(value: Any) -> bool:
-    """Whether it is a number that a real number can hold, which a truth value is not."""
+    """Return whether a value is a number within the range of floats; truth values are not."""
     return isinstance(value, float) or (is_whole(value) and abs(value) <= sys.float_info.max)
 
 
 def count(name: str, value: Any, least: int = 1, most: int = MOST, usual: str | None = None) -> int:
-    """The value, where it is a whole number within these bounds; else the error about it.
+    """Check that a value is a whole number within bounds, and return it.
 
     Parameters
     ----------
     name
-        The setting, as the person wrote it.
+        The setting's name, as the user wrote it.
     value
-        What was given.
+        The setting's value.
     least, most
-        The bounds, both allowed.
+        The bounds, inclusive.
     usual
         A value that makes sense, for the message.
     """
@@ -80,18 +80,18 @@ def real(
     ends: str = "()",
     usual: str = "such a number",
 ) -> float:
-    """The value as a real number, where it is finite and within these bounds; else the error about it.
+    """Check that a value is a finite number within bounds, and return it as a float.
 
     Parameters
     ----------
     name
-        The setting, as the person wrote it.
+        The setting's name, as the user wrote it.
     value
-        What was given.
+        The setting's value.
     low, high
         The bounds.
     ends
-        Whether they are allowed: "[]" for both, "()" for none.
+        "[]" if the bounds are inclusive, "()" if they are exclusive; also "[)" and "(]".
     usual
         A value that makes sense, for the message.
     """
@@ -110,15 +110,15 @@ def real(
 
 
 def usual_threads() -> int | None:
-    """How many threads the environment asks for; None where it does not say. The engine calls it for each of its pools.
+    """Return the number of threads that the environment sets, or None. The engine calls this for each of its pools.
 
     Raises
     ------
     InputError
-        The variable is no number of threads.
+        The variable is not a number of threads.
     """
     text = os.environ.get(VARIABLE, "").strip()
-    # Zero is Rayon's word for as many as the machine has.
+    # Zero means all cores, as in Rayon.
     if text in ("", "0"):
         return None
     if not (text.isascii() and text.isdecimal() and len(text) <= 4 and int(text) <= THREADS):
@@ -131,6 +131,6 @@ def usual_threads() -> int | None:
     return int(text)
 
 
-def refuse_threads(asked: int | None, reason: str) -> NoReturn:
-    """The error about threads that the system does not give, in the engine's words."""
-    raise InputError("no-threads", asked="all" if asked is None else asked, reason=reason)
+def refuse_threads(count: int | None, reason: str) -> NoReturn:
+    """Raise the error about threads that the system refuses; the engine calls this."""
+    raise InputError("no-threads", count="all" if count is None else count, reason=reason)

@@ -1,8 +1,8 @@
-"""Where a model is written: its file, its text and the places in it.
+"""The source of a model: its file, its text, and places in the text.
 
 A :class:`Span` is a piece of a source file, counted as editors count it (lines and columns from 1, the end excluded).
-:func:`find_function` gives the syntax tree of a function object, cut out of the tree of its whole file, so that every
-node already has the file's own lines and columns.
+:func:`find_function` finds the syntax tree of a function object in the tree of the whole file, so that every node has
+the file's lines and columns.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from types import FunctionType
 
 @dataclass(frozen=True)
 class SourceFile:
-    """A file's name and its lines (without line ends)."""
+    """The name and the lines (without line ends) of a source file."""
 
     path: str
     lines: tuple[str, ...]
 
     def line(self, number: int) -> str:
-        """The text of a line counted from 1, or nothing beyond the end."""
+        """Return the text of a line, counted from 1; an empty text beyond the end."""
         return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
 
 
@@ -40,7 +40,7 @@ class Span:
 
     @property
     def text(self) -> str:
-        """The source text of the span; of the first line only when it runs over several."""
+        """The text of the span; only the first line of a span of several lines."""
         line = self.file.line(self.line)
         if self.end_line == self.line:
             return line[self.column - 1 : self.end_column - 1]
@@ -49,12 +49,12 @@ class Span:
 
 @dataclass
 class _Parsed:
-    """A file that was read, with the functions in it, so that finding one does not go through the whole file.
+    """A parsed file with an index of its functions, so that a search for a function does not walk the tree.
 
     Attributes
     ----------
     raw : list of str
-        The lines as `linecache` has them.
+        The lines as `linecache` returned them.
     file : SourceFile
         The lines without their ends.
     functions : dict
@@ -73,8 +73,8 @@ _files: dict[str, _Parsed] = {}
 
 
 def _parsed(path: str, module_globals: dict[str, object]) -> _Parsed | None:
-    """A file and the functions in it; read again when the text has changed since."""
-    # A file may have been edited since it was last looked at.
+    """Return the parsed file, or None; a file that has changed is parsed again."""
+    # An editor may have changed the file since the last call.
     linecache.checkcache(path)
     raw = linecache.getlines(path, module_globals)
     known = _files.get(path)
@@ -90,18 +90,18 @@ def _parsed(path: str, module_globals: dict[str, object]) -> _Parsed | None:
         tree = ast.parse("\n".join(lines) + "\n", filename=path)
     except (SyntaxError, RecursionError, MemoryError):
         return None
-    found = _files[path] = _Parsed(raw, SourceFile(path, lines), {}, {})
+    parsed = _files[path] = _Parsed(raw, SourceFile(path, lines), {}, {})
     for node in ast.walk(tree):
         if isinstance(node, ast.Lambda):
-            found.lambdas.setdefault(node.lineno, []).append(node)
+            parsed.lambdas.setdefault(node.lineno, []).append(node)
         elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             first = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
-            found.functions.setdefault((node.name, first), node)  # type: ignore[arg-type]
-    return found
+            parsed.functions.setdefault((node.name, first), node)  # type: ignore[arg-type]
+    return parsed
 
 
 def span_of(node: ast.AST, file: SourceFile) -> Span:
-    """The span of a syntax node. The tree counts columns in UTF-8 bytes, we count characters."""
+    """Return the span of a syntax node. The tree counts columns in UTF-8 bytes, a span in characters."""
     line, column = getattr(node, "lineno", 1), getattr(node, "col_offset", 0)
     end_line = getattr(node, "end_lineno", None) or line
     end_column = getattr(node, "end_col_offset", None)
@@ -123,7 +123,7 @@ def _characters(line: str, offset: int) -> int:
 
 
 def head_span(node: ast.FunctionDef | ast.Lambda, file: SourceFile) -> Span:
-    """The first line of a definition, `def name(...)`, without its body."""
+    """Return the span of a definition's first line, `def name(...)`, without the body."""
     whole = span_of(node, file)
     if isinstance(node, ast.Lambda):
         return whole
@@ -136,7 +136,7 @@ def head_span(node: ast.FunctionDef | ast.Lambda, file: SourceFile) -> Span:
 
 
 def find_function(function: FunctionType) -> tuple[SourceFile, ast.FunctionDef | ast.Lambda] | None:
-    """The syntax tree of a function object, or None when its source cannot be read."""
+    """Return the file and the syntax tree of a function object, or None when its source cannot be read."""
     code = function.__code__
     parsed = _parsed(code.co_filename, function.__globals__)
     if parsed is None:
@@ -150,7 +150,7 @@ def find_function(function: FunctionType) -> tuple[SourceFile, ast.FunctionDef |
 def _find_lambda(
     function: FunctionType, file: SourceFile, lambdas: list[ast.Lambda]
 ) -> tuple[SourceFile, ast.Lambda] | None:
-    """Several lambdas may share a line: ours is the smallest whose body holds every instruction's position."""
+    """Choose among the lambdas of a line the smallest with a body that contains every instruction's position."""
     code = function.__code__
     places = [
         (p[0], p[2]) for p in code.co_positions() if p[0] is not None and p[2] is not None and p[3] != 0

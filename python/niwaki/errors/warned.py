@@ -1,4 +1,4 @@
-"""Warnings at the line of the user's code that called the package, however deep in the package they are found."""
+"""Warnings that name the line of the user's code, however deep in the package their cause is."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 """Files that a person gives: read within limits, and what a library makes of them.
 
-limits   how large a file may be, how much it may hold, how long reading may take
-files    the bytes of a file: regular files only, up to a limit
-guard    the errors of a library that reads, as ours
-child    a reader in a process of its own, with limits of memory and time
-modules  Python files, run as modules
+- limits: how large a file may be, how much it may hold, how long reading may take
+- files: the bytes of a file: regular files only, up to a limit
+- guard: the errors of a library that reads, as ours
+- child: a reader in a process of its own, with limits of memory and time
+- modules: Python files, run as modules
 """
 
 from niwaki.inputs.child import read_apart

@@ -1,21 +1,21 @@
-"""From a Python function to core form, and the plain-Python run.
+"""The modelling language: the compiler from Python functions to core form, and the plain-Python run.
 
-scope          the scope of each name; what nested functions capture
-names          what names mean outside of the model
-constants      which Python objects may cross as data
-sites          the readable names of choices, calls and loops
-vocabulary     built-ins, `math` and our words, as operations
-core           the core form: grammar and writer
-marks          functions that are marked for the language
-program, body  the state of one lowering, and of one function in it
-expressions, statements, comprehensions, arguments, callees, builtin_calls, inference, looking, calls,
-refuse, lower  the lowering: one function for each kind of syntax
-instrument, densities, plain
-               a model as ordinary Python
-compiled       a model with its program for the engine; tasks
-models         `@model`
-constraints, residuals
-               the soft constraints of a run, and how far they are from holding
+- `scope`: the scopes of names, and the captures of nested functions
+- `names`: names from outside of a model
+- `constants`: Python objects that may cross to the engine as data
+- `sites`: readable names of choices, calls and loops
+- `vocabulary`: built-ins, `math` and the words of the package, as operations
+- `core`: the core form, its grammar and its writer
+- `marks`: functions that are marked for the language
+- `program`, `body`: the state while a program, and a function of it, are lowered
+- `expressions`, `statements`, `comprehensions`, `arguments`, `callees`, `builtin_calls`, `emits`, `inference`,
+  `looking`, `calls`, `refuse`, `lower`: the lowering, with a function for each kind of syntax
+- `instrument`, `densities`, `futures`, `memoised`, `inner`, `plain`: a model as ordinary Python
+- `compiled`: a model with its program for the engine; tasks
+- `models`: `@model`
+- `advice`: advice of `niwaki check`
+- `blame`: parts of scenes that broke a constraint
+- `constraints`, `residuals`: the soft constraints of a run, and their distances from holding
 """
 
 import lazy_loader

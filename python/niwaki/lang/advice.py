@@ -1,13 +1,12 @@
-"""Advice on a model that compiles: what delays the scoring of particles.
+"""Advice on a model that compiles, about code that delays the scoring of particles.
 
-Two things cost a search more than anything else (dissertation 5.4 and 5.6.1): a decision on a random value that is made
-in place where it could be a future, and a choice that is drawn before a barrier that does not need it. Both are seen in
-the text: `emit`, `factor`, `observe` and `condition` are barriers, and so is a call that reaches one.
+Two habits slow a search most (dissertation 5.4 and 5.6.1): a decision on a random value in place where it could be a
+future, and a choice drawn before a barrier that does not need it. The text of a model shows both: `emit`, `factor`,
+`observe` and `condition` are barriers, and so are calls that reach a barrier.
 
-Only what can be moved is reported. A branch or call is left alone where later code reads what it assigned or
-returned, where it leaves the function or the loop, and where nothing after it builds: what the next part depends
-on cannot be a future. A choice is reported only where a later part in the same block is the first to read it. Chance
-is followed through variables and calls, not through arguments.
+Advice is only about code that can move. A branch or call gets none if later code reads its results, if it leaves the
+function or the loop, or if no later code builds parts. A choice gets advice only if a later part of the same block is
+the first to read it. Randomness is followed through variables and calls, not through arguments.
 """
 
 from __future__ import annotations
@@ -41,16 +40,16 @@ Function = ast.FunctionDef | ast.Lambda
 
 @dataclass(frozen=True)
 class Advice:
-    """One piece of advice: a place, and another that explains it.
+    """Advice about a place in a model.
 
     Attributes
     ----------
     code : str
-        Its name; each has a page in docs/errors.
+        The name of the kind of advice; docs/errors has a page for each.
     span, second : Span
-        The place, and what it delays.
+        The place, and the code that it delays.
     values : dict
-        What the message's templates name.
+        Values for the names in the message's templates.
     """
 
     code: str
@@ -68,18 +67,18 @@ class Advice:
 
 @deep
 def advise(function: FunctionType) -> list[Advice]:
-    """Advice on a model and on every function that it can call, in the order of the source."""
+    """Return the advice on a model and on every function that it can call, in the order of the source."""
     program = lowered(function)
-    knows = _Facts(program)
-    found = [one for unit in program.units.values() for one in _Reader(unit, knows).read()]
-    return sorted(found, key=lambda one: (one.span.file.path, one.span.line, one.span.column))
+    facts = _Facts(program)
+    advice = [entry for unit in program.units.values() for entry in _Reader(unit, facts).read()]
+    return sorted(advice, key=lambda entry: (entry.span.file.path, entry.span.line, entry.span.column))
 
 
-Asked = Callable[["_Reader", ast.AST], bool]
+Question = Callable[["_Reader", ast.AST], bool]
 
 
-def once(ask: Asked) -> Asked:
-    """Answer a question about a part from what was found before. A reader is made anew when the facts have grown."""
+def once(ask: Question) -> Question:
+    """Store the answers to a question about parts in the reader; the reader forgets them when facts are added."""
 
     @wraps(ask)
     def answer(reader: _Reader, part: ast.AST) -> bool:
@@ -92,7 +91,7 @@ def once(ask: Asked) -> Asked:
 
 
 class _Facts:
-    """What each function of a program can reach: barriers, random choices, decisions on them."""
+    """Facts about the functions of a program: which reach barriers, random choices, decisions on random values."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -106,10 +105,10 @@ class _Facts:
         callers: dict[Function, list[Function]] = {node: [] for node in readers}
         callees = {node: reader.functions(node) for node, reader in readers.items()}
         for node, called in callees.items():
-            for one in called:
-                callers[one].append(node)
-        # A fixed point: callers reach what their callees reach. Callees come first, so that a function is looked at
-        # again only where calls go round.
+            for callee in called:
+                callers[callee].append(node)
+        # A fixed point: callers reach all that their callees reach. Callees come first, so that only functions in a
+        # cycle of calls are read again.
         place = {node: number for number, node in enumerate(_callees_first(callees))}
         waiting, queue = set(readers), sorted(place[node] for node in readers)
         nodes = sorted(readers, key=place.__getitem__)
@@ -120,7 +119,7 @@ class _Facts:
             self._look(readers[node], node)
             if self._known(node) != before:
                 for caller in callers[node]:
-                    # What it answered of its calls may have changed.
+                    # The caller's answers about its calls may have changed.
                     readers[caller].known.clear()
                     if caller not in waiting:
                         waiting.add(caller)
@@ -143,64 +142,64 @@ class _Facts:
 
 
 def _callees_first(callees: Mapping[Function, Sequence[Function]]) -> list[Function]:
-    """The functions, each after those that it calls, but for calls that go round."""
-    found: dict[Function, None] = {}
-    begun: set[Function] = set()
+    """Return the functions in an order with callees before callers, except in cycles of calls."""
+    ordered: dict[Function, None] = {}
+    entered: set[Function] = set()
     for first in callees:
-        waiting = [(first, iter(callees[first]))] if first not in begun else []
-        begun.add(first)
+        waiting = [(first, iter(callees[first]))] if first not in entered else []
+        entered.add(first)
         while waiting:
             node, rest = waiting[-1]
-            following = next((one for one in rest if one not in begun), None)
+            following = next((callee for callee in rest if callee not in entered), None)
             if following is None:
-                found[node] = None
+                ordered[node] = None
                 waiting.pop()
             else:
-                begun.add(following)
+                entered.add(following)
                 waiting.append((following, iter(callees[following])))
-    return list(found)
+    return list(ordered)
 
 
 class _Reader:
-    """Reads one unit."""
+    """Reader of a unit of the program, a top-level function with its nested functions."""
 
     def __init__(self, unit: Unit, facts: _Facts) -> None:
         self.unit = unit
         self.facts = facts
         self.owner: dict[ast.AST, Scope] = {}
         self.known: dict[tuple[str, ast.AST], bool] = {}
-        self._own(unit.node, unit.scopes.root)
+        self._set_owners(unit.node, unit.scopes.root)
 
-    def _own(self, node: ast.AST, scope: Scope) -> None:
+    def _set_owners(self, node: ast.AST, scope: Scope) -> None:
         for child in ast.iter_child_nodes(node):
             inner = self.unit.scopes.of.get(child, scope)
             self.owner[child] = scope
-            self._own(child, inner)
+            self._set_owners(child, inner)
 
     def read(self) -> Iterator[Advice]:
-        """The advice on this unit."""
+        """Yield the advice on this unit."""
         for node in ast.walk(self.unit.node):
             if isinstance(node, ast.FunctionDef):
                 yield from self.block(node.body, _After(None, lambda _: False), None)
 
-    # what is called
+    # callees
 
     def meaning(self, node: ast.expr) -> Any:
-        """The object, or the node of a nested function, that a callee is; else MISSING."""
+        """Return the object, or the node of a nested function, that a callee means; else MISSING."""
         if isinstance(node, ast.Lambda):
             return node
         if isinstance(node, ast.Name):
-            found = self.unit.scopes.find(node.id, self.owner.get(node, self.unit.scopes.root))
-            if isinstance(found, Scope):
-                return found.node
-            return MISSING if isinstance(found, Variable) else underlying(self.unit.namespace.find(node.id))
+            meaning = self.unit.scopes.find(node.id, self.owner.get(node, self.unit.scopes.root))
+            if isinstance(meaning, Scope):
+                return meaning.node
+            return MISSING if isinstance(meaning, Variable) else underlying(self.unit.namespace.find(node.id))
         if isinstance(node, ast.Attribute):
             owner = self.meaning(node.value)
             return MISSING if owner is MISSING else underlying(getattr(owner, node.attr, MISSING))
         return MISSING
 
     def calls(self, part: ast.AST) -> Iterator[tuple[ast.Call, Any]]:
-        """The calls that a part makes in place, with what is called; not those inside of functions that it defines."""
+        """Yield the calls of a part with their callees, without calls inside functions that the part defines."""
         waiting = [part]
         while waiting:
             node = waiting.pop()
@@ -209,17 +208,17 @@ class _Reader:
             waiting.extend(below(node))
 
     def functions(self, node: Function) -> list[Function]:
-        """The functions of the user that a function calls in place."""
+        """Return the user's functions that a function calls in place."""
         called = (self.function(value) for part in body_of(node) for _, value in self.calls(part))
-        return [*dict.fromkeys(one for one in called if one is not None)]
+        return [*dict.fromkeys(callee for callee in called if callee is not None)]
 
     def called(self, node: ast.AST) -> Any:
-        """What a call calls; MISSING for other parts."""
+        """Return the callee of a call; MISSING for other parts."""
         value = self.meaning(node.func) if isinstance(node, ast.Call) else MISSING
         return value if isinstance(value, ast.AST) or hashable(value) else MISSING
 
     def function(self, value: Any) -> Function | None:
-        """The node of a user's function."""
+        """Return the node of a user's function; None for other values."""
         if isinstance(value, ast.FunctionDef | ast.Lambda):
             return value
         if isinstance(value, FunctionType) and not is_library(value) and value in self.facts.program.units:
@@ -228,7 +227,7 @@ class _Reader:
 
     @once
     def is_barrier(self, part: ast.AST) -> bool:
-        """Whether it adds to the scene or the score, itself or by a call."""
+        """Return whether a part adds to the scene or the score, itself or by a call."""
         value = self.called(part)
         if value in BARRIERS or self.function(value) in self.facts.builds:
             return True
@@ -236,7 +235,7 @@ class _Reader:
 
     @once
     def is_random(self, part: ast.AST) -> bool:
-        """Whether it makes a random choice, itself or by a call."""
+        """Return whether a part makes a random choice, itself or by a call."""
         value = self.called(part)
         if value in vocabulary.DRAWS or value in CHOSEN or self.function(value) in self.facts.draws:
             return True
@@ -244,13 +243,13 @@ class _Reader:
 
     @once
     def makes_futures(self, part: ast.AST) -> bool:
-        """Whether it leaves a call for later."""
+        """Return whether a part creates futures."""
         return self.called(part) is words.future or any([self.makes_futures(child) for child in below(part)])
 
-    # what depends on chance
+    # dependence on random choices
 
     def random_names(self, body: Sequence[ast.AST]) -> set[str]:
-        """Variables of a function that depend on a random choice."""
+        """Return the variables of a function that depend on a random choice."""
         names: set[str] = set()
         grown = -1
         while grown != (grown := len(names)):
@@ -269,11 +268,11 @@ class _Reader:
         return names
 
     def decisions(self, body: Sequence[ast.AST]) -> list[ast.If]:
-        """The branches on random values that build."""
+        """Return the branches on random values that build parts."""
         return self.random_of(body, [node for part in body for node in statements(part)])
 
     def random_of(self, body: Sequence[ast.AST], parts: Iterable[ast.AST]) -> list[ast.If]:
-        """Those of some parts of a block that are branches on random values, and build."""
+        """Return the branches on random values that build parts, among some parts of a block."""
         builds = [
             node
             for node in parts
@@ -282,10 +281,10 @@ class _Reader:
         names = self.random_names(body) if builds else set()
         return [node for node in builds if self.is_random(node.test) or reads(node.test) & names]
 
-    # one block of statements
+    # blocks of statements
 
     def block(self, body: Sequence[ast.stmt], after: _After, loop: ast.stmt | None) -> Iterator[Advice]:
-        """Advice on a block. `after` tells of the statements of the function after it; a `loop` follows itself."""
+        """Yield the advice on a block; `after` describes the code after the block, `loop` the loop that repeats it."""
         decided = set(self.random_of(body, body))
         following = self.following(body, after.builds)
         first, last = read_places(body)
@@ -313,32 +312,32 @@ class _Reader:
                 name = min(writes(part))
                 yield self.advice("chosen-early", part, early[number], name=name)
             then = _After(following[number + 1] or builds, is_read_after(number))
-            for inner, own in blocks(part):
-                yield from self.block(inner, then, own or loop)
+            for inner, repeats in blocks(part):
+                yield from self.block(inner, then, repeats or loop)
 
     def following(self, body: Sequence[ast.stmt], after: ast.stmt | None) -> list[ast.stmt | None]:
-        """At each statement of a block, and at its end: the first one from there that builds or makes a future."""
-        found = [after]
+        """Return, for each statement of a block and for its end, the next statement that builds or makes a future."""
+        following = [after]
         for part in reversed(body):
-            found.append(part if self.is_barrier(part) or self.makes_futures(part) else found[-1])
-        return found[::-1]
+            following.append(part if self.is_barrier(part) or self.makes_futures(part) else following[-1])
+        return following[::-1]
 
     def call_advice(self, call: ast.Call, rest: ast.stmt) -> Advice:
-        """Advice on a call that could be a future."""
+        """Return advice on a call that could be a future."""
         name = ast.unparse(call.func)
-        given = [ast.unparse(argument) for argument in call.args]
-        given += [f"{keyword.arg}={ast.unparse(keyword.value)}" for keyword in call.keywords]
+        arguments = [ast.unparse(argument) for argument in call.args]
+        arguments += [f"{keyword.arg}={ast.unparse(keyword.value)}" for keyword in call.keywords]
         return self.advice(
-            "calls-in-place", call, rest, name=name, cure=f"future({', '.join([name, *given])})"
+            "calls-in-place", call, rest, name=name, cure=f"future({', '.join([name, *arguments])})"
         )
 
     def early(self, body: Sequence[ast.stmt], last: Mapping[str, int]) -> dict[int, ast.stmt]:
-        """The choices of a block that the next barrier does not need, with that barrier, but that are read after it.
+        """Return the choices of a block that are read only after the next barrier, each with that barrier.
 
-        The block is read backwards, with the names through which a value comes to something that needs it: to the
-        barrier or to a statement before it that is no assignment, and to a statement after the barrier.
+        The block is read backwards. `needed` has the names that the barrier needs, or a statement before it that is
+        no assignment; `later` has the names that a statement after the barrier needs.
         """
-        found: dict[int, ast.stmt] = {}
+        early: dict[int, ast.stmt] = {}
         barrier: int | None = None
         needed: set[str] = set()
         later: set[str] = set()
@@ -352,48 +351,48 @@ class _Reader:
             if not isinstance(part, ast.Assign | ast.AnnAssign):
                 needed |= reads(part)
                 continue
-            own = writes(part)
-            is_needed = bool(own & needed)
-            is_later = bool(own & later) or any(last.get(name, -1) > barrier for name in own)
+            names = writes(part)
+            is_needed = bool(names & needed)
+            is_later = bool(names & later) or any(last.get(name, -1) > barrier for name in names)
             if isinstance(part, ast.Assign) and self.is_random(part.value) and is_later and not is_needed:
-                found[number] = body[barrier]
+                early[number] = body[barrier]
             if is_needed:
                 needed |= reads(part)
             if is_later:
                 later |= reads(part)
-        return found
+        return early
 
     def advice(self, code: str, node: ast.AST, rest: ast.AST, **values: str) -> Advice:
         return Advice(code, span_of(node, self.unit.file), first_line(span_of(rest, self.unit.file)), values)
 
 
 def first_line(span: Span) -> Span:
-    """A place without the lines after its first."""
+    """Return a span reduced to its first line."""
     if span.end_line == span.line:
         return span
     return Span(span.file, span.line, span.column, span.line, len(span.file.line(span.line).rstrip()) + 1)
 
 
 def below(part: ast.AST) -> list[ast.AST]:
-    """The parts of a part; none of a function that it defines."""
+    """Return the parts of a part; none for the definition of a function."""
     return [] if isinstance(part, FUNCTIONS) else [*ast.iter_child_nodes(part)]
 
 
 @dataclass(frozen=True)
 class _After:
-    """What comes after a block: the first statement that builds, and which names are read."""
+    """The code after a block: its first statement that builds, and a test of the names that it reads."""
 
     builds: ast.stmt | None
     is_read: Callable[[str], bool]
 
 
 def body_of(node: Function) -> Sequence[ast.AST]:
-    """The statements of a function; of a lambda its expression."""
+    """Return the statements of a function; for a lambda, its expression."""
     return node.body if isinstance(node, ast.FunctionDef) else [node.body]
 
 
 def read_places(body: Sequence[ast.stmt]) -> tuple[dict[str, int], dict[str, int]]:
-    """The numbers of the first and the last statement of a block that read each name."""
+    """Return the numbers of the first and the last statement of a block that read each name."""
     first: dict[str, int] = {}
     last: dict[str, int] = {}
     for number, part in enumerate(body):
@@ -405,51 +404,51 @@ def read_places(body: Sequence[ast.stmt]) -> tuple[dict[str, int], dict[str, int
 
 @lru_cache(maxsize=10_000)
 def statements(part: ast.AST) -> tuple[ast.AST, ...]:
-    """A statement and all statements in it, but not those of functions that it defines."""
+    """Return a statement and all statements in it, without those of functions that it defines."""
     inner = [
         child for child in below(part) if isinstance(child, ast.stmt) and not isinstance(child, FUNCTIONS)
     ]
-    return (part, *[one for child in inner for one in statements(child)])
+    return (part, *[nested for child in inner for nested in statements(child)])
 
 
 @lru_cache(maxsize=10_000)
 def reads(part: ast.AST) -> frozenset[str]:
-    """The names that a part reads, also in functions that it defines."""
-    found: set[str] = set()
+    """Return the names that a part reads, also in functions that it defines."""
+    names: set[str] = set()
     waiting: list[ast.AST] = [part]
     while waiting:
         node = waiting.pop()
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
-            found.add(node.id)
+            names.add(node.id)
         elif isinstance(node, ast.AugAssign) and isinstance(node.target, ast.Name):
-            found.add(node.target.id)
+            names.add(node.target.id)
         for child in ast.iter_child_nodes(node):
             if isinstance(child, ast.stmt):
-                found |= reads(child)
+                names |= reads(child)
             else:
                 waiting.append(child)
-    return frozenset(found)
+    return frozenset(names)
 
 
 def writes(part: ast.AST) -> set[str]:
-    """The names that an assignment or a target gives a value."""
+    """Return the names that an assignment or a target assigns."""
     return {
         node.id for node in ast.walk(part) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
     }
 
 
 def writes_in(part: ast.If) -> set[str]:
-    """The names that the arms of a branch give a value."""
+    """Return the names that the arms of a branch assign."""
     return {name for arm in (*part.body, *part.orelse) for name in writes(arm)}
 
 
 def leaves(part: ast.If) -> bool:
-    """Whether an arm leaves the function or the loop around it."""
+    """Return whether an arm leaves the function or the loop around the branch."""
     return any(isinstance(node, LEAVES) for arm in (*part.body, *part.orelse) for node in statements(arm))
 
 
 def blocks(part: ast.stmt) -> Iterator[tuple[list[ast.stmt], ast.stmt | None]]:
-    """The blocks of a compound statement, and the loop that repeats each."""
+    """Yield the blocks of a compound statement, each with the loop that repeats it."""
     if isinstance(part, ast.If):
         yield part.body, None
         yield part.orelse, None

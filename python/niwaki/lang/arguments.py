@@ -1,4 +1,4 @@
-"""Arguments to parameters, as Python binds them; what does not fit is refused with the definition's place."""
+"""Binding of arguments to parameters, as Python does it; a mismatch is refused with the definition's place."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def no_stars(body: Body, node: ast.Call) -> None:
 
 
 def no_keywords(body: Body, node: ast.Call, name: str) -> None:
-    """Refuse keywords where only positions are taken."""
+    """Refuse keywords of a function that takes arguments by position only."""
     if node.keywords:
         keyword = node.keywords[0]
         body.refuse(
@@ -33,7 +33,7 @@ def no_keywords(body: Body, node: ast.Call, name: str) -> None:
             keyword,
             name=name,
             keyword=keyword.arg,
-            suggestion="give the value by position",
+            suggestion="pass the value by position",
         )
 
 
@@ -48,7 +48,7 @@ def bind(
     keyword_only: int = 0,
     variadic: bool = False,
 ) -> list[Expr | None]:
-    """The lowered argument of each parameter, None where the default is meant; extra ones follow when `variadic`."""
+    """Lower the argument of each parameter, None for a default; if `variadic`, extra arguments follow."""
     names = [parameter.name for parameter in parameters]
     positional = len(names) - keyword_only
     if len(args) > positional and not variadic:
@@ -76,19 +76,19 @@ def bind(
 def unknown(
     body: Body, keyword: ast.keyword, name: str, names: Sequence[str], place: Span | None = None
 ) -> NoReturn:
-    """Refuse a keyword that is no parameter, with the nearest that is one."""
+    """Refuse a keyword that is not a parameter, and suggest the nearest parameter."""
     close = nearest(keyword.arg or "", names)
     hint = f"did you mean `{close[0]}`?" if close else f"its parameters are {', '.join(names) or 'none'}"
     body.refuse("unknown-keyword", keyword, place, name=name, keyword=keyword.arg, suggestion=hint)
 
 
 def wrong(
-    body: Body, node: ast.AST, parameters: Sequence[Parameter], name: str, place: Span | None, found: int
+    body: Body, node: ast.AST, parameters: Sequence[Parameter], name: str, place: Span | None, count: int
 ) -> None:
     """Refuse a call with too few or too many arguments."""
     most, least = len(parameters), sum(parameter.default is REQUIRED for parameter in parameters)
-    count = str(most) if least == most else f"{least} to {most}"
-    expected = f"{count} argument{'s' if count != '1' else ''}"
+    limits = str(most) if least == most else f"{least} to {most}"
+    expected = f"{limits} argument{'s' if limits != '1' else ''}"
     listed = ", ".join(p.name if p.default is REQUIRED else f"[{p.name}]" for p in parameters)
     body.refuse(
         "wrong-number-of-arguments",
@@ -96,6 +96,6 @@ def wrong(
         place,
         name=name,
         expected=expected,
-        found=str(found),
+        found=str(count),
         parameters=listed,
     )

@@ -1,4 +1,4 @@
-"""Which parts of scenes broke a constraint, in words; the engine counts them (`crates/run/src/blame.rs`)."""
+"""Parts of scenes that broke a constraint, in words; the engine counts them (`crates/run/src/blame.rs`)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from niwaki.errors.kinds import place
 from niwaki.errors.source import Span
 
-#: A part that breaks a constraint alone, by the name of the constraint.
+#: The effect of a part that breaks a constraint alone, by the name of the constraint.
 BREAKS = {
     "floor": "reaches below the floor",
     "avoid": "reaches into the obstacle",
@@ -17,16 +17,16 @@ BREAKS = {
 
 
 class Emitted(NamedTuple):
-    """Where a part is emitted.
+    """A place in the source that emits parts.
 
     Attributes
     ----------
     address : str
-        Of one such part.
+        The address of such a part.
     function : str
-        That emits it.
+        The function that emits it.
     path : str
-        Of the source file.
+        The path of the source file.
     span : tuple of int
         First line, first column, last line, column after the last character.
     """
@@ -38,9 +38,9 @@ class Emitted(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The part's own name, or the function and `emit`, where the model gives none: `tower/emit`."""
+        """The part's name, or the function and `emit` if the model gives no name: `tower/emit`."""
         last = re.sub(r"\[[^]]*\]$", "", self.address.rpartition("/")[2])
-        # What is after a slash is a loop in it.
+        # The text after a slash is a loop of the function.
         function = self.function.partition("/")[0].rpartition(".")[2]
         return f"{function}/emit" if last == "emit" else last
 
@@ -54,18 +54,18 @@ class Emitted(NamedTuple):
 
 
 class Blame(NamedTuple):
-    """Parts that broke a constraint, and in how many runs.
+    """A part that broke a constraint, and the number of runs in which it did.
 
     Attributes
     ----------
     constraint : str
-        Its name.
+        The constraint's name.
     part : Emitted
         The part that broke it.
     other : Emitted or None
-        The part with which it did, where it did not alone.
+        The other part, if two parts together broke the constraint.
     runs : int
-        In how many runs.
+        The number of runs.
     """
 
     constraint: str
@@ -75,17 +75,17 @@ class Blame(NamedTuple):
 
     @classmethod
     def of(cls, data: Any) -> Blame:
-        """Read what the engine gives, or a file."""
+        """Make a `Blame` from the data of the engine or of a file."""
         constraint, part, other, runs = data
         return cls(constraint, _emitted(part), None if other is None else _emitted(other), runs)
 
     @property
     def does(self) -> str:
-        """What the part does: `runs into `road` (line 21)`."""
+        """The part's effect, in words: `runs into `road` (line 21)`."""
         if self.other is None:
             return BREAKS.get(self.constraint, f"breaks {self.constraint}")
         if self.other[2:] == self.part[2:]:
-            return "runs into another one of this line"
+            return "runs into another part of this line"
         return f"runs into {self.other}"
 
     def __str__(self) -> str:
@@ -98,11 +98,11 @@ def _emitted(data: Any) -> Emitted:
 
 
 def marked(blame: list[Blame], looked_at: int) -> list[tuple[Span, str]]:
-    """The places of the parts that most often broke a constraint, of `looked_at` runs, with labels."""
+    """Return the places of the parts that broke a constraint most often in `looked_at` runs, with labels."""
     if not blame:
         return []
     first = blame[0]
-    found = [(first.part.place, f"`{first.part.name}` {first.does} in {first.runs} of {looked_at}")]
+    places = [(first.part.place, f"`{first.part.name}` {first.does} in {first.runs} of {looked_at}")]
     if first.other is not None and first.other.place != first.part.place:
-        found.append((first.other.place, f"`{first.other.name}`"))
-    return found
+        places.append((first.other.place, f"`{first.other.name}`"))
+    return places

@@ -1,8 +1,8 @@
-"""The state of lowering one function to core form: the statements so far, its scope, and fresh variables.
+"""State while a function is lowered to core form: the statements so far, the scope, and fresh variables.
 
 Expressions of Python may need statements in core form (a comprehension is a loop). Such statements are appended to the
-current block *before* the expression that needs them. `in_order` keeps Python's order of evaluation while that
-happens: values already computed that the statements could change are moved into temporaries first.
+current block *before* the expression that needs them. `in_order` keeps Python's order of evaluation: it first moves
+earlier values that the statements could change into temporaries.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Block = list[Expr]
 
 
 class Body:
-    """The state of lowering one function."""
+    """State while a function is lowered."""
 
     def __init__(self, program: Program, unit: Unit, scope: Scope) -> None:
         self.program = program
@@ -33,34 +33,34 @@ class Body:
 
     @property
     def file(self) -> SourceFile:
-        """The file that the function is written in."""
+        """The function's file."""
         return self.unit.file
 
     @property
     def scopes(self) -> Scopes:
-        """The scopes of the top-level function around."""
+        """The scopes of the top-level function around this function."""
         return self.unit.scopes
 
     @property
     def namespace(self) -> Namespace:
-        """What names mean outside of the function."""
+        """The namespace outside of the function."""
         return self.unit.namespace
 
     def span(self, node: ast.AST) -> Span:
-        """A node's place in the file."""
+        """Return a node's place in the file."""
         return span_of(node, self.file)
 
     def refuse(self, code: str, node: ast.AST, second: Span | None = None, **values: Any) -> NoReturn:
-        """Stop with a message about a place."""
+        """Raise `ModelError` about a place."""
         raise ModelError(code, self.span(node), second, **values)
 
     def form(self, head: str, args: Sequence[Expr], node: ast.AST | None = None) -> Form:
-        """A form with its place, and its site's label if it is one."""
+        """Return a form with its place, and with its label if it is a site."""
         label = self.unit.labels.get(node, "") if node is not None else ""
         return Form(head, list(args), self.span(node) if node is not None else None, label)
 
     def temporary(self, name: str | None = None) -> str:
-        """A fresh variable, named after the variable that the statement assigns, if any."""
+        """Return a fresh variable, named after the variable that the statement assigns, if any."""
         return f"${self.target if name is None else name}%{self.scopes.number()}"
 
     def put(self, statement: Expr) -> None:
@@ -68,7 +68,7 @@ class Body:
         self.block.append(statement)
 
     def kept(self, value: Expr, node: ast.AST | None = None) -> Expr:
-        """The value as something that can be used twice: an atom, or a temporary set to it."""
+        """Return a value that can be used twice: an atom, or a temporary set to the value."""
         if isinstance(value, str):
             return value
         variable = self.temporary()
@@ -76,7 +76,7 @@ class Body:
         return variable
 
     def within(self, make: Callable[[], Expr]) -> tuple[Block, Expr]:
-        """The statements that `make` appends, apart from the current block, and its result."""
+        """Return the statements that `make` appends, kept out of the current block, and its result."""
         outer, self.block = self.block, []
         try:
             value = make()
@@ -85,7 +85,7 @@ class Body:
             self.block = outer
 
     def in_order(self, makers: Sequence[Callable[[], Expr]], keep: bool = False) -> list[Expr]:
-        """Make values one after the other as Python would; `keep` when they will be used in another order."""
+        """Make values in Python's order of evaluation; set `keep` if they are used in another order."""
         values: list[Expr] = []
         for make in makers:
             start = len(self.block)
@@ -105,7 +105,7 @@ class Body:
 
 
 def stable(value: Expr) -> bool:
-    """Whether a value stays the same, and cannot fail or be noticed, when it is computed later."""
+    """Return whether a value can be computed later: it stays the same, cannot fail and has no effects."""
     if isinstance(value, str):
         return True
     return value.head in ("data", "closure") and all(stable(arg) for arg in value.args)

@@ -1,4 +1,4 @@
-"""Built-ins and words that take functions or generators, or that are shorthands: each becomes simpler forms."""
+"""Lowering of built-ins and words that take functions or generators, or are shorthands of simpler forms."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TABLE: dict[Any, Callable[[Body, ast.Call], Expr]] = {}
 
 
 def lowers(*functions: Any) -> Callable[[Callable[[Body, ast.Call], Expr]], Callable[[Body, ast.Call], Expr]]:
-    """Register how calls of a Python function are lowered."""
+    """Register a function that lowers the calls of Python functions."""
 
     def register(lower: Callable[[Body, ast.Call], Expr]) -> Callable[[Body, ast.Call], Expr]:
         TABLE.update(dict.fromkeys(functions, lower))
@@ -33,14 +33,14 @@ def lowers(*functions: Any) -> Callable[[Callable[[Body, ast.Call], Expr]], Call
 
 
 def iterable(body: Body, node: ast.expr) -> Expr:
-    """An argument that may be a generator, which becomes the list of its values."""
+    """Lower an argument; a generator becomes the list of its values."""
     return (
         comprehensions.collect(body, node) if isinstance(node, ast.GeneratorExp) else expression(body, node)
     )
 
 
 def items_later(body: Body, node: ast.expr) -> Callable[[], Expr]:
-    """What lowers such an argument when it is called."""
+    """Return a function that lowers an argument as `iterable` does."""
     return lambda: iterable(body, node)
 
 
@@ -59,7 +59,7 @@ def _keyword(node: ast.Call, name: str) -> ast.expr | None:
 
 @lowers(any, all)
 def decide(body: Body, node: ast.Call) -> Expr:
-    """`any(generator)`, `all(generator)` stop early; of a list they are operations."""
+    """Lower `any` and `all`, which stop early on a generator and are operations on a list."""
     assert isinstance(node.func, (ast.Name, ast.Attribute))
     name = body.span(node.func).text.rpartition(".")[2]
     generator = _generator(node)
@@ -70,7 +70,7 @@ def decide(body: Body, node: ast.Call) -> Expr:
 
 @lowers(sum, list, tuple, enumerate, reversed)
 def over(body: Body, node: ast.Call) -> Expr:
-    """`sum(generator)`, `list(generator)`, ...: of the list of its values."""
+    """Lower `sum(generator)`, `list(generator)`, ..., which work on the list of the generator's values."""
     generator = _generator(node)
     name = body.span(node.func).text.rpartition(".")[2]
     if generator is None:
@@ -91,7 +91,7 @@ def over(body: Body, node: ast.Call) -> Expr:
 
 @lowers(zip)
 def zip_(body: Body, node: ast.Call) -> Expr:
-    """`zip(xs, ys)`; `strict=True` is checked when it runs."""
+    """Lower `zip(xs, ys)`; the run checks `strict=True`."""
     strict = _keyword(node, "strict")
     if any(keyword.arg != "strict" for keyword in node.keywords):
         no_keywords(body, node, "zip")
@@ -105,7 +105,7 @@ def zip_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(dict)
 def dict_(body: Body, node: ast.Call) -> Expr:
-    """`dict(a=1, b=2)`."""
+    """Lower `dict(a=1, b=2)`."""
     if node.args:
         body.refuse("dict-key", node.args[0])
     keys = Form("", [literal(keyword.arg) for keyword in node.keywords])
@@ -114,7 +114,7 @@ def dict_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(map)
 def map_(body: Body, node: ast.Call) -> Expr:
-    """`map(f, xs)`, `map(f, xs, ys)`: a list, made at once."""
+    """Lower `map(f, xs)` and `map(f, xs, ys)` to a list, made at once."""
     no_keywords(body, node, "map")
     if len(node.args) < 2:
         body.refuse(
@@ -137,7 +137,7 @@ def map_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(filter)
 def filter_(body: Body, node: ast.Call) -> Expr:
-    """`filter(f, xs)`: a list, computed at once; `filter(None, xs)` keeps what is true."""
+    """Lower `filter(f, xs)` to a list, made at once; `filter(None, xs)` keeps the values that are true."""
     no_keywords(body, node, "filter")
     if len(node.args) != 2:
         body.refuse(
@@ -167,7 +167,7 @@ def filter_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(sorted)
 def sorted_(body: Body, node: ast.Call) -> Expr:
-    """`sorted(xs, key=f, reverse=True)`; the keys are computed once each, in order."""
+    """Lower `sorted(xs, key=f, reverse=True)`; each key is computed once, in order."""
     if len(node.args) != 1:
         body.refuse(
             "wrong-number-of-arguments", node, name="sorted", expected="1 argument", found=str(len(node.args))
@@ -186,7 +186,7 @@ def sorted_(body: Body, node: ast.Call) -> Expr:
 
 @lowers(min, max)
 def extreme(body: Body, node: ast.Call) -> Expr:
-    """`min(xs)`, `min(a, b)`, `min(xs, key=f)`, `min(xs, default=d)`."""
+    """Lower `min(xs)`, `min(a, b)`, `min(xs, key=f)`, `min(xs, default=d)`, and `max`."""
     name = body.span(node.func).text.rpartition(".")[2]
     _only(body, node, ("key", "default"))
     key, default = _keyword(node, "key"), _keyword(node, "default")
@@ -196,7 +196,7 @@ def extreme(body: Body, node: ast.Call) -> Expr:
         )
     if key is None and default is None:
         return body.form(name, body.in_order([items_later(body, arg) for arg in node.args]), node)
-    one = len(node.args) == 1
+    single = len(node.args) == 1
     items: Expr
     other: Expr | None = None
     if key is None:
@@ -205,7 +205,7 @@ def extreme(body: Body, node: ast.Call) -> Expr:
         items = body.kept(items)
         best: Expr = body.form(name, [items], node)
     else:
-        whole = node.args[0] if one else ast.copy_location(ast.List(list(node.args), ast.Load()), node)
+        whole = node.args[0] if single else ast.copy_location(ast.List(list(node.args), ast.Load()), node)
         items, function, other = _with_key(body, node, key, default, whole)
         keys = comprehensions.mapped(body, items, name, node, lambda variable: [function([variable], node)])
         best = body.form("argmin_by" if name == "min" else "argmax_by", [items, keys], node)
@@ -229,25 +229,25 @@ Caller = Callable[[Sequence[Expr], ast.AST], Expr]
 def _with_key(
     body: Body, node: ast.Call, key: ast.expr, extra: ast.expr | None, whole: ast.expr | None = None
 ) -> tuple[Expr, Caller, Expr | None]:
-    """The items and an extra keyword's value as atoms, and what calls the key function."""
+    """Return the items and an extra keyword's value as atoms, with the caller of the key function between them."""
     items = body.kept(iterable(body, node.args[0] if whole is None else whole))
     function = caller(body, key)
     return items, function, body.kept(expression(body, extra)) if extra is not None else None
 
 
 def function_and_items(body: Body, function: ast.expr, nodes: Sequence[ast.expr]) -> tuple[Caller, Expr]:
-    """What calls `function`, and the items that it is called with: of several lists, their `zip`."""
+    """Return the caller of `function`, and its items; several lists become their `zip`."""
     call = caller(body, function)
     values = body.in_order([items_later(body, node) for node in nodes])
     return call, values[0] if len(values) == 1 else Form("zip", values)
 
 
 def caller(body: Body, node: ast.expr) -> Caller:
-    """What calls a function argument that is used at once: directly when it is known, else as a value."""
+    """Return the caller of a function argument that is used at once: direct if it is known, else by value."""
     scope = body.scopes.of.get(node) if isinstance(node, ast.Lambda) else None
     if isinstance(node, ast.Name):
-        found = body.scopes.find(node.id, body.scope)
-        scope = found if isinstance(found, Scope) else None
+        meaning = body.scopes.find(node.id, body.scope)
+        scope = meaning if isinstance(meaning, Scope) else None
     if scope is not None:
         if isinstance(node, ast.Lambda):
             keep_defaults(body, scope)
@@ -273,7 +273,7 @@ def _named(body: Body, head: str, args: Sequence[Expr], node: ast.AST) -> Form:
 
 @lowers(words.choose)
 def choose(body: Body, node: ast.Call) -> Expr:
-    """`choose(values, weights)`: an index is drawn, and the value looked up."""
+    """Lower `choose(values, weights)` to the draw of an index."""
     parameters = vocabulary.parameters_of(words.choose)
     values, weights = bind(body, node, node.args, node.keywords, parameters, "choose")
     assert values is not None
@@ -288,7 +288,7 @@ def choose(body: Body, node: ast.Call) -> Expr:
 
 @lowers(words.future)
 def future(body: Body, node: ast.Call) -> Expr:
-    """`future(f, *args)`: directly when `f` is known."""
+    """Lower `future(f, *args)`, directly if `f` is known."""
     if not node.args:
         body.refuse(
             "wrong-number-of-arguments", node, name="future", expected="at least 1 argument", found="0"
@@ -299,9 +299,9 @@ def future(body: Body, node: ast.Call) -> Expr:
         keep_defaults(body, body.scopes.of[function])
         return nested(body, node, body.scopes.of[function], "future", args, [])
     if isinstance(function, ast.Name):
-        found = body.scopes.find(function.id, body.scope)
-        if isinstance(found, Scope):
-            return nested(body, node, found, "future", args, [])
+        meaning = body.scopes.find(function.id, body.scope)
+        if isinstance(meaning, Scope):
+            return nested(body, node, meaning, "future", args, [])
     value = underlying(static(body, function))
     if isinstance(value, FunctionType) and value not in vocabulary.ALL_WORDS:
         return user_function(body, node, value, "future", args, [])

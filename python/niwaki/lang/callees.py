@@ -1,4 +1,4 @@
-"""The kinds of callees: a value, a nested function, a function of a module, a built-in that computes."""
+"""Calls by kinds of callees: a value, a nested function, a function of a module, a built-in that computes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from niwaki.lang.vocabulary import OMITTED, REQUIRED, Parameter
 
 
 def applied(body: Body, node: ast.Call, head: str, callee: ast.expr, args: Sequence[ast.expr]) -> Expr:
-    """A call of a value: only the run knows which function it is."""
+    """Lower a call of a value; only the run knows which function the value is."""
     if node.keywords:
         body.refuse("keyword-of-a-value", node.keywords[0].value, name=body.span(callee).text)
     return body.form(head, expressions(body, [callee, *args]), node)
@@ -33,7 +33,7 @@ def nested(
     args: Sequence[ast.expr],
     keywords: Sequence[ast.keyword],
 ) -> Expr:
-    """A direct call of a nested function: its arguments, then what it captures."""
+    """Lower a direct call of a nested function: its arguments, then its captures."""
     assert isinstance(scope.node, (ast.FunctionDef, ast.Lambda))
     required = {name for name in scope.parameters if name not in scope.defaults}
     parameters = [Parameter(name, REQUIRED if name in required else OMITTED) for name in scope.parameters]
@@ -58,7 +58,7 @@ def user_function(
     args: Sequence[ast.expr],
     keywords: Sequence[ast.keyword],
 ) -> Expr:
-    """A direct call of a function that the user wrote at the top level of a module."""
+    """Lower a direct call of a user's function at the top level of a module."""
     unit = body.program.unit(function, body.span(node))
     root = unit.scopes.root
     assert isinstance(root.node, (ast.FunctionDef, ast.Lambda))
@@ -73,13 +73,13 @@ def user_function(
 
 
 def live_defaults(program: Program, unit: Unit) -> dict[int, Expr]:
-    """The default values of a top-level function, by the parameter's position."""
+    """Return the default values of a top-level function, by the parameter's position."""
     root = unit.scopes.root
     assert isinstance(root.node, (ast.FunctionDef, ast.Lambda))
-    given = list(unit.function.__defaults__ or ())
+    defaults = list(unit.function.__defaults__ or ())
     a = root.node.args
     positional = [arg.arg for arg in (*a.posonlyargs, *a.args)]
-    values = dict(zip(positional[len(positional) - len(given) :], given, strict=True))
+    values = dict(zip(positional[len(positional) - len(defaults) :], defaults, strict=True))
     values |= unit.function.__kwdefaults__ or {}
     places = default_expressions(root.node)
 
@@ -90,7 +90,7 @@ def live_defaults(program: Program, unit: Unit) -> dict[int, Expr]:
 
 
 def operate(body: Body, node: ast.Call, operation: vocabulary.Op) -> Expr:
-    """A built-in or a word that computes."""
+    """Lower a call of a built-in or a word that computes."""
     name = body.span(node.func).text
     if node.keywords and not operation.keywords:
         no_keywords(body, node, name)

@@ -1,8 +1,8 @@
-"""Calls to core form: the callee decides the form.
+"""Lowering of calls; the kind of callee selects the form.
 
-A name that is a nested function or a model function is called directly; a built-in or a word becomes an
-operation; a record class makes a record; a value of unknown origin is applied. `builtin_calls` holds the built-ins
-that take functions or generators.
+A call of a nested function or a model function is direct; a built-in or a word becomes an operation; a record class
+makes a record; a value of unknown origin is applied. `builtin_calls` has the built-ins that take functions or
+generators.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from niwaki.words.memo import Memoised
 
 @lowers(ast.Call)
 def call(body: Body, node: ast.Call) -> Expr:
-    """Any call."""
+    """Lower a call."""
     no_stars(body, node)
     callee = node.func
     if isinstance(callee, ast.Name):
-        found = body.scopes.find(callee.id, body.scope)
-        if isinstance(found, Scope):
-            return nested(body, node, found, "call", node.args, node.keywords)
-        if isinstance(found, Variable):
+        meaning = body.scopes.find(callee.id, body.scope)
+        if isinstance(meaning, Scope):
+            return nested(body, node, meaning, "call", node.args, node.keywords)
+        if isinstance(meaning, Variable):
             return applied(body, node, "apply", callee, node.args)
     if isinstance(callee, ast.Lambda):
         keep_defaults(body, body.scopes.of[callee])
@@ -53,7 +53,7 @@ def call(body: Body, node: ast.Call) -> Expr:
 
 
 def known(body: Body, node: ast.Call, value: Any) -> Expr:
-    """A call of a Python object."""
+    """Lower a call of a Python object."""
     try:
         special = builtin_calls.TABLE.get(value)
         operation = vocabulary.OPERATIONS.get(value)
@@ -103,7 +103,7 @@ def _in(value: Any, table: Any) -> bool:
 
 
 def distribution(body: Body, node: ast.Call, family: type[words.Distribution]) -> Expr:
-    """A distribution as a value, with all its parameters."""
+    """Lower a distribution as a value, with all its parameters."""
     parameters = vocabulary.parameters_of(family)
     name = body.span(node.func).text
     values = bind(body, node, node.args, node.keywords, parameters, name)
@@ -114,7 +114,7 @@ def distribution(body: Body, node: ast.Call, family: type[words.Distribution]) -
 
 
 def effect(body: Body, node: ast.Call, word: Any) -> Expr:
-    """`sample`, `observe`, `factor`, `condition`, `query`, `emit`, `force`."""
+    """Lower a call of `sample`, `observe`, `factor`, `condition`, `query`, `emit` or `force`."""
     head = vocabulary.EFFECTS[word]
     if head == "emit":
         return emit(body, node)
@@ -123,7 +123,7 @@ def effect(body: Body, node: ast.Call, word: Any) -> Expr:
 
 
 def record(body: Body, node: ast.Call, kind: type) -> Expr:
-    """A record of a frozen dataclass or a NamedTuple."""
+    """Lower the creation of a record, of a frozen dataclass or a NamedTuple."""
     body.program.check_record(kind, body.span(node))
     parameters = vocabulary.parameters_of(kind)
     values = bind(body, node, node.args, node.keywords, parameters, kind.__name__)
@@ -140,13 +140,13 @@ def record(body: Body, node: ast.Call, kind: type) -> Expr:
 
 
 def mem(body: Body, node: ast.Call) -> Expr:
-    """`mem(f)`: a memoised function, one more at each run of the line."""
+    """Lower `mem(f)`, which makes a new memoised function each time it runs."""
     values = bind(body, node, node.args, node.keywords, vocabulary.parameters_of(words.mem), "mem")
     return body.form("mem", [value for value in values if value is not None], node)
 
 
 def remembered(body: Body, node: ast.Call, value: Memoised[..., Any]) -> Expr:
-    """A call of a memoised function of a module."""
+    """Lower a call of a memoised function of a module."""
     function = underlying(value.function)
     called = user_function(body, node, function, "call", node.args, node.keywords)
     assert isinstance(called, Form)
@@ -155,7 +155,7 @@ def remembered(body: Body, node: ast.Call, value: Memoised[..., Any]) -> Expr:
 
 
 def host(body: Body, node: ast.Call, value: Host[Any, Any]) -> Expr:
-    """A pure host function; its keywords become positions where its signature is known."""
+    """Lower a call of a pure host function; keywords become positions if the signature is known."""
     try:
         parameters = vocabulary.parameters_of(value.function)
     except (TypeError, ValueError):
@@ -163,14 +163,14 @@ def host(body: Body, node: ast.Call, value: Host[Any, Any]) -> Expr:
         return body.form("host", [body.program.host(value), *expressions(body, node.args)], node)
     values = bind(body, node, node.args, node.keywords, parameters, value.name)
     filled = [
-        body.program.constant(p.default, body.span(node), p.name) if given is None else given
-        for p, given in zip(parameters, values, strict=True)
+        body.program.constant(p.default, body.span(node), p.name) if argument is None else argument
+        for p, argument in zip(parameters, values, strict=True)
     ]
     return body.form("host", [body.program.host(value), *filled], node)
 
 
 def method(body: Body, node: ast.Call, callee: ast.Attribute) -> Expr:
-    """A method of a built-in value, or a function kept in a record's field."""
+    """Lower a call of a method of a built-in value, or of a function in a record's field."""
     name, target = callee.attr, body.span(callee.value).text
     if name in vocabulary.CHANGERS and not body.namespace.has_field(name):
         changes(body, node, callee, name, target)
@@ -200,12 +200,12 @@ def method(body: Body, node: ast.Call, callee: ast.Attribute) -> Expr:
 
 
 def changes(body: Body, node: ast.Call, callee: ast.Attribute, name: str, target: str) -> None:
-    """Refuse a method that changes its value in place, with what to write instead."""
+    """Refuse a method that changes its value in place, and suggest a replacement."""
     second = None
     if isinstance(callee.value, ast.Name):
-        found = body.scopes.find(callee.value.id, body.scope)
-        if isinstance(found, Variable) and found.assigned:
-            second = first_assignment(body, found)
+        meaning = body.scopes.find(callee.value.id, body.scope)
+        if isinstance(meaning, Variable) and meaning.assigned:
+            second = first_assignment(body, meaning)
     argument = body.span(node.args[0]).text if node.args else "..."
     of_dict = name == "pop" and node.args and is_text(node.args[0])
     cure = vocabulary.CHANGERS["popitem" if of_dict else name].format(target=target, argument=argument)

@@ -1,4 +1,4 @@
-"""Models for the engine: their programs, their arguments, and the engine's faults as our errors."""
+"""Models compiled for the engine, their arguments, and the engine's faults as errors of the package."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from niwaki.lang.marks import Marked, P, T
 
 
 class Compiled(Marked[P, T]):
-    """A marked function with its core form and its program for the engine, each made at the first call and kept."""
+    """A marked function with its core form and its program for the engine, both compiled on first use."""
 
     def __init__(self, function: Callable[P, T]) -> None:
         if not isinstance(function, FunctionType):
@@ -31,20 +31,20 @@ class Compiled(Marked[P, T]):
         self._program: _engine.Program | None = None
 
     def core(self) -> Core:
-        """The model in core form."""
+        """Return the model in core form."""
         if self._core is None:
             self._core = lower(self.function)
         return self._core
 
     def program(self) -> _engine.Program:
-        """The model compiled for the engine."""
+        """Return the model compiled for the engine."""
         if self._program is None:
             self._program = compile_core(self.core())
         return self._program
 
 
 def compile_core(core: Core) -> _engine.Program:
-    """The engine's program of a model in core form."""
+    """Compile a model in core form to a program of the engine."""
     with translated(core.entry):
         return _engine.Program(core.text, list(core.constants), list(core.classes))
 
@@ -58,15 +58,15 @@ def task(
     max_memory: int = MAX_MEMORY,
     hold: Mapping[str, Any] | None = None,
 ) -> _engine.Task:
-    """A model with its arguments and sketches, ready to be searched; `hold` has the values of held choices."""
+    """Return a model with its arguments and sketches, ready for a search; `hold` has the values of held choices."""
     count("max_steps", max_steps)
     count("max_memory", max_memory, 1 << 20)
     program = model.program()
-    given = arguments(model, args, kwargs or {})
+    values = arguments(model, args, kwargs or {})
     try:
-        ready = _engine.Task(program, given, list(sketches), max_steps, max_memory)
+        ready = _engine.Task(program, values, list(sketches), max_steps, max_memory)
     except (TypeError, OverflowError) as error:
-        raise _bad_argument(model, program, given, error) from error
+        raise _bad_argument(model, program, values, error) from error
     if not hold:
         return ready
     try:
@@ -78,10 +78,10 @@ def task(
 
 
 def _bad_argument(
-    model: Compiled[..., Any], program: _engine.Program, given: list[Any], error: Exception
+    model: Compiled[..., Any], program: _engine.Program, values: list[Any], error: Exception
 ) -> InputError:
-    """Which argument the engine cannot take."""
-    for number, value in enumerate(given, 1):
+    """Return the error about the argument that the engine cannot take."""
+    for number, value in enumerate(values, 1):
         try:
             _engine.Task(program, [value])
         except (TypeError, OverflowError) as found:
@@ -90,7 +90,7 @@ def _bad_argument(
 
 
 def arguments(model: Compiled[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
-    """The arguments by position, without unchanged defaults at the end."""
+    """Return the arguments by position, without unchanged defaults at the end."""
     core = model.core()
     try:
         bound = _signature(model, max(len(args), core.required)).bind(*args, **kwargs)
@@ -105,41 +105,41 @@ def arguments(model: Compiled[..., Any], args: Sequence[Any], kwargs: Mapping[st
             parameters=", ".join(core.parameters) or "none",
             detail=str(error),
         ) from error
-    given = set(bound.arguments)
+    passed = set(bound.arguments)
     bound.apply_defaults()
-    last = max((n for n, name in enumerate(core.parameters, 1) if name in given), default=0)
+    last = max((n for n, name in enumerate(core.parameters, 1) if name in passed), default=0)
     return [bound.arguments[name] for name in core.parameters[:last]]
 
 
-def _signature(model: Compiled[..., Any], given: int) -> inspect.Signature:
-    """The signature of a model; of one without its Python function, the names of its first parameters."""
+def _signature(model: Compiled[..., Any], count: int) -> inspect.Signature:
+    """Return a model's signature; without its Python function, a signature of its first parameters' names."""
     if hasattr(model, "function"):
         return inspect.signature(model.function)
     kind = inspect.Parameter.POSITIONAL_ONLY
-    return inspect.Signature([inspect.Parameter(name, kind) for name in model.core().parameters[:given]])
+    return inspect.Signature([inspect.Parameter(name, kind) for name in model.core().parameters[:count]])
 
 
 @contextmanager
 def translated(name: str, replay: str = "", choices: Mapping[str, Any] | None = None) -> Iterator[None]:
-    """Inside, a fault of the engine is raised as `ModelFault` or `InputError`."""
+    """Raise a fault of the engine in the block as `ModelFault` or `InputError`."""
     try:
         yield
     except _engine.EngineFault as fault:
         raise _error(fault, name, replay, choices or {}) from None
 
 
-def as_fault(found: BaseException | None, name: str, replay: str = "") -> ModelFault | None:
-    """A fault that the engine kept, as ours; None for anything else."""
-    if not isinstance(found, _engine.EngineFault):
+def as_fault(fault: BaseException | None, name: str, replay: str = "") -> ModelFault | None:
+    """Return a fault that the engine kept as a `ModelFault`; None for anything else."""
+    if not isinstance(fault, _engine.EngineFault):
         return None
-    error = _error(found, name, replay, {})
+    error = _error(fault, name, replay, {})
     return error if isinstance(error, ModelFault) else None
 
 
 def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Exception:
     if fault.code == "missing-choice":
         near = get_close_matches(fault.subject, list(choices), n=3, cutoff=0.0)
-        nearest = ", ".join(f'"{one}"' for one in near) or "none"
+        nearest = ", ".join(f'"{address}"' for address in near) or "none"
         return InputError("missing-choice", address=fault.subject, nearest=nearest)
     if fault.kind == "run":
         help = fault.help or vocabulary.shape_help(fault.message)
@@ -158,17 +158,17 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
         return InputError(fault.code, pattern=fault.subject, name=name, parts=fault.help)
     if fault.kind == "no-start":
         if fault.tries == 0:
-            given = "this one is not"
-            return InputError("no-start", name=name, tried="the run that was given is", constraint=given)
+            constraint = "the score of this run is minus infinity"
+            return InputError("no-start", name=name, tried="the start run is", constraint=constraint)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
-        tried = f"all of {fault.tries} forward runs were"
-        return InputError("no-start", name=name, tried=tried, constraint=f"these were not: {causes}")
+        tried = f"all {fault.tries} forward runs were"
+        return InputError("no-start", name=name, tried=tried, constraint=f"the runs broke: {causes}")
     if fault.kind == "impossible":
         total = sum(count for _, count in fault.causes)
         if fault.barrier == 1 and all(cause == "avoid" for cause, _ in fault.causes):
             return InputError("obstacle-at-start", count=total)
         causes = ", ".join(f"{cause} ({count})" for cause, count in fault.causes)
-        blame = [Blame.of(one) for one in fault.blame]
+        blame = [Blame.of(entry) for entry in fault.blame]
         return InputError(
             "everything-impossible",
             marked(blame, fault.looked_at),
@@ -177,18 +177,18 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
             constraint=causes,
             cure=_cure(fault),
             often=f"{blame[0]} in {blame[0].runs} of {fault.looked_at}" if blame else "",
-            elsewhere="; ".join(f"{one} in {one.runs}" for one in blame[1:4]),
+            elsewhere="; ".join(f"{part} in {part.runs}" for part in blame[1:4]),
             attempts=_tried(fault.attempts),
         )
     if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:
-        # Its message is about a value that Python has checked, and has names that only Python knows.
+        # The table's message has names that only Python knows, for a value that Python should have checked.
         return InputError("setting-refused", detail=fault.message, cure=fault.help or "use another value")
     return InputError(fault.code, detail=fault.message)
 
 
 LOOSEN = "loosen the constraint, so that more runs meet it"
 
-#: What to do where a constraint forbids every run, by the name of the constraint.
+#: Help where a constraint forbids every run, by the name of the constraint.
 CURES = {
     "floor": "move the floor below the model's first part, or start the model above it",
     "avoid": "start the model beside the obstacle, or make the obstacle smaller",
@@ -196,21 +196,26 @@ CURES = {
 }
 
 
-#: Where one place forbids this share of the runs, more of them do not help.
+#: Share of the runs that one place forbids, from which more particles do not help.
 NEARLY_ALL = 0.9
 
 
 def _cure(fault: Any) -> str:
-    """What to do, by what forbids most runs: more particles only where runs die late and in many places."""
+    """Return the help: more particles only if runs become impossible late and in many places."""
     cause = fault.causes[0][0] if fault.causes else ""
     first = CURES.get(cause, LOOSEN)
     often = max((runs for *_, runs in fault.blame), default=0)
     hopeless = fault.barrier <= 1 or (fault.looked_at and often >= NEARLY_ALL * fault.looked_at)
-    return first if hopeless else f"{first}; more particles may help, as runs die late and in many places"
+    return (
+        first
+        if hopeless
+        else f"{first}; more particles may help, because runs become impossible late and in many places"
+    )
 
 
 def _tried(attempts: list[tuple[str, int, int | None]]) -> str:
-    """The populations of a search that all died."""
+    """Describe the populations of a search in which every particle became impossible."""
     return "; ".join(
-        f"{particles} particles ({form}), dead at barrier {barrier}" for form, particles, barrier in attempts
+        f"{particles} particles ({form}), all impossible at barrier {barrier}"
+        for form, particles, barrier in attempts
     )

@@ -1,4 +1,4 @@
-"""Comprehensions, generator arguments, `map`, `filter` and `sorted(key=)` as loops that build a list."""
+"""Lowering of comprehensions, generator arguments, `map`, `filter` and `sorted(key=)` to loops that build a list."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Comprehension = ast.ListComp | ast.GeneratorExp
 
 @lowers(ast.ListComp)
 def collect(body: Body, node: Comprehension) -> Expr:
-    """The list of all values of a comprehension or of a generator argument."""
+    """Lower a comprehension or a generator argument to the list of its values."""
     result = body.temporary()
     body.put(Form("set", [result, Form("list", [])]))
 
@@ -26,24 +26,26 @@ def collect(body: Body, node: Comprehension) -> Expr:
     return result
 
 
-def decide(body: Body, node: Comprehension, found: bool) -> Expr:
-    """`any(...)` (found = True) or `all(...)` (found = False): stops at the first value that decides."""
+def decide(body: Body, node: Comprehension, decisive: bool) -> Expr:
+    """Lower `any(...)` or `all(...)`, which stop at the first value that is `decisive` (True for `any`)."""
     result = body.temporary()
-    body.put(Form("set", [result, "false" if found else "true"]))
+    body.put(Form("set", [result, "false" if decisive else "true"]))
 
     def test(value: Expr) -> None:
-        stop: list[Expr] = [Form("set", [result, "true" if found else "false"]), Form("break", [])]
-        arms = [Form("then", stop), Form("else", [])] if found else [Form("then", []), Form("else", stop)]
+        stop: list[Expr] = [Form("set", [result, "true" if decisive else "false"]), Form("break", [])]
+        arms = [Form("then", stop), Form("else", [])] if decisive else [Form("then", []), Form("else", stop)]
         body.put(Form("if", [value, *arms]))
 
     leave: list[Expr] = [Form("break", [])]
-    after = Form("if", [result, Form("then", leave if found else []), Form("else", [] if found else leave)])
+    after = Form(
+        "if", [result, Form("then", leave if decisive else []), Form("else", [] if decisive else leave)]
+    )
     loops(body, node, test, after)
     return result
 
 
 def loops(body: Body, node: Comprehension, use: Callable[[Expr], None], after: Form | None = None) -> None:
-    """Nested loops over the generators; `after` follows each inner loop, to leave the outer ones too."""
+    """Lower the generators to nested loops; `after` follows each inner loop, to leave the outer loops too."""
     outer, inner_scope = body.scope, body.scopes.of[node]
 
     def generator(number: int) -> None:
@@ -87,7 +89,7 @@ def loops(body: Body, node: Comprehension, use: Callable[[Expr], None], after: F
 
 
 def mapped(body: Body, items: Expr, word: str, node: ast.AST, use: Callable[[str], Sequence[Expr]]) -> Expr:
-    """A list made by a loop over `items`; `use` gives the statements' result to append, or nothing."""
+    """Lower a list that a loop over `items` builds; `use` returns the values that an iteration appends."""
     result = body.temporary()
     body.put(Form("set", [result, Form("list", [])]))
     variable = body.temporary(word)

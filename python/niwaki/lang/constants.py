@@ -1,4 +1,4 @@
-"""Which Python objects may cross to the engine as data, and copies of them that nothing can change."""
+"""Python objects that may cross to the engine as data."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from niwaki.words.vectors import Rotation, Vec
 NUMERIC = "biuf"
 
 
-def owned(value: Any) -> Any:
-    """Scalars of NumPy as Python's; truth values, integers and reals of a subclass as the plain type."""
+def plain(value: Any) -> Any:
+    """Return a scalar of NumPy as a scalar of Python; any other value as it is."""
     if isinstance(value, np.generic):
         return value.item()
     return value
 
 
 def is_data(value: Any) -> bool:
-    """Whether a value is plain data: numbers, strings, tuples, lists, dicts, arrays, vectors, shapes."""
+    """Return whether a value is plain data: numbers, strings, tuples, lists, dicts, arrays, vectors, shapes."""
     if isinstance(value, np.ndarray):
         return value.dtype.kind in NUMERIC
     if isinstance(value, (Vec, Rotation, Shape)):

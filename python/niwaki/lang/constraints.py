@@ -1,4 +1,4 @@
-"""The soft constraints that a run in plain Python meets."""
+"""Soft constraints of a run in plain Python."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from niwaki.errors.source import Span
 
 @dataclass(frozen=True)
 class Constraint:
-    """One soft constraint of a run.
+    """A soft constraint of a run.
 
     Attributes
     ----------
     kind : str
         "softeq", "soft_at_least" or "soft_at_most".
     address : str
-        The calls and loops that led to it, then its kind.
+        The calls and loops that lead to the constraint, then its kind.
     span : Span or None
-        Its place in the source.
+        The place in the source.
     value, goal : float
-        What is compared with what.
+        The value, and the number with which it is compared.
     width : float
-        Within which it should hold.
+        The tolerance of the constraint.
     """
 
     kind: str
@@ -34,7 +34,7 @@ class Constraint:
 
     @property
     def residual(self) -> float:
-        """How far it is from holding, in its own units: signed for an equality, 0 or more for the others."""
+        """Distance from holding, in the value's units: signed for an equality, else 0 or more."""
         miss = self.value - self.goal
         if self.kind == "softeq":
             return miss
@@ -42,10 +42,10 @@ class Constraint:
 
     @property
     def widths(self) -> float:
-        """How far it is from holding, in widths; 0 or more."""
+        """Distance from holding, in widths; 0 or more."""
         return abs(self.residual) / self.width
 
     @property
     def line(self) -> str:
-        """File and line, `tree.py:14`."""
+        """The file and the line, such as `tree.py:14`."""
         return f"{self.span.file.path}:{self.span.line}" if self.span is not None else ""

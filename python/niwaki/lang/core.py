@@ -1,4 +1,4 @@
-"""The core form: what crosses from Python to the engine, as text; and its writer.
+"""The core form, the text that crosses from Python to the engine, and its writer.
 
 Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C`, from 1, end excluded)
 
@@ -22,28 +22,28 @@ Grammar (each `(HEAD ...)` may carry a span atom right after its head, `@L:C-L:C
     ATOM    := integer | float | inf | -inf | nan | true | false | none | JSON string | (data K) | $v (a capture)
     (data K) and (host K) refer to the table of constants that is passed with the text (`Core.constants`).
 
-Variables. `$name` is the user's variable. `$name%N` is one that the front end created (or a second variable of the same
-name); its readable name is the part before the `%`, and may be empty: `$%N`. Numbers are unique within one
-top-level function and the functions nested in it. The statement `look(...)` assigns `$%look`: the frame from which the
+Variables. `$name` is a variable of the user. `$name%N` is a variable that the front end created, or a second variable
+of the same name; its readable name is the part before the `%`, and may be empty: `$%N`. Numbers are unique within a
+top-level function and the functions nested in it. The statement `look(...)` assigns `$%look`, the frame from which the
 choices after it are seen.
 
-Functions. NAME is the qualified name: `ship`, nested `ship.wing`, a lambda `ship.lambda`, a second one of a name
-`ship.#2.lambda`; the part after the last dot is the function's own name.
+Functions. NAME is the qualified name: `ship`, nested `ship.wing`, a lambda `ship.lambda`, a second function of the same
+name `ship.#2.lambda`. The part after the last dot is the short name.
 
-Captures. A nested function that is only ever bound by its one `def` is called directly:
-`(call "f" arguments ... captures ...)` and `(future "f" arguments ... captures ...)` pass the parameters and then the
-captured values, in the order of `captures`; so `call` and `future` always have as many arguments as the function has
-params and captures together. Used as a value it is `(closure "f" captures ...)`, rebuilt wherever it is used. So nested
-functions may call themselves and one another in any order, and no closure ever holds itself.
+Captures. A nested function that only a single `def` binds is called directly, by `(call "f" ARGUMENT ... CAPTURE ...)`
+or `(future "f" ARGUMENT ... CAPTURE ...)`, with the captured values in the order of `captures`. So `call` and `future`
+always have as many arguments as the function has params and captures together. A function that is used as a value is
+`(closure "f" CAPTURE ...)`, made again at each use. So nested functions may call themselves and one another in any
+order, and no closure contains itself.
 
-Memoised functions. `(mem E)` gives another one at each activation that reaches it; `(mem E "NAME")` is the one of a
-module, the same wherever it is written. A call of either is an `apply`.
+Memoised functions. `(mem E)` makes a new memoised function at each activation that reaches it. `(mem E "NAME")` is the
+memoised function of a module, the same wherever it is written. Both are called by `apply`.
 
-Order. Arguments are in the order of evaluation; where keywords were written in another order, the front end has put
-them into temporaries.
+Order. Arguments are in the order of evaluation. The front end puts keywords that are written in another order into
+temporaries.
 
-Sites. The readable address of a choice is a path of components joined by "/". Each site's static component is after
-the span as an atom `#component`, see `niwaki.lang.sites`: on `sample`, `observe`, `factor`, `condition`, `query`,
+Sites. The readable address of a choice is a path of components joined by "/". The static component of a site is the
+atom `#component` after the span, see `niwaki.lang.sites`: on `sample`, `observe`, `factor`, `condition`, `query`,
 `emit`, `mem`, `call`, `apply`, `future`, `future_apply`, `for` and `while` (with empty brackets, `#i[]`, `#i[]#1`).
 """
 
@@ -60,7 +60,7 @@ from niwaki.errors.source import SourceFile, Span
 
 @dataclass
 class Form:
-    """One `(HEAD @SPAN #LABEL args...)`; arguments are forms or finished atoms."""
+    """A form `(HEAD @SPAN #LABEL args...)`; its arguments are forms or atoms."""
 
     head: str
     args: list[Expr]
@@ -77,7 +77,7 @@ TREES = frozenset({"fn", "if", "for", "while", "then", "else", "body", "module"}
 
 
 def literal(value: Any) -> str:
-    """A number, truth value, None or string as an atom."""
+    """Return a number, truth value, None or string as an atom."""
     if value is None:
         return "none"
     if isinstance(value, bool):
@@ -94,12 +94,12 @@ def literal(value: Any) -> str:
 
 
 def is_literal(value: Any) -> bool:
-    """Whether `literal` can write it."""
+    """Return whether `literal` can write a value."""
     return value is None or type(value) in (bool, int, float, str)
 
 
 def write(form: Expr, spans: bool = True, labels: bool = True) -> str:
-    """An expression on one line."""
+    """Write an expression on one line."""
     if isinstance(form, str):
         return form
     head = [form.head] if form.head else []
@@ -113,14 +113,14 @@ def _marks(form: Form, spans: bool, labels: bool) -> list[str]:
 
 
 def write_tree(form: Expr, indent: int = 0, spans: bool = True, labels: bool = True) -> str:
-    """Statements one to a line, bodies indented."""
+    """Write each statement on a line, with indented bodies."""
     lines: list[str] = []
     _put(lines, form, indent, spans, labels)
     return "\n".join(lines)
 
 
 def _put(lines: list[str], form: Expr, indent: int, spans: bool, labels: bool) -> None:
-    """Add the lines of a tree: each is written once, however deep the tree is."""
+    """Append the lines of a tree, each written once, however deep the tree is."""
     pad = "  " * indent
     if isinstance(form, str) or form.head not in TREES:
         lines.append(pad + write(form, spans, labels))
@@ -144,26 +144,26 @@ def _breaks(head: str, arg: Expr) -> bool:
 
 @dataclass(frozen=True)
 class Core:
-    """A lowered model: the text, and the things that travel beside it.
+    """A lowered model: its text, and the data that travel with it.
 
     Attributes
     ----------
     text : str
         The core form.
     constants : list
-        What `(data K)` and `(host K)` refer to: K is the index.
+        The objects of `(data K)` and `(host K)`; K is the index.
     classes : list
-        What `(record K ...)` makes.
+        The classes of `(record K ...)`.
     files : list of SourceFile
-        What `(file K)` refers to.
+        The files of `(file K)`.
     entry : str
         The model's qualified name.
     parameters : tuple of str
-        The entry's parameters, for the caller that passes arguments.
+        The model's parameters.
     required : int
-        How many of them have no default.
+        The number of parameters without a default.
     lifted : mapping
-        The places in the source of constants that are numbers there, by their number in the table.
+        The places in the source of numbers that are constants of the table, by index.
     """
 
     text: str
@@ -177,13 +177,13 @@ class Core:
     lifted: Mapping[int, Span] = field(default_factory=dict, repr=False)
 
     def write(self, spans: bool = True, labels: bool = True) -> str:
-        """The text again, with or without spans and the sites' labels."""
+        """Write the text again, with or without spans and the sites' labels."""
         return write_tree(self.form, 0, spans, labels) + "\n"
 
     def standalone(self) -> str:
-        """The text with its constants in it, `(const K E)`, for bug reports and for tests without Python.
+        """Write the text with its constants, `(const K E)`, for bug reports and for tests without Python.
 
-        Host functions, arrays of NumPy and shapes cannot be written; they are left out.
+        Host functions, arrays of NumPy and shapes cannot be written, and are left out.
         """
         written = ((number, constant_form(value)) for number, value in enumerate(self.constants))
         items: list[Expr] = [Form("const", [str(n), form]) for n, form in written if form is not None]
@@ -191,7 +191,7 @@ class Core:
 
 
 def constant_form(value: Any) -> Expr | None:
-    """Plain data as an expression, or None when it holds something that cannot be written."""
+    """Return plain data as an expression, or None if a part cannot be written."""
     if is_literal(value):
         return literal(value)
     if type(value) in (list, tuple):

@@ -1,11 +1,11 @@
-"""How deeply the text of a model may be nested, and the recursion limit for reading it.
+"""The depth to which a model's text may be nested, and the recursion limit for reading it.
 
-The passes call themselves for each level of the syntax tree. A sum of 250 terms is 250 levels deep, 300 times `elif`
-are 300: more than Python's usual limit of 1,000 calls allows. So the passes run under a higher limit, and what is
-deeper than `MOST` levels is refused with its place before any of them sees it.
+The passes call themselves for each level of the syntax tree. A sum of 250 terms has 250 levels, and 300 `elif` have
+300 levels: more than Python's usual limit of 1,000 calls allows. So the passes run under a higher limit, and code
+deeper than `MOST` levels is refused, with its place, before a pass reads it.
 
-Python's own calls need no stack of the processor, so the higher limit costs nothing; code written in C may not be
-between the calls of a pass (`partial`, `map`, a generator inside `join`).
+Calls of Python functions need no stack of the processor, so the higher limit is free. Calls through C code (`partial`,
+`map`, a generator inside `join`) need it, so a pass must not use them between its calls.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from typing import ParamSpec, TypeVar
 P = ParamSpec("P")
 T = TypeVar("T")
 
-#: Levels of a syntax tree. The engine's reader takes 2,000 levels of core form, of which `elif` needs two.
+#: The most levels of a syntax tree. The engine reads 2,000 levels of core form; an `elif` needs two.
 MOST = 960
 
-#: Calls for so many levels, of the pass that needs most.
+#: The most nested calls that a pass needs for so many levels.
 CALLS = 20 * MOST
 
 _lock = threading.Lock()
@@ -54,7 +54,7 @@ def deep(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def _back() -> None:
-    """The limit from before; a thread that is deeper than it keeps the higher one."""
+    """Restore the old limit; in a thread that is deeper than that, the higher limit stays."""
     try:
         sys.setrecursionlimit(_outside)
     except RecursionError:
@@ -62,7 +62,7 @@ def _back() -> None:
 
 
 def too_deep(root: ast.AST) -> ast.AST | None:
-    """A node that lies more than `MOST` levels below, or None."""
+    """Return a node more than `MOST` levels below the root, or None."""
     level: list[ast.AST] = [root]
     for _ in range(MOST):
         level = [child for node in level for child in ast.iter_child_nodes(node)]
@@ -72,7 +72,7 @@ def too_deep(root: ast.AST) -> ast.AST | None:
 
 
 def copied(root: ast.AST) -> tuple[ast.AST, dict[ast.AST, ast.AST]]:
-    """A copy of a tree, and the copy of each node."""
+    """Return a copy of a tree, and the copy of each node."""
     of = {node: type(node)() for node in ast.walk(root)}
     for node, copy in of.items():
         for name, value in vars(node).items():

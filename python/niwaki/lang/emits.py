@@ -1,8 +1,8 @@
-"""`emit` to core form: its shapes, the name of its part, and a look (colour, metalness, roughness) for plain shapes.
+"""Lowering of `emit`: shapes, the name of the part, and a look (colour, metalness, roughness).
 
-A name is a part of addresses, so it is known when the model is compiled (`sites`). A look is written into the shapes:
-the engine has no operation that paints one. So it is for shapes that are made inside of the `emit`, directly, in lists
-and in comprehensions, and what makes them must not draw it: it is computed once, before them.
+The name is a component of addresses, so it is a constant (`sites`). The look becomes arguments of the shapes, because
+the engine cannot paint an existing shape. So the shapes must be made inside the `emit`, directly, in lists or in
+comprehensions. The look is computed once, before the shapes, and must not contain a random draw.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ KEYWORDS = ("name", *LOOKS)
 
 
 class _Computed(ast.expr):
-    """A value that has its core form already."""
+    """A value that is already lowered."""
 
     core: Expr
 
 
 @lowers(_Computed)
 def computed(body: Body, node: _Computed) -> Expr:
-    """The form."""
+    """Return the form."""
     return node.core
 
 
 def emit(body: Body, node: ast.Call) -> Expr:
-    """Add a primitive to the scene."""
+    """Lower a call of `emit`."""
     for keyword in node.keywords:
         if keyword.arg not in KEYWORDS:
             unknown(body, keyword, "emit", KEYWORDS)
@@ -48,17 +48,17 @@ def emit(body: Body, node: ast.Call) -> Expr:
             name="emit",
             expected="at least 1 shape",
             found="0",
-            parameters="shapes, " + ", ".join(f"[{one}]" for one in KEYWORDS),
+            parameters="shapes, " + ", ".join(f"[{keyword}]" for keyword in KEYWORDS),
         )
-    given = {keyword.arg: keyword.value for keyword in node.keywords}
-    name = given.get("name")
+    keywords = {keyword.arg: keyword.value for keyword in node.keywords}
+    name = keywords.get("name")
     if name is not None and not _is_none(name) and part_name(node) is None:
         body.refuse("emit-name", name)
-    looks = {key: given[key] for key in LOOKS if key in given and not _is_none(given[key])}
+    looks = {key: keywords[key] for key in LOOKS if key in keywords and not _is_none(keywords[key])}
     if not looks:
         return body.form("emit", expressions(body, node.args), node)
     for value in looks.values():
-        if any(one in body.unit.labels for one in ast.walk(value)):
+        if any(part in body.unit.labels for part in ast.walk(value)):
             body.refuse("emit-color", value)
     makers = [maker for arg in node.args for maker in _makers(body, arg)]
     added: list[ast.Call] = []
@@ -81,7 +81,7 @@ def _is_none(node: ast.expr) -> bool:
 
 
 def _makers(body: Body, node: ast.expr) -> Iterator[ast.Call]:
-    """The calls that make the shapes of one argument."""
+    """Yield the calls that make the shapes of an argument."""
     if isinstance(node, (ast.List, ast.Tuple)):
         for part in node.elts:
             yield from _makers(body, part)
@@ -97,20 +97,20 @@ def _makers(body: Body, node: ast.expr) -> Iterator[ast.Call]:
 
 
 def makes_a_shape(node: ast.expr, body: Body) -> TypeGuard[ast.Call]:
-    """Whether an expression is a call of `box` or another word for a shape."""
+    """Return whether an expression is a call of `box` or another word for a shape."""
     return isinstance(node, ast.Call) and any(_word(body, node) is word for word in SHAPES)
 
 
 def _takes(body: Body, node: ast.Call, key: str) -> bool:
-    """Whether a call of a shape's word can have this, and has none of its own."""
-    names = [one.name for one in vocabulary.OPERATIONS[_word(body, node)].parameters]
+    """Return whether a call of a shape's word can take this keyword, and does not have it yet."""
+    names = [parameter.name for parameter in vocabulary.OPERATIONS[_word(body, node)].parameters]
     if key not in names:
         return False
     return len(node.args) <= names.index(key) and all(keyword.arg != key for keyword in node.keywords)
 
 
 def _word(body: Body, node: ast.Call) -> object:
-    """What a call calls, where that is known when the model is compiled."""
+    """Return the callee of a call, or None if only the run knows it."""
     callee = node.func
     if isinstance(callee, ast.Name) and body.scopes.find(callee.id, body.scope) is not None:
         return None

@@ -1,7 +1,7 @@
-"""Expressions to core form, one function for each kind of syntax node, found in one table.
+"""Lowering of expressions, with a function for each kind of syntax node.
 
-What may not be evaluated (the arms of `and`, `or`, `if ... else`) is lowered apart; if an arm needs statements, the
-whole expression becomes an `if` statement that sets a temporary.
+The arms of `and`, `or` and `if ... else`, which may not be evaluated, are lowered separately. If an arm needs
+statements, the whole expression becomes an `if` statement that sets a temporary.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ TABLE: dict[type[ast.AST], Callable[[Body, Any], Expr]] = {}
 
 
 def lowers(*kinds: type[ast.AST]) -> Callable[[Callable[[Body, Node], Expr]], Callable[[Body, Node], Expr]]:
-    """Register the function that lowers a kind of node."""
+    """Register a function that lowers kinds of nodes."""
 
     def register(function: Callable[[Body, Node], Expr]) -> Callable[[Body, Node], Expr]:
         TABLE.update(dict.fromkeys(kinds, function))
@@ -34,7 +34,7 @@ def lowers(*kinds: type[ast.AST]) -> Callable[[Callable[[Body, Node], Expr]], Ca
 
 
 def expression(body: Body, node: ast.expr) -> Expr:
-    """Any expression."""
+    """Lower an expression."""
     lower = TABLE.get(type(node))
     if lower is None:
         refuse(body, node)
@@ -42,18 +42,18 @@ def expression(body: Body, node: ast.expr) -> Expr:
 
 
 def later(body: Body, node: ast.expr) -> Callable[[], Expr]:
-    """What lowers an expression when it is called."""
+    """Return a function that lowers an expression."""
     return lambda: expression(body, node)
 
 
 def expressions(body: Body, nodes: Sequence[ast.expr]) -> list[Expr]:
-    """Several expressions, evaluated from left to right."""
+    """Lower several expressions, evaluated from left to right."""
     return body.in_order([later(body, node) for node in nodes])
 
 
 @lowers(ast.Constant)
 def constant(body: Body, node: ast.Constant) -> Expr:
-    """A number, a truth value, a string or None."""
+    """Lower a number, a truth value, a string or None."""
     value = node.value
     if isinstance(value, (bytes, complex)) or value is ...:
         body.refuse("unknown-constant", node, name=body.span(node).text, found=_kind(value))
@@ -70,42 +70,42 @@ def _kind(value: Any) -> str:
 
 @lowers(ast.Name)
 def name(body: Body, node: ast.Name) -> Expr:
-    """A variable, or what the name means outside of the model."""
-    found = body.scopes.find(node.id, body.scope)
-    if isinstance(found, Variable):
-        return variable(body, node, found)
-    if isinstance(found, Scope):
-        return closure(body, found, node)
+    """Lower a name: a variable, a nested function, or an object from outside of the model."""
+    meaning = body.scopes.find(node.id, body.scope)
+    if isinstance(meaning, Variable):
+        return variable(body, node, meaning)
+    if isinstance(meaning, Scope):
+        return closure(body, meaning, node)
     return outside(body, node, resolve(body, node))
 
 
-def variable(body: Body, node: ast.Name, found: Variable) -> Expr:
-    """A local or captured variable; refused when it certainly has no value yet."""
+def variable(body: Body, node: ast.Name, local: Variable) -> Expr:
+    """Lower a local or captured variable; refuse a variable that certainly has no value yet."""
     moment = body.scopes.moments.get(node)
-    if found.owner is body.scope.function and moment is not None and found.assigned:
-        if not any(when.may_precede(moment) for when, _ in found.assigned):
-            first = found.assigned[0][1]
+    if local.owner is body.scope.function and moment is not None and local.assigned:
+        if not any(when.may_precede(moment) for when, _ in local.assigned):
+            first = local.assigned[0][1]
             body.refuse("used-before-assigned", node, body.span(first), name=node.id)
-    return found.core
+    return local.core
 
 
 def resolve(body: Body, node: ast.Name) -> Any:
-    """The object that a global name means."""
+    """Return the object of a global name."""
     value = body.namespace.find(node.id)
     if value is MISSING:
         local = [*(name for scope in body.scopes.of.values() for name in (*scope.variables, *scope.nested))]
         close = nearest(node.id, [*body.namespace.names(), *local])
-        known = (
+        hint = (
             f"did you mean `{close[0]}`?"
             if close
             else f"give `{node.id}` a value before the model is defined, or as an argument"
         )
-        body.refuse("unknown-name", node, name=node.id, suggestion=known)
+        body.refuse("unknown-name", node, name=node.id, suggestion=hint)
     return value
 
 
 def outside(body: Body, node: ast.expr, value: Any) -> Expr:
-    """A Python object used as a value."""
+    """Lower a Python object that is used as a value."""
     text = body.span(node).text
     function = vocabulary.ALL_WORDS | set(vocabulary.OPERATIONS) | {map, filter, sorted, dict}
     if hashable(value) and (value in vocabulary.NOT_IN_A_MODEL or value in vocabulary.FORBIDDEN_BUILTINS):
@@ -118,7 +118,7 @@ def outside(body: Body, node: ast.expr, value: Any) -> Expr:
 
 
 def with_place(form: Expr, body: Body, node: ast.AST) -> Expr:
-    """The form with the span of the place that uses it."""
+    """Give a form the span of the place that uses it."""
     if isinstance(form, Form) and form.head in ("dist", "record"):
         form.span = body.span(node)
     return form
@@ -133,20 +133,20 @@ def forbidden(body: Body, node: ast.AST, value: Any) -> None:
 
 
 def closure(body: Body, scope: Scope, node: ast.AST, immediate: bool = False) -> Expr:
-    """A nested function as a value, with the values it captures; refused when one of them changes afterwards."""
+    """Lower a nested function as a value, with its captures; refuse a capture that changes afterwards."""
     if not immediate:
         check_captures(body, scope, node)
     return Form("closure", [literal(body.unit.names[scope]), *(needed.core for needed in scope.needed)])
 
 
 def check_captures(body: Body, scope: Scope, node: ast.AST) -> None:
-    """A variable that a function value reads must not be assigned again after the function is defined.
+    """Refuse variables that a function value reads and that are assigned again after the function's definition.
 
-    Python's function would see the new value, ours has kept the old one.
+    In plain Python the function would read the new value; in the engine it keeps the old value.
     """
-    own = [default for default in scope.defaults.values() if isinstance(default, Variable)]
+    defaults = [default for default in scope.defaults.values() if isinstance(default, Variable)]
     for needed in scope.needed:
-        if needed in own:
+        if needed in defaults:
             continue
         for when, assignment in needed.assigned:
             if scope.defined.may_precede(when) and assignment is not needed.owner.node:
@@ -161,14 +161,14 @@ def check_captures(body: Body, scope: Scope, node: ast.AST) -> None:
 
 @lowers(ast.Lambda)
 def lambda_(body: Body, node: ast.Lambda) -> Expr:
-    """A lambda as a value."""
+    """Lower a lambda as a value."""
     scope = body.scopes.of[node]
     keep_defaults(body, scope)
     return closure(body, scope, node)
 
 
 def keep_defaults(body: Body, scope: Scope) -> None:
-    """Default values are computed where the function is defined, and kept in variables for its calls."""
+    """Compute a function's default values where it is defined, and keep them in variables for its calls."""
     for default in scope.defaults.values():
         if isinstance(default, Variable):
             node = default.assigned[0][1]
@@ -178,7 +178,7 @@ def keep_defaults(body: Body, scope: Scope) -> None:
 
 @lowers(ast.BinOp)
 def binary(body: Body, node: ast.BinOp) -> Expr:
-    """Arithmetic; the span is the whole operation, since either side may be at fault."""
+    """Lower arithmetic; the span is the whole operation, because either side may be at fault."""
     head = vocabulary.BINARY.get(type(node.op).__name__)
     if head is None:
         body.refuse("unsupported-syntax", node)
@@ -187,7 +187,7 @@ def binary(body: Body, node: ast.BinOp) -> Expr:
 
 @lowers(ast.UnaryOp)
 def unary(body: Body, node: ast.UnaryOp) -> Expr:
-    """`-x`, `+x`, `not x`, `~x`; the sign of a number is part of it."""
+    """Lower `-x`, `+x`, `not x`, `~x`; the sign of a number is part of the number."""
     if isinstance(node.op, ast.USub) and isinstance(node.operand, ast.Constant):
         number = node.operand.value
         if isinstance(number, (int, float)) and not isinstance(number, bool):
@@ -197,13 +197,13 @@ def unary(body: Body, node: ast.UnaryOp) -> Expr:
 
 @lowers(ast.BoolOp)
 def boolean(body: Body, node: ast.BoolOp) -> Expr:
-    """`a and b and c`, `a or b`: the first operand that decides."""
+    """Lower `a and b and c` and `a or b`: the value is the first operand that decides."""
     head = "and" if isinstance(node.op, ast.And) else "or"
     return short_circuit(body, head, [later(body, value) for value in node.values], node)
 
 
 def short_circuit(body: Body, head: str, makers: Sequence[Callable[[], Expr]], node: ast.AST) -> Expr:
-    """Operands of `and` and `or`; one that needs statements has them in an `if` of the operands before it."""
+    """Lower operands of `and` or `or`; statements of an operand go into an `if` on the operands before it."""
     parts: list[tuple[Block, list[Expr]]] = [([], [makers[0]()])]
     for make in makers[1:]:
         block, value = body.within(make)
@@ -225,7 +225,7 @@ def short_circuit(body: Body, head: str, makers: Sequence[Callable[[], Expr]], n
 
 @lowers(ast.IfExp)
 def conditional(body: Body, node: ast.IfExp) -> Expr:
-    """`a if test else b`."""
+    """Lower `a if test else b`."""
     test = expression(body, node.test)
     then_block, then = body.within(lambda: expression(body, node.body))
     else_block, other = body.within(lambda: expression(body, node.orelse))
@@ -242,7 +242,7 @@ def conditional(body: Body, node: ast.IfExp) -> Expr:
 
 @lowers(ast.Compare)
 def compare(body: Body, node: ast.Compare) -> Expr:
-    """Comparisons; `a < b < c` computes `b` once and stops at the first that fails."""
+    """Lower comparisons; `a < b < c` computes `b` once and stops at the first comparison that fails."""
     left, *rest = [node.left, *node.comparators]
     if len(rest) == 1:
         return _comparison(body, node, node.ops[0], later(body, left), rest[0], keep=False)[0]
@@ -261,7 +261,7 @@ def compare(body: Body, node: ast.Compare) -> Expr:
 def _comparison(
     body: Body, node: ast.Compare, op: ast.cmpop, left: Callable[[], Expr], right: ast.expr, keep: bool
 ) -> tuple[Expr, Expr]:
-    """One comparison and its right side, which the next one may need again."""
+    """Return a comparison and its right side, which the next comparison may need again."""
     none = isinstance(right, ast.Constant) and right.value is None
     if isinstance(op, (ast.Is, ast.IsNot)):
         if not none:
@@ -281,7 +281,7 @@ def _comparison(
 
 @lowers(ast.List, ast.Tuple)
 def sequence(body: Body, node: ast.List | ast.Tuple) -> Expr:
-    """A list or a tuple; `[*a, *b]` is refused with its cure."""
+    """Lower a list or a tuple; refuse `[*a, *b]`."""
     for part in node.elts:
         if isinstance(part, ast.Starred):
             body.refuse("star-in-a-list", part)
@@ -290,7 +290,7 @@ def sequence(body: Body, node: ast.List | ast.Tuple) -> Expr:
 
 @lowers(ast.Dict)
 def dictionary(body: Body, node: ast.Dict) -> Expr:
-    """A dict with constant keys."""
+    """Lower a dict with constant keys."""
     keys = []
     for key, value in zip(node.keys, node.values, strict=True):
         atom = expression(body, key) if isinstance(key, (ast.Constant, ast.UnaryOp)) else None
@@ -302,7 +302,7 @@ def dictionary(body: Body, node: ast.Dict) -> Expr:
 
 @lowers(ast.Subscript)
 def subscript(body: Body, node: ast.Subscript) -> Expr:
-    """`xs[i]`, `xs[a:b:c]`, and `array[i, j]` for data."""
+    """Lower `xs[i]`, `xs[a:b:c]`, and `array[i, j]` for data."""
     if isinstance(node.slice, ast.Slice):
         parts = [node.slice.lower, node.slice.upper, node.slice.step]
         makers = [later(body, part) if part is not None else (lambda: "none") for part in parts]
@@ -319,7 +319,7 @@ def subscript(body: Body, node: ast.Subscript) -> Expr:
 
 @lowers(ast.Attribute)
 def attribute(body: Body, node: ast.Attribute) -> Expr:
-    """A name in a module, or a field of a value."""
+    """Lower a name in a module, or a field of a value."""
     value = static(body, node)
     if value is not MISSING:
         return outside(body, node, value)
@@ -327,7 +327,7 @@ def attribute(body: Body, node: ast.Attribute) -> Expr:
 
 
 def static(body: Body, node: ast.expr) -> Any:
-    """The object that `module.name` means, or MISSING for anything that is only known when the model runs."""
+    """Return the object of `module.name`, or MISSING if only the run knows the value."""
     if isinstance(node, ast.Name):
         return resolve(body, node) if body.scopes.find(node.id, body.scope) is None else MISSING
     if not isinstance(node, ast.Attribute):
@@ -339,13 +339,13 @@ def static(body: Body, node: ast.expr) -> Any:
         return getattr(owner, node.attr)
     except AttributeError:
         close = nearest(node.attr, dir(owner))
-        known = f"did you mean `{close[0]}`?" if close else f"`{owner.__name__}` has no such name"
-        body.refuse("unknown-name", node, name=f"{owner.__name__}.{node.attr}", suggestion=known)
+        hint = f"did you mean `{close[0]}`?" if close else f"`{owner.__name__}` has no such name"
+        body.refuse("unknown-name", node, name=f"{owner.__name__}.{node.attr}", suggestion=hint)
 
 
 @lowers(ast.JoinedStr)
 def formatted(body: Body, node: ast.JoinedStr) -> Expr:
-    """An f-string."""
+    """Lower an f-string."""
     holes = [part for part in node.values if isinstance(part, ast.FormattedValue)]
     values = iter(expressions(body, [hole.value for hole in holes]))
     parts: list[Expr] = []

@@ -1,7 +1,7 @@
-"""Futures of a plain run: their values are known, but only `force` returns them.
+"""Futures of a plain run: their values exist, but only `force` returns them.
 
-In the engine the value of a future may not exist yet, so any use of it without `force` is an error. Here the same uses
-give the same error.
+In the engine the value of a future may not exist yet, so any use of it without `force` is an error. A plain run reports
+the same error for the same use.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 from niwaki import words
 from niwaki.lang import vocabulary
 
-#: Special methods, which Python calls without a look-up of an attribute.
+#: Special methods, which Python calls without looking up an attribute of the object.
 _LOOKS = """bool eq ne lt le gt ge hash len iter next contains getitem call str repr format int float complex index
 round trunc floor ceil abs neg pos invert reversed divmod rdivmod array"""
 _OPERATORS = "add sub mul matmul truediv floordiv mod pow and or xor lshift rshift"
@@ -23,11 +23,11 @@ _PASSING = frozenset({words.force, words.future, words.query, words.choose, word
 
 
 class NotForced(Exception):
-    """A future was looked at that is not forced."""
+    """Error about a future that is read before it is forced."""
 
 
 class Future:
-    """What `future` gives in a plain run."""
+    """A future of a plain run, with its value."""
 
     __slots__ = ("held",)
 
@@ -49,12 +49,12 @@ for _name in (*_LOOKS.split(), *(f"{side}{name}" for name in _OPERATORS.split() 
 
 
 def forced(value: Any) -> Any:
-    """The value of a future; of anything else, itself."""
+    """Return the value of a future; any other value as it is."""
     return object.__getattribute__(value, "held") if type(value) is Future else value
 
 
 def opened(value: Any) -> Any:
-    """A value that leaves the run, with the values of the futures that it holds."""
+    """Return a value with the futures in it replaced by their values, when it leaves the run."""
     value = forced(value)
     if not holds_future(value):
         return value
@@ -70,7 +70,7 @@ def opened(value: Any) -> Any:
 
 
 def holds_future(*values: Any) -> bool:
-    """Whether one of the values is a future or holds one, at any depth."""
+    """Return whether a value is a future or contains a future, at any depth."""
     work, seen = list(values), set()
     while work:
         value = work.pop()
@@ -84,7 +84,7 @@ def holds_future(*values: Any) -> bool:
 
 
 def parts_of(value: Any) -> Sequence[Any]:
-    """The values that a value holds."""
+    """Return the values inside a value."""
     if isinstance(value, (list, tuple)):
         return value
     if isinstance(value, dict):
@@ -104,14 +104,14 @@ def _is_filled(cell: Any) -> bool:
 
 
 def compared(value: Any) -> Any:
-    """A side of a comparison: a future has no value to compare yet, nor has what holds one."""
+    """Return a side of a comparison; refuse a future, and a value that contains a future."""
     if holds_future(value):
         raise NotForced("a future cannot be compared")
     return value
 
 
 def searched(value: Any) -> Any:
-    """The right side of `in`; of a dict only the keys are compared."""
+    """Return the right side of `in`; for a dict only the keys are compared."""
     return value if isinstance(value, dict) else compared(value)
 
 
@@ -120,16 +120,16 @@ def refuse(function: Callable[..., Any], args: Iterable[Any], keywords: Mapping[
     if function in _PASSING:
         return
     owner, name = getattr(function, "__self__", None), getattr(function, "__name__", "")
-    given = [*args, *keywords.values()]
+    values = [*args, *keywords.values()]
     if isinstance(owner, dict):
-        given = given[:1]
+        values = values[:1]
     if function in vocabulary.ALL_WORDS or isinstance(owner, str):
-        found = holds_future(*given)
+        has_future = holds_future(*values)
     elif isinstance(owner, (list, tuple)):
-        found = holds_future(owner, *given)
+        has_future = holds_future(owner, *values)
     elif isinstance(function, type) and (hasattr(function, "_fields") or dataclasses.is_dataclass(function)):
         return
     else:
-        found = any(type(part) is Future for part in given)
-    if found:
-        raise NotForced(f"`{name}` looks at a future")
+        has_future = any(type(part) is Future for part in values)
+    if has_future:
+        raise NotForced(f"`{name}` reads a future")

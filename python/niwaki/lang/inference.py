@@ -1,8 +1,8 @@
-"""`infer(model, method, ...)` to core form: a host function of the model, a seed and the arguments.
+"""Lowering of `infer(model, method, ...)` to a call of a host function with the model, the arguments and a seed.
 
     (host K MODEL ARGUMENT ... SEED)        K: the constant ("infer", keep, text of the method)
 
-The seed is a choice of the run around it, `(sample (dist discrete_uniform 0 LARGEST))`; enumeration needs none. The
+The seed is a choice of the outer run, `(sample (dist discrete_uniform 0 LARGEST))`; enumeration needs no seed. The
 engine's `nested` reads the constant.
 """
 
@@ -25,17 +25,17 @@ KEEP = ("sample", "best")
 #: The largest seed of an inner search.
 LARGEST = 2**53 - 1
 
-#: What an inner search draws its seed from.
+#: The distribution of an inner search's seed.
 SEEDS = DiscreteUniform(0, LARGEST)
 
 
 def constant(method: Method, keep: str) -> tuple[str, str, str]:
-    """The constant for the engine: "infer", what to keep, the text of the method.
+    """Return the constant for the engine: "infer", `keep`, the text of the method.
 
     Parameters
     ----------
     method
-        How the inner model is searched.
+        The method that searches the inner model.
     keep
         "sample" or "best".
     """
@@ -43,10 +43,10 @@ def constant(method: Method, keep: str) -> tuple[str, str, str]:
 
 
 def wrong_inside(method: Method) -> str:
-    """Why an inference inside a model cannot honour a method; nothing where it can."""
+    """Return the reason why an `infer` cannot use a method; an empty text if it can."""
     text, functions = method.text()
     if functions:
-        return "inside a model a kernel cannot call a Python function, so `proposal` cannot be used there"
+        return "inside a model a kernel cannot call a Python function, so it cannot use `proposal`"
     try:
         _engine.check_inside(text)
     except _engine.EngineFault as fault:
@@ -55,7 +55,7 @@ def wrong_inside(method: Method) -> str:
 
 
 def check(method: Any, keep: Any) -> None:
-    """Refuse what the compiler refuses too, in a plain run."""
+    """Refuse, in a plain run, the methods and settings that the compiler refuses."""
     if not isinstance(method, Method):
         raise ModelFault("type-mismatch", f"`infer` takes a method such as `smc(100)`, found {method!r}")
     if wrong := wrong_inside(method):
@@ -65,7 +65,7 @@ def check(method: Any, keep: Any) -> None:
 
 
 def infer(body: Body, node: ast.Call) -> Expr:
-    """A call of `infer`."""
+    """Lower a call of `infer`."""
     keep = "sample"
     for keyword in node.keywords:
         value = keyword.value.value if isinstance(keyword.value, ast.Constant) else None
@@ -90,17 +90,17 @@ def _seed(body: Body, node: ast.Call) -> Expr:
 
 
 def _method(body: Body, node: ast.expr) -> Method:
-    """The method that an argument means when the model is compiled."""
-    found = _constant(body, node)
-    if not isinstance(found, Method):
+    """Return the method that an argument means when the model is compiled."""
+    method = _constant(body, node)
+    if not isinstance(method, Method):
         body.refuse("infer-method", node, found=body.span(node).text)
-    if wrong := wrong_inside(found):
+    if wrong := wrong_inside(method):
         body.refuse("infer-method", node, found=f"{body.span(node).text}: {wrong}")
-    return found
+    return method
 
 
 def _constant(body: Body, node: ast.expr) -> Any:
-    """A method, a kernel or a setting: made here, a literal, or a constant of the module."""
+    """Return a method, a kernel or a setting: a call of its function, a literal, or a constant of the module."""
     if isinstance(node, ast.Call):
         maker = static(body, node.func)
         if str(getattr(maker, "__module__", "")).startswith("niwaki.methods"):
@@ -111,11 +111,11 @@ def _constant(body: Body, node: ast.expr) -> Any:
             try:
                 return maker(*args, **keywords)
             except (TypeError, InputError) as error:
-                found = f"{body.span(node).text}: {str(error).splitlines()[0]}"
-                body.refuse("infer-method", node, found=found)
-    found = static(body, node)
-    if found is not MISSING:
-        return found
+                text = f"{body.span(node).text}: {str(error).splitlines()[0]}"
+                body.refuse("infer-method", node, found=text)
+    value = static(body, node)
+    if value is not MISSING:
+        return value
     try:
         return ast.literal_eval(node)
     except (ValueError, SyntaxError, TypeError):

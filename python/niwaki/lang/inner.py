@@ -1,8 +1,8 @@
-"""An `infer` of a plain run, as the engine does it: the program of the whole run, with one function more.
+"""The `infer` of a plain run, which the engine computes with the program of the whole run and an added function.
 
-A random stream depends on where a choice is written, and on what is called under which name. So an inner model is not
-lowered by itself, where what it captures would be constants: the function that is added to the program of the run
-around makes the same closure as the engine has, from the values of the Python function's cells.
+A random stream depends on the place of its choice in the source and on the names of the calls around it. So the inner
+model is not lowered alone, with its captures as constants. Instead, a function is added to the program of the outer
+run. It makes the same closure as in the engine, from the values in the Python function's cells.
 
     (fn "infer" (params $0 $1 ... $seed) (return (host K (closure "m.near" $0) $1 ... $seed)))
 """
@@ -24,18 +24,18 @@ from niwaki.lang.program import Program, Unit
 from niwaki.lang.scope import Scope, Variable, functions
 from niwaki.methods import Forward
 
-#: Attributes of a nested function: the function of the module that it is nested in, and its number there.
+#: Attributes of a nested function: the module's function around it, and its number in that function.
 ROOT, NUMBER = "__nw_root__", "__nw_number__"
 
-#: The function that is added.
+#: The name of the added function.
 NAME = "infer"
 
-#: A variable that it never assigns.
+#: A variable that the added function never assigns.
 UNASSIGNED = "$%0"
 
 
 class Around:
-    """The program of a plain run, for the inferences inside of it."""
+    """The program of a plain run, for the calls of `infer` in the run."""
 
     @deep
     def __init__(self, function: FunctionType) -> None:
@@ -47,47 +47,47 @@ class Around:
 
     @deep
     def infer(self, constant: tuple[str, str, str], model: Any, args: Sequence[Any], seed: int) -> Any:
-        """The value of an `infer`.
+        """Return the value of an `infer`.
 
         Parameters
         ----------
         constant
-            The method and what to keep, as `niwaki.lang.inference.constant` has them.
+            The method and `keep`, as `niwaki.lang.inference.constant` returns them.
         model
             The Python function of the inner model.
         args
-            Its arguments.
+            The inner model's arguments.
         seed
-            Decides the inner search.
+            The seed of the inner search.
         """
-        given = _Given(self.program)
-        called = [given.value(value) for value in (model, *args)]
+        arguments = _Arguments(self.program)
+        forms = [arguments.value(value) for value in (model, *args)]
         self.forms += lower_waiting(self.program)
         constants = [*self.program.constants, constant]
-        searched = Form("host", [str(len(constants) - 1), *called, "$seed"])
-        parameters = Form("params", [*(f"${number}" for number in range(len(given.values))), "$seed"])
+        inference = Form("host", [str(len(constants) - 1), *forms, "$seed"])
+        parameters = Form("params", [*(f"${number}" for number in range(len(arguments.values))), "$seed"])
         name = self.name
-        added = Form("fn", [literal(name), Form("file", ["0"]), parameters, Form("return", [searched])])
+        function = Form("fn", [literal(name), Form("file", ["0"]), parameters, Form("return", [inference])])
         text = Form(
-            "module", [*module_head(self.program), *self.forms, added, Form("entry", [literal(name)])]
+            "module", [*module_head(self.program), *self.forms, function, Form("entry", [literal(name)])]
         )
         key = write_tree(text, 0, True, True), constant
         if key not in self.known:
             self.known[key] = _engine.Program(key[0], constants, self.program.classes)
         program = self.known[key]
-        ran, _, _ = _engine.Task(program, [*given.values, seed]).search(Forward(1).text()[0], 0)
-        return ran[0].value
+        samples, _, _ = _engine.Task(program, [*arguments.values, seed]).search(Forward(1).text()[0], 0)
+        return samples[0].value
 
 
-class _Given:
-    """The values of a call as forms; what holds no function is an argument of the added function."""
+class _Arguments:
+    """The arguments of an `infer` as forms; values without functions become arguments of the added function."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
         self.values: list[Any] = []
 
     def value(self, value: Any) -> Expr:
-        """Any value."""
+        """Return the form of a value."""
         value = underlying(value)
         if isinstance(value, FunctionType):
             return self.function(value)
@@ -102,7 +102,7 @@ class _Given:
         return Form("list" if isinstance(value, list) else "tuple", [*map(self.value, value)])
 
     def function(self, function: FunctionType) -> Form:
-        """A closure."""
+        """Return the form of a function, a closure."""
         root = getattr(function, ROOT, None)
         if root is None:
             return Form("closure", [literal(self.program.unit(function).name)])
@@ -112,7 +112,7 @@ class _Given:
         return Form("closure", [literal(unit.names[scope]), *captured])
 
     def captured(self, value: Any) -> Expr:
-        """What a closure has of a variable; one without a value is a name that the added function does not assign."""
+        """Return the form of a captured variable; without a value, a name that the added function does not assign."""
         return UNASSIGNED if value is _NOT_HERE else self.value(value)
 
 
@@ -126,7 +126,7 @@ _NOT_HERE = object()
 
 
 def _look(unit: Unit, scope: Scope, function: FunctionType, needed: Variable, seen: set[Scope]) -> Any:
-    """The value of a variable that a function, or one that it calls, has captured."""
+    """Return the value of a variable that a function, or a function that it calls, has captured."""
     for name, default in scope.defaults.items():
         if default is needed:
             return _default(scope, function, name)
@@ -143,14 +143,14 @@ def _look(unit: Unit, scope: Scope, function: FunctionType, needed: Variable, se
     for used in _used(scope, scope, set()):
         inner = cells.get(used.name)
         if used not in seen and isinstance(inner, FunctionType) and used.parent is not None:
-            found = _look(unit, used, inner, needed, seen)
-            if found is not _NOT_HERE:
-                return found
+            value = _look(unit, used, inner, needed, seen)
+            if value is not _NOT_HERE:
+                return value
     return _NOT_HERE
 
 
 def _used(within: Scope, scope: Scope, seen: set[Scope]) -> Iterator[Scope]:
-    """The functions that a scope uses, and those that functions which are defined inside of it use."""
+    """Yield the functions that a scope uses, directly or by a function defined inside it."""
     for used in scope.uses:
         if used not in seen:
             seen.add(used)
@@ -163,6 +163,6 @@ def _default(scope: Scope, function: FunctionType, name: str) -> Any:
     keywords = function.__kwdefaults__ or {}
     if name in keywords:
         return keywords[name]
-    code, given = function.__code__, function.__defaults__ or ()
+    code, defaults = function.__code__, function.__defaults__ or ()
     positional = code.co_varnames[: code.co_argcount]
-    return given[positional.index(name) - len(positional) + len(given)]
+    return defaults[positional.index(name) - len(positional) + len(defaults)]

@@ -1,10 +1,9 @@
-"""A model function that reports where it is: the user's own code, compiled from their file with each site named.
+"""Instrumented model functions: the user's code, compiled again with hooks that report each site to the plain run.
 
-`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`, what is compared
-becomes `__nw__.compared(x)`; nested functions know their place in the program; nothing else changes, and every node
-keeps its line and columns, so that a debugger
-and a traceback show the file that the user wrote.
-`__nw__` is a cell of the function's closure: the user's module is not touched.
+`f(x)` becomes `__nw__.call("f", f, x)`, `for i in xs` becomes `for i in __nw__.loop("i[]", xs)`, and a side of a
+comparison becomes `__nw__.compared(x)`. Nested functions are marked with their place in the program. Nothing else
+changes: every node keeps its line and columns, so that a debugger and a traceback show the user's file. `__nw__` is a
+cell of the function's closure, so the user's module stays as it is.
 """
 
 from __future__ import annotations
@@ -21,19 +20,19 @@ from niwaki.lang.program import Program
 from niwaki.lang.scope import functions
 
 HOOK = "__nw__"
-#: The function itself, for those nested in it.
-OWN = "__nw_own__"
+#: The cell with the function itself, for functions nested in it.
+FUNCTION = "__nw_own__"
 INNER = "__nw_def__"
 _codes: WeakKeyDictionary[FunctionType, CodeType] = WeakKeyDictionary()
 
 
 def instrumented(function: FunctionType, hook: Any) -> FunctionType:
-    """The function with its sites named; `hook` answers `call`, `loop`, `compared`, ..."""
+    """Return the instrumented function; `hook` has the methods `call`, `loop`, `compared`, ..."""
     if function not in _codes:
         _codes[function] = _compile(function)
     code = _codes[function]
     cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
-    cells |= {HOOK: CellType(hook), OWN: CellType(function)}
+    cells |= {HOOK: CellType(hook), FUNCTION: CellType(function)}
     closure = tuple(cells[name] for name in code.co_freevars)
     built = FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
     built.__kwdefaults__ = function.__kwdefaults__
@@ -54,20 +53,20 @@ def _compile(function: FunctionType) -> CodeType:
             labels[memo[key]] = label
     shown = {memo[scope.node]: n for n, scope in enumerate(functions(unit.scopes))}
     assert isinstance(clone, (ast.FunctionDef, ast.Lambda))
-    given = clone.args
-    given.defaults = [ast.copy_location(ast.Constant(None), default) for default in given.defaults]
-    given.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in given.kw_defaults]
+    arguments = clone.args
+    arguments.defaults = [ast.copy_location(ast.Constant(None), default) for default in arguments.defaults]
+    arguments.kw_defaults = [d and ast.copy_location(ast.Constant(None), d) for d in arguments.kw_defaults]
     node = _Namer(labels, shown, clone).visit(clone)
     if isinstance(node, ast.FunctionDef):
         node.name, node.decorator_list = INNER, []
         inner: list[ast.stmt] = [node]
     else:
         inner = [ast.Expr(node)]
-    names = [HOOK, OWN, *function.__code__.co_freevars]
-    arguments = ast.arguments(
+    names = [HOOK, FUNCTION, *function.__code__.co_freevars]
+    parameters = ast.arguments(
         posonlyargs=[], args=[ast.arg(name) for name in names], kwonlyargs=[], kw_defaults=[], defaults=[]
     )
-    factory = ast.FunctionDef("__factory__", arguments, inner, [], lineno=1, col_offset=0)
+    factory = ast.FunctionDef("__factory__", parameters, inner, [], lineno=1, col_offset=0)
     module = ast.fix_missing_locations(ast.Module([factory], []))
     try:
         compiled = compile(module, unit.file.path, "exec", dont_inherit=True)
@@ -78,9 +77,9 @@ def _compile(function: FunctionType) -> CodeType:
 
 
 def _renamed(code: CodeType, function: FunctionType) -> CodeType:
-    """The code under the user's names again, with everything nested in it.
+    """Give the code, and all code nested in it, the user's names again.
 
-    While it is compiled the function must not have its own name: a call of itself would find the factory's variable.
+    The function is compiled under another name, because a call of itself would find the factory's variable.
     """
     name, qualified = function.__name__, function.__qualname__
 
@@ -88,8 +87,8 @@ def _renamed(code: CodeType, function: FunctionType) -> CodeType:
         shown = "<lambda>" if name == "<lambda>" else INNER
         path = part.co_qualname.removeprefix(f"__factory__.<locals>.{shown}")
         parts = tuple(rename(inner) if isinstance(inner, CodeType) else inner for inner in part.co_consts)
-        own = name if part.co_name == INNER else part.co_name
-        return part.replace(co_name=own, co_qualname=qualified + path, co_consts=parts)
+        short = name if part.co_name == INNER else part.co_name
+        return part.replace(co_name=short, co_qualname=qualified + path, co_consts=parts)
 
     return rename(code)
 
@@ -99,7 +98,7 @@ def _inner(code: CodeType, name: str) -> CodeType:
 
 
 class _Namer(ast.NodeTransformer):
-    """Rewrites calls, loops and `break`."""
+    """Rewriter of calls, comparisons, loops, `break` and nested functions."""
 
     def __init__(self, labels: dict[Any, Any], names: dict[Any, int], root: ast.AST) -> None:
         self.labels = labels
@@ -108,7 +107,7 @@ class _Namer(ast.NodeTransformer):
 
     def _hook(self, name: str, args: list[ast.expr], keywords: list[ast.keyword], at: ast.AST) -> ast.Call:
         hook = ast.copy_location(ast.Attribute(ast.Name(HOOK, ast.Load()), name, ast.Load()), at)
-        # CPython takes the line on which an attribute ends as that of its call.
+        # CPython takes the line on which an attribute ends as the line of its call.
         hook.end_lineno, hook.end_col_offset = hook.lineno, hook.col_offset
         built = ast.copy_location(ast.Call(hook, args, keywords), at)
         return ast.fix_missing_locations(built)
@@ -178,4 +177,4 @@ class _Namer(ast.NodeTransformer):
         return ast.fix_missing_locations(ast.copy_location(ast.Call(named, [node], []), node))
 
     def _name(self, node: ast.AST) -> list[ast.expr]:
-        return [ast.Name(OWN, ast.Load()), ast.Constant(self.names[node])]
+        return [ast.Name(FUNCTION, ast.Load()), ast.Constant(self.names[node])]

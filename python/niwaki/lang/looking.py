@@ -1,7 +1,7 @@
-"""`look(position, forward, up)` to core form: a record of the directions that the operation `look` computes.
+"""Lowering of `look(position, forward, up)` to a record of the directions that the operation `look` computes.
 
-As a statement of its own it assigns a variable that no model can name, `$%look`. The engine shows the choices after it
-what is seen from there.
+As a statement, it assigns a variable that no model can name, `$%look`. The engine shows a guide of later choices the
+scene from this frame.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from niwaki.lang.vocabulary import parameters_of
 
 @lowers(words.look)
 def look(body: Body, node: ast.Call) -> Expr:
-    """The frame."""
+    """Lower a call of `look` to a frame."""
     values = bind(body, node, node.args, node.keywords, parameters_of(words.look), "look")
     parts = body.kept(body.form("look", ["none" if value is None else value for value in values], node))
     fields = [Form("index", [parts, str(number)]) for number in range(3)]

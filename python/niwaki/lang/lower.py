@@ -1,7 +1,7 @@
-"""A model to core form: its function, every function it can call, and the constants they read.
+"""Lowering of a model to core form: its function, every function that it can call, and their constants.
 
-The pipeline: `source` finds the text, `scope` the owners of names, `sites` the names of choices; `statements`,
-`expressions`, `comprehensions` and `calls` write forms; `core` prints them.
+The pipeline: `source` finds the text, `scope` the owners of names, and `sites` the names of choices; `statements`,
+`expressions`, `comprehensions` and `calls` make forms; `core` writes the text.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from niwaki.lang.statements import statement
 
 @deep
 def lower(function: FunctionType, lifts: bool = False) -> Core:
-    """The core form of a model's function and of everything it can call.
+    """Lower a model's function, and every function that it can call, to core form.
 
     Parameters
     ----------
     function
         The Python function.
     lifts
-        Whether each real number of the source is a constant of the table, with its place in `Core.lifted`.
+        Whether real numbers of the source become constants of the table, with their places in `Core.lifted`.
     """
     program = Program(lifts)
     entry = program.unit(function)
@@ -55,7 +55,7 @@ def lower(function: FunctionType, lifts: bool = False) -> Core:
 
 @deep
 def lowered(function: FunctionType) -> Program:
-    """What lowering a model finds out: its functions, their texts, what their names mean."""
+    """Return the program of a model: its functions, their texts, and the meanings of their names."""
     program = Program()
     program.unit(function)
     lower_waiting(program)
@@ -63,8 +63,8 @@ def lowered(function: FunctionType) -> Program:
 
 
 def module_head(program: Program) -> list[Expr]:
-    """The files and the record classes of a program."""
-    # A name that is not in the encoding of file names has halves of characters in Python, and the engine none.
+    """Return the forms of a program's files and record classes."""
+    # Python keeps undecodable bytes of a path as surrogates, which the engine's texts cannot have.
     paths = [os.fsencode(file.path).decode("utf-8", "replace") for file in program.files]
     head: list[Expr] = [Form("file", [str(n), literal(path)]) for n, path in enumerate(paths)]
     for number, record in enumerate(program.classes):
@@ -75,7 +75,7 @@ def module_head(program: Program) -> list[Expr]:
 
 
 def lower_waiting(program: Program) -> list[Expr]:
-    """Every function that waits, and those that they call."""
+    """Lower all waiting functions, and the functions that they call."""
     forms: list[Expr] = []
     while program.waiting:
         unit = program.waiting.pop(0)
@@ -84,7 +84,7 @@ def lower_waiting(program: Program) -> list[Expr]:
 
 
 def _function(program: Program, unit: Unit, scope: Scope) -> Form:
-    """One `fn`."""
+    """Return the form `fn` of a function."""
     node = scope.node
     assert isinstance(node, (ast.FunctionDef, ast.Lambda))
     check_signature(unit.file, node)

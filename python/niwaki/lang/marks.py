@@ -1,4 +1,4 @@
-"""Functions that are marked for the language: what a model and a host function have in common.
+"""Functions that are marked for the language: models and host functions.
 
 A marked function keeps its Python function, so that editors, linters and debuggers see ordinary Python.
 """
@@ -29,12 +29,12 @@ class Marked(Generic[P, T]):
 
 
 class Host(Marked[P, T]):
-    """A Python function that a model may call although the engine cannot read it; this is slow.
+    """A Python function that a model may call although the engine cannot read it; such calls are slow.
 
     Attributes
     ----------
     threads : bool
-        Whether it may run on several threads at once.
+        Whether the function may run on several threads at once.
     """
 
     def __init__(self, function: Callable[P, T], threads: bool = False) -> None:
@@ -58,20 +58,20 @@ def host(*, threads: bool = False) -> Callable[[Callable[P, T]], Host[P, T]]: ..
 
 
 def host(function: Any = None, /, *, threads: bool = False) -> Any:
-    """Mark a Python function as pure, so that a model may call it as it is.
+    """Mark a Python function as pure, so that a model may call it.
 
-    It runs under Python's interpreter lock, once for every call in every particle, which is slow. It must give equal
-    results for equal arguments and change nothing; this is not checked.
+    The function runs in Python, under the interpreter lock, for every call in every particle, which is slow. It must
+    return equal results for equal arguments and have no effects; Niwaki does not check this.
 
-    Where it raises an exception, the run is invalid: see `Result.invalid`.
+    If the function raises an exception, the run is invalid: see `Result.invalid`.
 
     Parameters
     ----------
     function
-        Any callable that takes and gives numbers, strings, tuples and lists.
+        A callable that takes and returns numbers, strings, tuples and lists.
     threads
-        Whether the function may run on several threads at once. Left out, one host function runs at a time in a
-        process, because many libraries break where two threads are inside of them.
+        Whether the function may run on several threads at once. By default, only one host function of a process runs
+        at a time, because many libraries fail when two threads use them.
 
     Examples
     --------
@@ -86,5 +86,5 @@ def host(function: Any = None, /, *, threads: bool = False) -> Any:
 
 
 def underlying(value: Any) -> Any:
-    """The function of a model, anything else as it is."""
+    """Return the function of a model; any other value as it is."""
     return value.function if isinstance(value, Marked) and not isinstance(value, Host) else value

@@ -1,6 +1,6 @@
-"""Memoised functions of a plain run: the calls so far, by function and by the text of the arguments.
+"""Memoised calls of a plain run, by function and by the text of the arguments.
 
-The engine has the same texts (`machine/memo.rs`), so that an address names the same call.
+The engine makes the same texts (`machine/memo.rs`), so that addresses agree.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Calls:
         self.names: dict[str, Memoised[..., Any]] = {}
 
     def address(self, memo: Memoised[..., Any]) -> str:
-        """The function's part of addresses: its name, with its module where another function has that name."""
+        """Return a function's component of addresses: its name, with its module if another function has the name."""
         name = memo.name
         if self.names.setdefault(name, memo) is not memo:
             name = f"{public(underlying(memo.function).__module__)}.{name}"
@@ -38,15 +38,15 @@ class Calls:
 
 
 def bound(memo: Memoised[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> list[Any]:
-    """The arguments in the order of the parameters, with those left out."""
+    """Return the arguments in the order of the parameters, with defaults filled in."""
     signature = inspect.signature(underlying(memo.function))
-    given = signature.bind(*args, **kwargs)
-    given.apply_defaults()
-    return list(given.arguments.values())
+    arguments = signature.bind(*args, **kwargs)
+    arguments.apply_defaults()
+    return list(arguments.arguments.values())
 
 
 def text_of(values: Sequence[Any]) -> str:
-    """The text of arguments, by which they are compared. No component of an address has a slash inside."""
+    """Return the text of arguments, by which calls are compared; slashes are escaped, because a component has none."""
     return f"({', '.join(_written(value) for value in values)})".replace("/", "\\x2f")
 
 
@@ -71,5 +71,5 @@ def _written(value: Any) -> str:
 
 
 def holds_one(values: Sequence[Any]) -> bool:
-    """Whether one of the values is a memoised function or holds one."""
+    """Return whether a value is a memoised function or contains one."""
     return any(isinstance(value, Memoised) or holds_one(futures.parts_of(value)) for value in values)

@@ -1,4 +1,4 @@
-"""`@model` marks a Python function as a model: it can be run forwards, searched and drawn."""
+"""The decorator `@model`, which marks a Python function as a model."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from niwaki.lang.plain import run
 
 
 class Model(Compiled[P, T]):
-    """A function that can be run forwards, searched and drawn.
+    """A model: a Python function that can be run, searched and drawn.
 
     Attributes
     ----------
     name : str
         The function's name.
     function : FunctionType
-        The Python function as it was written.
+        The original Python function.
     """
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
-        """Run the model once as plain Python with a fresh seed, and keep only its value."""
+        """Run the model once as plain Python with a fresh seed, and return only its value."""
         return cast(T, run(self.function, args, kwargs).value)
 
     def __repr__(self) -> str:
@@ -50,5 +50,5 @@ def model(function: Callable[P, T]) -> Model[P, T]:
 
 
 def as_model(model: Model[..., Any] | Callable[..., Any]) -> Model[..., Any]:
-    """The model itself, or a plain function of the modelling language as one."""
+    """Return a model as it is, and a function of the modelling language as a model."""
     return model if isinstance(model, Model) else Model(model)

@@ -1,7 +1,7 @@
-"""A model as ordinary Python: the oracle for the engine, and what a debugger steps through.
+"""Runs of a model as ordinary Python, the reference for the engine, for debuggers to step through.
 
-The user's own function runs (see `instrument`); this file records what happens: the path of calls and loops, choices by
-readable address, scores, shapes and answers. Futures run where they are created.
+The user's function runs, instrumented (see `instrument`), and this module records the path of calls and loops, the
+choices by readable address, scores, shapes and answers of queries. Futures run where they are created.
 """
 
 from __future__ import annotations
@@ -35,24 +35,24 @@ LAZY: tuple[type[Iterable[Any]], ...] = (zip, map, filter, enumerate, reversed, 
 
 @dataclass(frozen=True)
 class Run:
-    """What one run of a model did.
+    """The record of a run of a model.
 
     Attributes
     ----------
     value
-        What the model returned.
+        The model's return value.
     choices : dict of str to value
-        Every choice by its address, in the order made.
+        The values of all choices by address, in the order of the run.
     log_prior : float
-        Sum of the choices' log densities, nats.
+        Sum of the choices' log densities, in nats.
     log_score : float
-        Sum of factors, observations and conditions, nats.
+        Sum of factors, observations and conditions, in nats.
     scene : list of (str, list of shapes)
-        The primitives, by the address of their `emit`.
+        The shapes, with the address of their `emit`.
     queries : dict
-        Answers by key.
+        Answers of queries by key.
     constraints : list of Constraint
-        The soft constraints, in the order met.
+        The soft constraints, in the order of the run.
     """
 
     value: Any
@@ -65,7 +65,7 @@ class Run:
 
     @property
     def log_joint(self) -> float:
-        """Prior and score together, nats."""
+        """Sum of `log_prior` and `log_score`, in nats."""
         return self.log_prior + self.log_score
 
 
@@ -83,11 +83,11 @@ def run_python(
     model
         A model, or a function written in the modelling language.
     args, kwargs
-        Its arguments.
+        The model's arguments.
     seed
-        Decides every choice that `choices` does not; fresh when neither is given.
+        The seed of all choices that `choices` does not have; a fresh seed if you give neither.
     choices
-        The values of choices by address. Without a seed it must name every choice that the run makes.
+        Values of choices by address. Without a seed, `choices` must have a value for every choice of the run.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def run(
     seed: int | None = None,
     choices: Mapping[str, Any] | None = None,
 ) -> Run:
-    """`run_python` with the arguments apart from its own, so that a model may have parameters of any name."""
+    """Run a model as `run_python` does, with arguments in `args` and `kwargs` so that a parameter may have any name."""
     if seed is None and choices is None:
         seed = secrets.randbits(63)
     state = PlainRun(seed, choices)
@@ -129,13 +129,13 @@ def run(
 
 
 class PlainRun:
-    """The state of a plain run; answers both the words (`Runner`) and the instrumented code."""
+    """The state of a plain run, which serves the words (`Runner`) and the instrumented code."""
 
     def __init__(self, seed: int | None, choices: Mapping[str, Any] | None) -> None:
         self.model: FunctionType | None = None
         self.around: inner.Around | None = None
         self.seed = seed
-        self.given = choices
+        self.values = choices
         self.path: list[str] = []
         self.loops: list[int] = []
         self.pending = ""
@@ -150,10 +150,10 @@ class PlainRun:
         self.codes: set[Any] = set()
         self.calls = memoised.Calls()
 
-    # called by the instrumented code
+    # methods for the instrumented code
 
     def call(self, label: str | tuple[str, str], function: Any, /, *args: Any, **kwargs: Any) -> Any:
-        """A call at a site."""
+        """Run a call at a site."""
         function = underlying(function)
         depth, loops = len(self.path), len(self.loops)
         if isinstance(function, Memoised):
@@ -172,33 +172,33 @@ class PlainRun:
         return [*value] if isinstance(value, LAZY) else value
 
     def is_model_code(self, function: FunctionType) -> bool:
-        """Whether a function is the user's: to be run with its sites named."""
+        """Return whether a function is the user's, which runs instrumented."""
         return function.__code__ in self.codes or not (
             function in vocabulary.ALL_WORDS or is_library(function)
         )
 
     def enter(self, function: FunctionType, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        """Run a function of the user; the first one is the model."""
+        """Run a function of the user; the first function is the model."""
         self.model = self.model or function
         if function.__code__ not in self.codes:
             if function not in self.functions:
                 traced = instrumented(function, self)
                 self.functions[function] = traced
-                self.know(traced.__code__)
+                self.add_code(traced.__code__)
             function = self.functions[function]
         return function(*args, **kwargs)
 
-    def know(self, code: Any) -> None:
-        """Remember instrumented code, with the functions nested in it."""
+    def add_code(self, code: Any) -> None:
+        """Note instrumented code, with the functions nested in it."""
         self.codes.add(code)
         for part in code.co_consts:
             if hasattr(part, "co_consts"):
-                self.know(part)
+                self.add_code(part)
 
     def with_function(
         self, label: tuple[str, str], word: Any, args: Sequence[Any], kwargs: dict[str, Any]
     ) -> Any:
-        """`map`, `filter`, `sorted`, `min` and `max`, whose function is called once for each item, in order."""
+        """Run `map`, `filter`, `sorted`, `min` or `max`, which call their function once for each item, in order."""
         loop, callee = label
         if word in (map, filter):
             function, *lists = args
@@ -220,7 +220,7 @@ class PlainRun:
         return [items[place] for place in order] if word is sorted else items[order]
 
     def loop(self, label: str, items: Iterable[Any]) -> Iterator[Any]:
-        """The items of a loop, each with its place in the path."""
+        """Yield the items of a loop, each with its iteration in the path."""
         depth, loops = len(self.path), len(self.loops)
         self.loops.append(depth)
         for number, item in enumerate(items):
@@ -230,7 +230,7 @@ class PlainRun:
         del self.path[depth:], self.loops[loops:]
 
     def forever(self, label: str) -> Iterator[int]:
-        """The steps of a `while`."""
+        """Yield the iterations of a `while`."""
 
         def count() -> Iterator[int]:
             number = 0
@@ -241,7 +241,7 @@ class PlainRun:
         return self.loop(label, count())
 
     def named(self, root: FunctionType, number: int) -> Callable[[FunctionType], FunctionType]:
-        """Note on a nested function which one it is, for an `infer` of it."""
+        """Return a decorator that marks a nested function with its place, for an `infer` of it."""
 
         def name_it(function: FunctionType) -> FunctionType:
             function.__dict__.update({inner.ROOT: root, inner.NUMBER: number})
@@ -250,13 +250,13 @@ class PlainRun:
         return name_it
 
     def leave(self) -> None:
-        """A `break`."""
+        """Leave a loop at a `break`."""
         del self.path[self.loops.pop() :]
 
-    # called by the words
+    # methods for the words
 
     def address(self, fallback: str) -> str:
-        """The address of the site that is being called."""
+        """Return the address of the current site."""
         label, self.pending = self.pending or fallback, ""
         return "/".join([*self.path, label])
 
@@ -265,10 +265,10 @@ class PlainRun:
         address = self.address("sample")
         self.check(dist)
         assert address not in self.choices_made
-        if self.given is not None and address in self.given:
-            value = self.given[address]
+        if self.values is not None and address in self.values:
+            value = self.values[address]
         elif self.seed is None:
-            near = difflib.get_close_matches(address, list(self.given or ()), n=3, cutoff=0.0)
+            near = difflib.get_close_matches(address, list(self.values or ()), n=3, cutoff=0.0)
             raise InputError(
                 "missing-choice", address=address, nearest=", ".join(f'"{name}"' for name in near) or "none"
             )
@@ -282,30 +282,30 @@ class PlainRun:
         return value
 
     def observe(self, dist: Any, value: Any) -> Any:
-        """Score a seen value."""
+        """Score an observed value."""
         self.address("observe")
         self.check(dist)
         self.scores.append(self.density(dist, value))
         return value
 
     def check(self, dist: Any) -> None:
-        """A draw needs a distribution."""
+        """Refuse a value that is not a distribution."""
         if not isinstance(dist, Distribution):
             raise ModelFault(
                 "not-a-distribution", f"expected a distribution, found {dist!r}", stack=self.stack()
             )
 
     def density(self, dist: Distribution, value: Any) -> float:
-        """The log density of a value, which must not be infinitely likely; a bad parameter or value is a fault."""
+        """Return the log density of a value; infinite density, a bad parameter or a bad value is a fault."""
         try:
-            found = densities.log_density(dist, value)
+            log_density = densities.log_density(dist, value)
         except (ValueError, TypeError) as error:
             code = "type-mismatch" if densities.is_valid(dist) else "bad-parameter"
             raise ModelFault(code, str(error), stack=self.stack()) from error
-        if math.isnan(found) or found == math.inf:
-            message = f"the log density of {value!r} is {found}"
+        if math.isnan(log_density) or log_density == math.inf:
+            message = f"the log density of {value!r} is {log_density}"
             raise ModelFault("non-finite-score", message, stack=self.stack())
-        return found
+        return log_density
 
     def factor(self, log_score: float) -> None:
         """Add to the score."""
@@ -321,7 +321,7 @@ class PlainRun:
             self.scores.append(-math.inf)
 
     def query(self, key: Any, value: Any) -> None:
-        """Record an answer."""
+        """Record the answer of a query."""
         address = self.address("query")
         _refuse_as_key(key)
         if key in self.answers:
@@ -334,11 +334,11 @@ class PlainRun:
         self.answers[key], self.answered[key] = value, address
 
     def emit(self, shapes: Sequence[Any]) -> None:
-        """Add a primitive to the scene."""
+        """Add shapes to the scene."""
         self.scene.append((self.address("emit"), flatten(shapes)))
 
     def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any:
-        """Run a call now; its value is to be forced."""
+        """Run a call now, and return its value as a future."""
         label, self.pending = self.pending or "apply", ""
         depth, loops = len(self.path), len(self.loops)
         function = underlying(function)
@@ -354,7 +354,7 @@ class PlainRun:
         return futures.Future(value)
 
     def force(self, value: Any) -> Any:
-        """The value of a future."""
+        """Return the value of a future."""
         return futures.forced(value)
 
     def mem(self, function: Callable[..., Any]) -> Memoised[..., Any]:
@@ -369,7 +369,7 @@ class PlainRun:
         return Memoised(function, address)
 
     def recall(self, function: Memoised[..., Any], args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        """A call of a memoised function: run from the root of addresses, where it is the first with its arguments."""
+        """Call a memoised function; only the first call with equal arguments runs, from the root of addresses."""
         values = memoised.bound(function, args, kwargs)
         try:
             address = self.calls.address(function) + memoised.text_of(values)
@@ -388,11 +388,11 @@ class PlainRun:
         return self.calls.values[address]
 
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
-        """Search another model, on the engine: only it has the methods."""
+        """Search another model, in the engine, which has the methods."""
         inference.check(method, keep)
         function = underlying(model)
         if memoised.holds_one([model, *args]):
-            message = "a memoised function belongs to the run around, and is given away"
+            message = "a memoised function belongs to the outer run, and cannot be an argument of an `infer`"
             raise ModelFault("memo-outside", message, stack=self.stack())
         if not isinstance(function, FunctionType):
             raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
@@ -406,7 +406,7 @@ class PlainRun:
             raise ModelFault(fault.code, fault.message, fault.help, stack=self.stack()) from None
 
     def constraint(self, kind: str, a: float, b: float, width: float) -> None:
-        """Keep what a soft constraint compares."""
+        """Record the numbers that a soft constraint compares."""
         calls = self.stack()
         span = calls[-1].span if calls else None
         self.constraints.append(Constraint(kind, "/".join([*self.path, kind]), span, a, b, width))
@@ -417,7 +417,7 @@ class PlainRun:
     # faults
 
     def stack(self, error: BaseException | None = None) -> list[Call]:
-        """The model's own calls, outermost first."""
+        """Return the model's calls, outermost first."""
         calls: list[Call] = []
         if error is not None:
             trace = error.__traceback__
@@ -445,12 +445,12 @@ class PlainRun:
         ]
 
     def fault(self, error: Exception) -> ModelFault:
-        """A Python exception as a fault with a code."""
+        """Return a Python exception as a fault with a code."""
         code = next((code for kind, code in CODES if isinstance(error, kind)), "model-failed")
         text = str(error)
-        found = (finer for kind, words, finer in FINER if isinstance(error, kind) and words in text)
-        code = next(found, code)
-        # What the engine makes of a shape's numbers carries its own code.
+        finer_codes = (finer for kind, words, finer in FINER if isinstance(error, kind) and words in text)
+        code = next(finer_codes, code)
+        # The engine's errors about the numbers of shapes have a code.
         code = getattr(error, "code", code) if isinstance(error, ValueError) else code
         if isinstance(error, KeyError):
             text = f"the dict has no key {error.args[0]!r}" if error.args else ""
@@ -464,7 +464,7 @@ class PlainRun:
 
 
 def _refuse_as_key(key: Any) -> None:
-    """Keys of queries are what can be a key of a dict, also when it comes from the engine."""
+    """Refuse keys of queries that cannot be keys of a dict, also after a way through the engine."""
     hash(key)
     waiting = [key]
     while waiting:
@@ -475,12 +475,12 @@ def _refuse_as_key(key: Any) -> None:
 
 
 def failed_host(error: BaseException) -> Host[Any, Any] | None:
-    """The host function in which an exception was raised."""
+    """Return the host function that raised an exception, or None."""
     trace = error.__traceback__
     while trace is not None:
         if trace.tb_frame.f_code is Host.__call__.__code__:
-            found: Host[Any, Any] = trace.tb_frame.f_locals["self"]
-            return found
+            host: Host[Any, Any] = trace.tb_frame.f_locals["self"]
+            return host
         trace = trace.tb_next
     return None
 

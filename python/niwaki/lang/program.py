@@ -1,7 +1,7 @@
-"""The state of one lowering: functions to do, constants, record classes, files.
+"""State while a program is lowered: waiting functions, constants, record classes, files.
 
-A *unit* is a top-level function with everything nested in it; units are found as they are called and lowered one after
-the other. Functions are compared as objects, so two closures of one `def` are two functions.
+A *unit* is a top-level function with all functions nested in it. A unit is added when a call of it is lowered, and
+lowered later. Functions are compared as objects, so two closures of the same `def` are two functions.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 from niwaki.errors import InputError, ModelError
 from niwaki.errors.source import SourceFile, Span, find_function, span_of
 from niwaki.inputs.modules import public
-from niwaki.lang.constants import is_data, owned
+from niwaki.lang.constants import is_data, plain
 from niwaki.lang.core import Expr, Form, is_literal, literal
 from niwaki.lang.deep import too_deep
 from niwaki.lang.marks import Host, underlying
@@ -26,7 +26,7 @@ from niwaki.words.memo import Memoised
 
 @dataclasses.dataclass(eq=False)
 class Unit:
-    """A top-level function: where it is written, what its names mean, what its parts are called."""
+    """A top-level function: its source, the meanings of its names, and the names of its parts."""
 
     function: FunctionType
     file: SourceFile
@@ -43,28 +43,28 @@ class Unit:
 
 
 class Program:
-    """What is known of the program so far."""
+    """A program while it is lowered."""
 
     def __init__(self, lifts: bool = False) -> None:
-        #: The places of real numbers that are constants of the table instead of literals, where they are wanted.
+        #: The places of real numbers that are constants of the table instead of literals; None without lifting.
         self.lifted: dict[int, Span] | None = {} if lifts else None
         self.units: dict[FunctionType, Unit] = {}
         self.waiting: list[Unit] = []
         self.constants: list[Any] = []
         self.classes: list[type] = []
         self.files: list[SourceFile] = []
-        self.taken: set[str] = set()
+        self.used_names: set[str] = set()
         self._constant_numbers: dict[int, int] = {}
 
     def unit(self, function: FunctionType, used_at: Span | None = None) -> Unit:
-        """The unit of a function object, created at its first use."""
+        """Return the unit of a function object, created at its first use."""
         if function not in self.units:
-            found = find_function(function)
-            if found is None:
+            source = find_function(function)
+            if source is None:
                 if used_at is not None:
                     raise ModelError("no-source", used_at, name=function.__name__)
                 raise InputError("no-source-file", name=function.__name__)
-            file, node = found
+            file, node = source
             if (below := too_deep(node)) is not None:
                 raise ModelError("nested-too-deeply", span_of(below, file))
             check_signature(file, node)
@@ -78,20 +78,20 @@ class Program:
         return self.units[function]
 
     def file_number(self, file: SourceFile) -> int:
-        """K of `(file K)`."""
+        """Return K of `(file K)`."""
         if file not in self.files:
             self.files.append(file)
         return self.files.index(file)
 
     def class_number(self, record: type) -> int:
-        """K of `(record K ...)`."""
+        """Return K of `(record K ...)`."""
         if record not in self.classes:
             self.classes.append(record)
         return self.classes.index(record)
 
     def _name(self, unit: Unit) -> None:
         qualified = unit.function.__qualname__.replace(".<locals>", "").replace("<lambda>", "lambda")
-        if qualified in self.taken:
+        if qualified in self.used_names:
             qualified = f"{public(unit.function.__module__)}.{qualified}"
         unit.names[unit.scopes.root] = self.fresh(qualified)
         for scope in functions(unit.scopes):
@@ -99,18 +99,18 @@ class Program:
                 unit.names[scope] = self.fresh(f"{unit.names[scope.parent.function]}.{scope.name}")
 
     def fresh(self, name: str) -> str:
-        """The name, or one made from it that no function has."""
+        """Return the name, changed if another function has it."""
         outer, _, last = name.rpartition(".")
         number = 2
         unique = name
-        while unique in self.taken:
+        while unique in self.used_names:
             unique = f"{outer}.#{number}.{last}" if outer else f"#{number}.{last}"
             number += 1
-        self.taken.add(unique)
+        self.used_names.add(unique)
         return unique
 
     def real(self, value: float, place: Span) -> Expr:
-        """A real number of the source: a literal, or a constant of its own."""
+        """Return a real number of the source as a literal, or as a new constant of the table."""
         if self.lifted is None:
             return literal(value)
         self.constants.append(value)
@@ -118,7 +118,7 @@ class Program:
         return Form("data", [str(len(self.constants) - 1)])
 
     def constant(self, value: Any, used_at: Span, name: str) -> Expr:
-        """A Python object as an expression: a literal, data of the table, or built from both."""
+        """Return a Python object as an expression: a literal, data of the table, or a form of both."""
         value = underlying(value)
         if isinstance(value, Memoised):
             function = underlying(value.function)
@@ -138,7 +138,7 @@ class Program:
                 self.constant(getattr(value, part), used_at, name) for part in record_fields(type(value))
             ]
             return Form("record", [str(self.class_number(type(value))), *parts])
-        value = owned(value)
+        value = plain(value)
         if is_literal(value):
             if isinstance(value, int) and not -(2**63) <= value < 2**63:
                 raise ModelError("integer-too-large", used_at, found=str(value))
@@ -154,18 +154,18 @@ class Program:
         raise ModelError("unknown-constant", used_at, name=name, found=_kind(value))
 
     def number(self, value: Any) -> int:
-        """K of `(data K)` or `(host K)`."""
+        """Return K of `(data K)` or `(host K)`."""
         if id(value) not in self._constant_numbers:
             self._constant_numbers[id(value)] = len(self.constants)
             self.constants.append(value)
         return self._constant_numbers[id(value)]
 
     def host(self, host: Host[Any, Any]) -> str:
-        """K of `(host K ...)`, as an atom."""
+        """Return K of `(host K ...)`, as an atom."""
         return str(self.number(host))
 
     def check_record(self, record: type, used_at: Span) -> None:
-        """Refuse record classes that can change or that run code when they are made."""
+        """Refuse record classes whose objects can change, or run code when they are created."""
         if is_named_tuple(record):
             return
         parameters = getattr(record, "__dataclass_params__", None)

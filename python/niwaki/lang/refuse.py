@@ -1,6 +1,6 @@
 """Syntax that the language always refuses, with the message for each kind.
 
-Other refusals are where the syntax is lowered (a mutating method in `calls`, an unknown name in `expressions`).
+The lowering refuses other code: a mutating method in `calls`, an unknown name in `expressions`.
 """
 
 from __future__ import annotations
@@ -50,14 +50,14 @@ WORDS: dict[type[ast.AST], str] = {
 
 
 def refuse(body: Body, node: ast.AST) -> NoReturn:
-    """Stop with the message for a kind of syntax that the language leaves out."""
+    """Raise the error about a kind of syntax that the language does not have."""
     code = STATEMENTS.get(type(node)) or EXPRESSIONS.get(type(node)) or "unsupported-syntax"
     names = getattr(node, "names", []) if code == "global-name" else []
     body.refuse(code, _headline(node), word=WORDS.get(type(node), ""), name=", ".join(names))
 
 
 def _headline(node: ast.AST) -> ast.AST:
-    """The first word or two of a statement with a body, so that the carets stay short."""
+    """Return a node that covers only the keyword of a statement with a body, so that the carets stay short."""
     if isinstance(node, ast.stmt) and isinstance(getattr(node, "body", None), list):
         short = ast.Pass()
         short.lineno, short.col_offset = node.lineno, node.col_offset

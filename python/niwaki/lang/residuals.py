@@ -1,7 +1,7 @@
-"""How far each soft constraint of a run is from holding, which shows constraints that contradict one another.
+"""Residuals of a run's soft constraints, which show constraints that contradict one another.
 
-The run is repeated in plain Python with the same choices; every `softeq`, `soft_at_least` and `soft_at_most` that it
-meets is noted with its line.
+The run is repeated in plain Python with the same choices, and every `softeq`, `soft_at_least` and `soft_at_most` is
+recorded with its line.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from niwaki.lang.plain import run_python
 
 
 class Residuals(Sequence[Constraint]):
-    """The soft constraints of a run, worst first; printed, they are a table."""
+    """The soft constraints of a run, worst first; they print as a table."""
 
     def __init__(self, constraints: Sequence[Constraint]) -> None:
-        self._worst_first = sorted(constraints, key=lambda one: -one.widths)
+        self._worst_first = sorted(constraints, key=lambda constraint: -constraint.widths)
 
     def __len__(self) -> int:
         return len(self._worst_first)
@@ -30,14 +30,20 @@ class Residuals(Sequence[Constraint]):
         return self._worst_first[index]
 
     def beyond(self, widths: float = 3.0) -> list[Constraint]:
-        """Those that are further from holding than this many widths."""
-        return [one for one in self if one.widths > widths]
+        """Return the constraints that are further from holding than this many widths."""
+        return [constraint for constraint in self if constraint.widths > widths]
 
     def __repr__(self) -> str:
         rows = [("widths", "residual", "width", "constraint", "line")]
-        for one in self:
+        for constraint in self:
             rows.append(
-                (f"{one.widths:.2f}", f"{one.residual:.4g}", f"{one.width:.4g}", one.address, one.line)
+                (
+                    f"{constraint.widths:.2f}",
+                    f"{constraint.residual:.4g}",
+                    f"{constraint.width:.4g}",
+                    constraint.address,
+                    constraint.line,
+                )
             )
         sizes = [max(len(row[k]) for row in rows) for k in range(4)]
         lines = []
@@ -54,23 +60,23 @@ def residuals(
     seed: int | None = None,
     **kwargs: Any,
 ) -> Residuals:
-    """How far each soft constraint of a run is from holding.
+    """Return the soft constraints of a run with their distances from holding.
 
     Parameters
     ----------
     model
         A model, or a function of the modelling language.
     args, kwargs
-        Its arguments.
+        The model's arguments.
     choices
         The run's choices by address: `sample.choices`.
     seed
-        Decides the choices that are not given.
+        The seed of the choices that `choices` does not have.
 
     Returns
     -------
     Residuals
-        The constraints that the run met, worst first.
+        The constraints, worst first.
 
     Examples
     --------

@@ -1,10 +1,12 @@
-"""The scope of each name: the scopes of one top-level function and of everything nested in it.
+"""Scopes of names in a top-level function and in all functions nested in it.
 
-Python's closures capture variables; ours capture values. This file computes what hides the difference: which variables
-a nested function needs from outside (its *captures*), in which order assignments and definitions happen, and which
-nested functions are only ever bound by their one `def` and can therefore be called directly, by name.
+Python's closures capture variables, the engine's closures capture values. To hide the difference, this module computes:
 
-Captures are a fixed point: a function that calls a sibling needs what the sibling needs.
+- the *captures* of a nested function, the variables that it needs from outside;
+- the order of assignments and definitions;
+- the nested functions that a single `def` binds, which can be called directly, by name.
+
+Captures are a fixed point: a function that calls a sibling needs all that the sibling needs.
 """
 
 from __future__ import annotations
@@ -19,19 +21,19 @@ COMPREHENSIONS = (ast.ListComp, ast.GeneratorExp, ast.SetComp, ast.DictComp)
 
 @dataclass(frozen=True)
 class Moment:
-    """When something happens: a number that grows in the order of evaluation, and the loops around it."""
+    """A moment of a run: a number that grows in the order of evaluation, and the loops around the moment."""
 
     order: int
     loops: frozenset[int]
 
     def may_precede(self, other: Moment) -> bool:
-        """Whether this may happen before `other`."""
+        """Return whether this moment may be before `other`."""
         return self.order < other.order or bool(self.loops & other.loops)
 
 
 @dataclass(eq=False)
 class Variable:
-    """A local variable: parameters, assigned names, loop variables, defaults kept for later calls."""
+    """A local variable: a parameter, an assigned name, a loop variable, or a default kept for later calls."""
 
     name: str
     scope: Scope
@@ -40,7 +42,7 @@ class Variable:
 
     @property
     def owner(self) -> Scope:
-        """The function that the variable belongs to."""
+        """The scope of the variable's function."""
         return self.scope.function
 
 
@@ -61,18 +63,18 @@ class Scope:
 
     @property
     def function(self) -> Scope:
-        """The function itself, or the one around a comprehension."""
+        """The scope of the function: this scope, or the scope around a comprehension."""
         return self if self.is_function or self.parent is None else self.parent.function
 
     @property
     def parameters(self) -> list[str]:
-        """Parameter names in order, keyword-only ones last."""
+        """The names of the parameters in order, keyword-only parameters last."""
         assert isinstance(self.node, (ast.FunctionDef, ast.Lambda))
         a = self.node.args
         return [arg.arg for arg in (*a.posonlyargs, *a.args, *a.kwonlyargs)]
 
     def inside(self, other: Scope) -> bool:
-        """Whether this scope is `other` or lies in it."""
+        """Return whether this scope is `other` or inside it."""
         scope: Scope | None = self
         while scope is not None:
             if scope is other:
@@ -83,7 +85,7 @@ class Scope:
 
 @dataclass(eq=False)
 class Scopes:
-    """The scopes of one top-level function."""
+    """The scopes of a top-level function."""
 
     root: Scope
     of: dict[ast.AST, Scope]
@@ -91,12 +93,12 @@ class Scopes:
     count: int = 0
 
     def number(self) -> int:
-        """A fresh number for a made-up variable."""
+        """Return a fresh number for a variable of the compiler."""
         self.count += 1
         return self.count
 
     def find(self, name: str, scope: Scope) -> Variable | Scope | None:
-        """What a name means in a scope: a variable, a nested function known by its definition, or nothing local."""
+        """Return the meaning of a name in a scope: a variable, a nested function, or None if the name is not local."""
         at: Scope | None = scope
         while at is not None:
             if name in at.nested:
@@ -108,18 +110,18 @@ class Scopes:
 
 
 def default_expressions(node: FunctionNode) -> dict[str, ast.expr]:
-    """The parameters that have defaults, in order, with the expressions."""
+    """Return the expressions of default values by parameter, in order."""
     a = node.args
     positional = [arg.arg for arg in (*a.posonlyargs, *a.args)]
-    found = dict(zip(positional[len(positional) - len(a.defaults) :], a.defaults, strict=True))
-    found |= {
+    expressions = dict(zip(positional[len(positional) - len(a.defaults) :], a.defaults, strict=True))
+    expressions |= {
         arg.arg: value for arg, value in zip(a.kwonlyargs, a.kw_defaults, strict=True) if value is not None
     }
-    return found
+    return expressions
 
 
 def analyse(node: FunctionNode) -> Scopes:
-    """The scopes of a top-level function."""
+    """Compute the scopes of a top-level function."""
     root = Scope(node, None, node.name if isinstance(node, ast.FunctionDef) else "lambda")
     scopes = Scopes(root, {node: root}, {})
     walker = _Walker(scopes)
@@ -129,14 +131,14 @@ def analyse(node: FunctionNode) -> Scopes:
 
 
 class _Walker:
-    """Visits a function in the order of evaluation, opening scopes and noting assignments and uses."""
+    """Visitor of a function in the order of evaluation, which opens scopes and records assignments and uses."""
 
     def __init__(self, scopes: Scopes) -> None:
         self.scopes = scopes
         self.scope = scopes.root
         self.order = 0
         self.loops: list[int] = []
-        self.taken: set[str] = set()
+        self.cores: set[str] = set()
 
     def now(self) -> Moment:
         self.order += 1
@@ -164,9 +166,9 @@ class _Walker:
     def declare(self, name: str, scope: Scope) -> Variable:
         if name not in scope.variables:
             core = f"${name}"
-            if core in self.taken:
+            if core in self.cores:
                 core = f"${name}%{self.scopes.number()}"
-            self.taken.add(core)
+            self.cores.add(core)
             scope.variables[name] = Variable(name, scope, core)
         return scope.variables[name]
 
@@ -231,12 +233,12 @@ class _Walker:
                 self.children(node)
 
     def reference(self, name: str) -> None:
-        found = self.scopes.find(name, self.scope)
+        meaning = self.scopes.find(name, self.scope)
         here = self.scope.function
-        if isinstance(found, Scope):
-            here.uses.append(found)
-        elif found is not None and found.owner is not here and found not in here.needed:
-            here.needed.append(found)
+        if isinstance(meaning, Scope):
+            here.uses.append(meaning)
+        elif meaning is not None and meaning.owner is not here and meaning not in here.needed:
+            here.needed.append(meaning)
 
     def definition(self, node: FunctionNode, known: Scope | None) -> None:
         for default in default_expressions(node).values():
@@ -286,7 +288,7 @@ class _Walker:
 
 
 def _bound_names(body: list[ast.AST] | list[ast.stmt] | list[ast.expr]) -> dict[str, list[ast.AST]]:
-    """Every name that a function's own statements bind, with the nodes that bind it."""
+    """Return the names that a function's statements bind, each with the nodes that bind it."""
     bound: dict[str, list[ast.AST]] = {}
 
     def look(node: ast.AST) -> None:
@@ -307,7 +309,7 @@ def _bound_names(body: list[ast.AST] | list[ast.stmt] | list[ast.expr]) -> dict[
 
 
 def _close(scopes: Scopes) -> None:
-    """Captures: what a function reads, what the functions it uses need, except its own variables."""
+    """Complete the captures: add what a function's callees need, except variables of the function itself."""
     functions = [scope for scope in scopes.of.values() if scope.is_function]
     changed = True
     while changed:
@@ -321,7 +323,7 @@ def _close(scopes: Scopes) -> None:
 
 
 def functions(scopes: Scopes) -> Iterator[Scope]:
-    """All function scopes, the root first."""
+    """Yield the scopes of all functions, the root first."""
     for scope in scopes.of.values():
         if scope.is_function:
             yield scope

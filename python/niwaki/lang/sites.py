@@ -1,24 +1,23 @@
-"""The names of sites: what each choice, call and loop adds to the readable address of what happens below it.
+"""Names of sites: the components that choices, calls and loops add to readable addresses.
 
-    ship/      a call of a function, a call of a value, a future: the callee's own name (the part after the last dot;
-               `lambda`), a called variable's name, `apply` for any other called value
-    i[3]/      an iteration of `for i in ...` (of the first name of a pattern), also in a comprehension;
-               `while[3]`; `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` where those call a function
-    zc         a choice: the name that the enclosing assignment gives first, else the distribution's family
-    layout     the seed of an `infer`: likewise the name that is assigned to, else `infer`
+    ship/      a call of a function, a call of a value, a future: the callee's short name (the part after the last
+               dot; `lambda`), the name of a called variable, or `apply` for any other called value
+    i[3]/      an iteration of `for i in ...` (the first name of a pattern), also in a comprehension; `while[3]`;
+               `map[3]`, `filter[3]`, `sorted[3]`, `min[3]`, `max[3]` if these call a function
+    zc         a choice: the first name of the assignment around it, else the distribution's family
+    layout     the seed of an `infer`: the first name of the assignment around it, else `infer`
     color(3)   a call of a memoised function, from the root: the address of the `mem`, which is named like a choice,
                or the name of a function of a module; and the arguments
-    observe    and likewise `factor`, `condition`, `query`, `emit`; an `emit` with a `name` has that instead
+    observe    an effect: `observe`, `factor`, `condition`, `query`, `emit`; for an `emit` with a `name`, the name
 
-The model that is run adds nothing: the address of its own choice `zc` is "zc".
+The model itself adds no component: the address of its choice `zc` is "zc".
 
-Equal names within one activation (one call, or one iteration of a loop) get `#1`, `#2` for the second, third
-occurrence in the order of evaluation of the source: `zc#1`, `wing#1`, `i[3]#1`. Four kinds are counted apart, since
-they cannot be confused: what ends an address, calls, loops, and memoised functions. Every site counts, whether or not
-its call can reach an effect. A loop's own head belongs to the activation around it, the test of a `while` to each of
-its iterations.
+Equal names within an activation (a call, or an iteration of a loop) get `#1`, `#2` for the second, third occurrence in
+the order of evaluation: `zc#1`, `wing#1`, `i[3]#1`. Four kinds are counted separately, because they cannot be confused:
+ends of addresses, calls, loops, and memoised functions. Every site counts, whether or not its call can reach an effect.
+The head of a loop belongs to the activation around it, the test of a `while` to each of its iterations.
 
-Here a label is written with empty brackets for a loop, `i[]#1`; the index goes into the brackets when it runs.
+A label has empty brackets for a loop, `i[]#1`; the run puts the index into the brackets.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ CALLS_A_FUNCTION = {map: "map", filter: "filter", sorted: "sorted", min: "min", 
 
 
 def labels_of(scopes: Scopes, namespace: Namespace) -> dict[Any, str]:
-    """Every site's label: by syntax node, or by (node, "loop") and (node, "call") for `map` and the like."""
+    """Return the labels of all sites by syntax node; for `map` and the like by (node, "loop") and (node, "call")."""
     namer = _Namer(scopes, namespace)
     for scope in scopes.of.values():
         if scope.is_function:
@@ -148,7 +147,7 @@ class _Namer:
             self.label(node, "call", self.callee(node.func))
 
     def is_site(self, node: ast.expr, value: Any) -> bool:
-        """Whether a call runs the user's code: a built-in, a word that computes or a record's class does not."""
+        """Return whether a call runs the user's code: a built-in, a word that computes or a record's class does not."""
         if value is not MISSING:
             return (
                 isinstance(value, FunctionType)
@@ -160,7 +159,7 @@ class _Namer:
         return True
 
     def family(self, dist: ast.expr | None) -> str:
-        """The family of a distribution that can be read off, else `sample`."""
+        """Return the family of a distribution if the text shows it, else `sample`."""
         if isinstance(dist, ast.Call):
             live = self.meaning(dist.func)
             return (
@@ -170,20 +169,20 @@ class _Namer:
         return value.family if isinstance(value, words.Distribution) else "sample"
 
     def callee(self, node: ast.expr) -> str:
-        """What a called thing adds to an address."""
+        """Return the component that a callee adds to an address."""
         if isinstance(node, ast.Lambda):
             return "lambda"
         if isinstance(node, ast.Name):
-            found = self.scopes.find(node.id, self.scope)
-            if isinstance(found, (Scope, Variable)):
-                return found.name
+            meaning = self.scopes.find(node.id, self.scope)
+            if isinstance(meaning, (Scope, Variable)):
+                return meaning.name
         value = self.meaning(node)
         if isinstance(value, FunctionType) and not is_library(value):
             return value.__name__.replace("<lambda>", "lambda")
         return "apply"
 
     def meaning(self, node: ast.expr) -> Any:
-        """The object that a name outside of the model means, or MISSING."""
+        """Return the object of a name from outside of the model, or MISSING."""
         if isinstance(node, ast.Name):
             if self.scopes.find(node.id, self.scope) is not None:
                 return MISSING
@@ -196,12 +195,12 @@ class _Namer:
 
 
 def part_name(node: ast.Call) -> str | None:
-    """The name that an `emit` gives to its part, where it is one that an address can hold."""
-    given = next((keyword.value for keyword in node.keywords if keyword.arg == "name"), None)
-    text = given.value if isinstance(given, ast.Constant) else None
+    """Return the name that an `emit` gives its part, if an address can have it, else None."""
+    value = next((keyword.value for keyword in node.keywords if keyword.arg == "name"), None)
+    text = value.value if isinstance(value, ast.Constant) else None
     return text if isinstance(text, str) and re.fullmatch(r"[\w-]+", text) else None
 
 
 def first_name(target: ast.AST) -> str:
-    """The first name of a loop's target."""
+    """Return the first name of a loop's target."""
     return next((part.id for part in ast.walk(target) if isinstance(part, ast.Name)), "")

@@ -1,4 +1,4 @@
-"""Statements to core form, one function for each kind of syntax node, found in one table."""
+"""Lowering of statements, with a function for each kind of syntax node."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TABLE: dict[type[ast.AST], Callable[[Body, Any], None]] = {}
 
 
 def lowers(*kinds: type[ast.AST]) -> Callable[[Callable[[Body, Node], None]], Callable[[Body, Node], None]]:
-    """Register the function that lowers a kind of node."""
+    """Register a function that lowers kinds of nodes."""
 
     def register(function: Callable[[Body, Node], None]) -> Callable[[Body, Node], None]:
         TABLE.update(dict.fromkeys(kinds, function))
@@ -30,7 +30,7 @@ def lowers(*kinds: type[ast.AST]) -> Callable[[Callable[[Body, Node], None]], Ca
 
 
 def statement(body: Body, node: ast.stmt) -> None:
-    """Any statement."""
+    """Lower a statement."""
     lower = TABLE.get(type(node))
     if lower is None:
         refuse(body, node)
@@ -38,7 +38,7 @@ def statement(body: Body, node: ast.stmt) -> None:
 
 
 def block(body: Body, nodes: Sequence[ast.stmt]) -> Block:
-    """Several statements, apart from the current block."""
+    """Lower several statements into a block that is separate from the current block."""
 
     def make() -> Expr:
         for node in nodes:
@@ -50,12 +50,12 @@ def block(body: Body, nodes: Sequence[ast.stmt]) -> Block:
 
 @lowers(ast.Pass)
 def pass_(body: Body, node: ast.Pass) -> None:
-    """Nothing."""
+    """Lower `pass` to nothing."""
 
 
 @lowers(ast.Expr)
 def effect(body: Body, node: ast.Expr) -> None:
-    """An expression for its effect; a docstring is nothing. `look` lasts: it assigns a variable of its own."""
+    """Lower an expression statement; a docstring becomes nothing, and `look` assigns the variable of the frame."""
     if isinstance(node.value, ast.Constant):
         return
     if makes_a_shape(node.value, body):
@@ -69,14 +69,14 @@ def effect(body: Body, node: ast.Expr) -> None:
 
 @lowers(ast.Return)
 def return_(body: Body, node: ast.Return) -> None:
-    """`return`, with None when it has no value."""
+    """Lower `return`; without a value it returns None."""
     value = expression(body, node.value) if node.value is not None else "none"
     body.put(body.form("return", [value], node))
 
 
 @lowers(ast.Assign)
 def assign(body: Body, node: ast.Assign) -> None:
-    """`a = b = value`: the value once, then the targets from left to right."""
+    """Lower `a = b = value`: the value once, then the targets from left to right."""
     body.target = next((target.id for target in node.targets if isinstance(target, ast.Name)), "")
     value = expression(body, node.value)
     if len(node.targets) > 1:
@@ -88,7 +88,7 @@ def assign(body: Body, node: ast.Assign) -> None:
 
 @lowers(ast.AnnAssign)
 def annotated(body: Body, node: ast.AnnAssign) -> None:
-    """`x: float = value`; without a value it is only a remark."""
+    """Lower `x: float = value`; without a value it becomes nothing."""
     if node.value is not None:
         body.target = node.target.id if isinstance(node.target, ast.Name) else ""
         store(body, node.target, expression(body, node.value), node)
@@ -97,7 +97,7 @@ def annotated(body: Body, node: ast.AnnAssign) -> None:
 
 @lowers(ast.AugAssign)
 def augmented(body: Body, node: ast.AugAssign) -> None:
-    """`x += value` gives the name a new value; nothing is changed in place."""
+    """Lower `x += value`, which assigns a new value; nothing changes in place."""
     if not isinstance(node.target, ast.Name):
         changes(body, node.target, node)
     target = node.target
@@ -105,22 +105,27 @@ def augmented(body: Body, node: ast.AugAssign) -> None:
     head = vocabulary.BINARY.get(type(node.op).__name__)
     if head is None:
         body.refuse("unsupported-syntax", node)
-    found = body.scopes.find(target.id, body.scope)
-    if not isinstance(found, Variable):
-        body.refuse("unknown-name", target, name=target.id, suggestion=f"give `{target.id}` a value first")
+    local = body.scopes.find(target.id, body.scope)
+    if not isinstance(local, Variable):
+        body.refuse(
+            "unknown-name",
+            target,
+            name=target.id,
+            suggestion=f"assign `{target.id}` a value before this line",
+        )
     body.target = target.id
-    old = variable(body, target, found)
+    old = variable(body, target, local)
     value = expression(body, node.value)
-    body.put(body.form("set", [found.core, body.form(head, [old, value], node)], node))
+    body.put(body.form("set", [local.core, body.form(head, [old, value], node)], node))
     body.target = ""
 
 
 def store(body: Body, target: ast.expr, value: Expr, node: ast.AST) -> None:
-    """Give a target its value: a name, or a pattern of names."""
+    """Assign a value to a target: a name, or a pattern of names."""
     if isinstance(target, ast.Name):
-        found = body.scopes.find(target.id, body.scope)
-        assert isinstance(found, Variable)
-        body.put(body.form("set", [found.core, value], node))
+        local = body.scopes.find(target.id, body.scope)
+        assert isinstance(local, Variable)
+        body.put(body.form("set", [local.core, value], node))
     elif isinstance(target, (ast.Tuple, ast.List)):
         unpack(body, target, value, node)
     else:
@@ -128,14 +133,14 @@ def store(body: Body, target: ast.expr, value: Expr, node: ast.AST) -> None:
 
 
 def unpack(body: Body, target: ast.Tuple | ast.List, value: Expr, node: ast.AST) -> None:
-    """`a, (b, c), *rest = value`: inner patterns go through temporaries."""
+    """Lower `a, (b, c), *rest = value`; inner patterns go through temporaries."""
     later: list[tuple[ast.expr, str]] = []
 
     def name(part: ast.expr) -> str:
         if isinstance(part, ast.Name):
-            found = body.scopes.find(part.id, body.scope)
-            assert isinstance(found, Variable)
-            return found.core
+            local = body.scopes.find(part.id, body.scope)
+            assert isinstance(local, Variable)
+            return local.core
         temporary = body.temporary("")
         later.append((part, temporary))
         return temporary
@@ -155,53 +160,53 @@ def unpack(body: Body, target: ast.Tuple | ast.List, value: Expr, node: ast.AST)
 
 
 def changes(body: Body, target: ast.expr, node: ast.AST) -> None:
-    """Refuse assignment to an item or to a field."""
+    """Refuse an assignment to an item or to a field."""
     owner = target.value if isinstance(target, (ast.Subscript, ast.Attribute)) else target
     second = None
     if isinstance(owner, ast.Name):
-        found = body.scopes.find(owner.id, body.scope)
-        if isinstance(found, Variable) and found.assigned:
-            second = first_assignment(body, found)
+        local = body.scopes.find(owner.id, body.scope)
+        if isinstance(local, Variable) and local.assigned:
+            second = first_assignment(body, local)
     text = body.span(owner).text
     if isinstance(target, ast.Subscript):
         index = body.span(target.slice).text
         in_dict = f"write a dict with all of its keys: `{text} = {{{index}: value, ...}}`"
         slices = f"{text} = {text}[:{index}] + [value] + {text}[{index} + 1:]"
-        in_list = f"for a list write `{slices}`, or build it in one comprehension"
+        in_list = f"for a list write `{slices}`, or build the list by a comprehension"
         cure = in_dict if is_text(target.slice) else f"{in_list}; for a dict {in_dict}"
         body.refuse("changes-an-item", target, second, name=text, cure=cure)
     body.refuse("changes-a-field", target, second, name=text, field=getattr(target, "attr", ""))
 
 
 def is_text(key: ast.AST) -> bool:
-    """Whether a key is written as a text, so that what has it is a dict."""
+    """Return whether a key is written as a text, so that its owner is a dict."""
     return isinstance(key, ast.JoinedStr) or (isinstance(key, ast.Constant) and isinstance(key.value, str))
 
 
-def first_assignment(body: Body, found: Variable) -> Any:
-    """The place where a variable was first given a value, for a second label."""
-    first = found.assigned[0][1]
+def first_assignment(body: Body, variable: Variable) -> Any:
+    """Return the place of a variable's first assignment, for a second label."""
+    first = variable.assigned[0][1]
     if isinstance(first, (ast.FunctionDef, ast.Lambda)):
         for arg in (*first.args.posonlyargs, *first.args.args, *first.args.kwonlyargs):
-            if arg.arg == found.name:
+            if arg.arg == variable.name:
                 return body.span(arg)
     return body.span(first)
 
 
 @lowers(ast.If)
 def if_(body: Body, node: ast.If) -> None:
-    """`if`, `elif`, `else`."""
+    """Lower `if`, `elif`, `else`."""
     test = expression(body, node.test)
     arms = [Form("then", block(body, node.body)), Form("else", block(body, node.orelse))]
     body.put(body.form("if", [test, *arms], node.test))
 
 
 def loop_variable(body: Body, target: ast.expr) -> tuple[str, Callable[[], None]]:
-    """The variable of a `for`, and what unpacks it at the head of each iteration."""
+    """Return the variable of a `for`, and a function that unpacks it at the head of each iteration."""
     if isinstance(target, ast.Name):
-        found = body.scopes.find(target.id, body.scope)
-        assert isinstance(found, Variable)
-        return found.core, lambda: None
+        local = body.scopes.find(target.id, body.scope)
+        assert isinstance(local, Variable)
+        return local.core, lambda: None
     if not isinstance(target, (ast.Tuple, ast.List)):
         changes(body, target, target)
     first = next((part.id for part in ast.walk(target) if isinstance(part, ast.Name)), "")
@@ -211,7 +216,7 @@ def loop_variable(body: Body, target: ast.expr) -> tuple[str, Callable[[], None]
 
 @lowers(ast.For)
 def for_(body: Body, node: ast.For) -> None:
-    """`for x in xs`."""
+    """Lower `for x in xs`."""
     if node.orelse:
         body.refuse("loop-else", node.orelse[0])
     items = expression(body, node.iter)
@@ -231,7 +236,7 @@ def for_(body: Body, node: ast.For) -> None:
 
 @lowers(ast.While)
 def while_(body: Body, node: ast.While) -> None:
-    """`while`; a test that needs statements moves to the head of the body."""
+    """Lower `while`; a test that needs statements moves to the head of the body."""
     if node.orelse:
         body.refuse("loop-else", node.orelse[0])
     before, test = body.within(lambda: expression(body, node.test))
@@ -246,19 +251,19 @@ def while_(body: Body, node: ast.While) -> None:
 
 @lowers(ast.Break)
 def break_(body: Body, node: ast.Break) -> None:
-    """`break`."""
+    """Lower `break`."""
     body.put(Form("break", []))
 
 
 @lowers(ast.Continue)
 def continue_(body: Body, node: ast.Continue) -> None:
-    """`continue`."""
+    """Lower `continue`."""
     body.put(Form("continue", []))
 
 
 @lowers(ast.Assert)
 def assert_(body: Body, node: ast.Assert) -> None:
-    """`assert test, message`; the message is only computed when the test fails."""
+    """Lower `assert test, message`; the message is computed only if the test fails."""
     test = expression(body, node.test)
     before, message = body.within(lambda: expression(body, node.msg) if node.msg is not None else literal(""))
     if before:
@@ -270,7 +275,7 @@ def assert_(body: Body, node: ast.Assert) -> None:
 
 @lowers(ast.FunctionDef)
 def definition(body: Body, node: ast.FunctionDef) -> None:
-    """A nested function. Known by its definition it needs no code here, except for its defaults."""
+    """Lower a nested function; if a single `def` binds its name, only its defaults need code."""
     scope = body.scopes.of[node]
     if node.decorator_list:
         body.refuse("decorated", node.decorator_list[0], name=node.name)

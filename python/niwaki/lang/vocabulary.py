@@ -1,6 +1,6 @@
-"""The names in core form of the functions that a model may call: built-ins, `math`, and our own words.
+"""Operations of the core form for the functions that a model may call: built-ins, `math`, and words of the package.
 
-An `Op` is the operation that a Python function becomes, with its arguments.
+An `Op` is the operation that the call of a Python function becomes.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from niwaki.words.shapes import SHAPES
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter; `default` is REQUIRED, OMITTED (leave it out of the core form), or a value."""
+    """A parameter; `default` is REQUIRED, OMITTED (not written into the core form), or a value."""
 
     name: str
     default: Any
@@ -33,7 +33,7 @@ OMITTED: Any = type("Omitted", (), {"__repr__": lambda self: "omitted"})()
 
 @dataclass(frozen=True)
 class Op:
-    """An operation of the core form with its parameters; `variadic` takes any number more, by position."""
+    """An operation of the core form with its parameters; a `variadic` operation takes further positional arguments."""
 
     head: str
     parameters: tuple[Parameter, ...] = ()
@@ -47,9 +47,9 @@ def _op(head: str, names: str = "", optional: str = "", variadic: bool = False, 
 
 
 def parameters_of(function: Any) -> tuple[Parameter, ...]:
-    """The parameters of a function or class, with their defaults."""
-    found = inspect.signature(function).parameters.values()
-    return tuple(Parameter(p.name, REQUIRED if p.default is p.empty else p.default) for p in found)
+    """Return the parameters of a function or class, with their defaults."""
+    parameters = inspect.signature(function).parameters.values()
+    return tuple(Parameter(p.name, REQUIRED if p.default is p.empty else p.default) for p in parameters)
 
 
 BUILTINS: dict[Any, Op] = {
@@ -76,11 +76,13 @@ BUILTINS: dict[Any, Op] = {
     divmod: _op("divmod", "a b"),
 }
 
-_ONE = "sqrt exp log2 log10 log1p expm1 sin cos tan asin acos atan sinh cosh tanh floor ceil trunc fabs"
-_ONE += " degrees radians isfinite isnan isinf factorial lgamma erf"
+_UNARY_MATH = (
+    "sqrt exp log2 log10 log1p expm1 sin cos tan asin acos atan sinh cosh tanh floor ceil trunc fabs"
+)
+_UNARY_MATH += " degrees radians isfinite isnan isinf factorial lgamma erf"
 
 MATH: dict[Any, Op] = {
-    **{getattr(math, name): _op(name, "x") for name in _ONE.split()},
+    **{getattr(math, name): _op(name, "x") for name in _UNARY_MATH.split()},
     **{getattr(math, name): _op(name, "x y") for name in "atan2 copysign fmod comb".split()},
     math.pow: _op("math_pow", "x y"),
     math.gcd: _op("gcd", variadic=True),
@@ -118,18 +120,18 @@ _SOFT = (
 
 
 def _word(function: Any, omit: bool) -> Op:
-    given = parameters_of(function)
+    parameters = parameters_of(function)
     if omit:
-        given = tuple(Parameter(p.name, OMITTED if p.default is None else p.default) for p in given)
-    return Op(function.__name__, given)
+        parameters = tuple(Parameter(p.name, OMITTED if p.default is None else p.default) for p in parameters)
+    return Op(function.__name__, parameters)
 
 
 def _shape(function: Any) -> Op:
-    """A word for a shape; of its look only the colour is written where it is left out."""
-    given = _word(function, False).parameters
+    """Return the operation of a word for a shape; metalness and roughness are left out if a call does not have them."""
+    parameters = _word(function, False).parameters
     return Op(
         function.__name__,
-        tuple(Parameter(p.name, OMITTED) if p.name in LOOKS[1:] else p for p in given),
+        tuple(Parameter(p.name, OMITTED) if p.name in LOOKS[1:] else p for p in parameters),
     )
 
 
@@ -247,18 +249,18 @@ FORBIDDEN_BUILTINS: frozenset[Any] = frozenset(
 
 
 def shape_help(message: str) -> str | None:
-    """What a point, a size or a colour of a shape is, where a message says that it is no vector."""
-    found = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
-    if found is None or found[2] not in {word.__name__ for word in SHAPES}:
+    """Return help about a shape's point, size or colour, if the message says that the value is not a vector."""
+    match = re.match(r"`(\w+)` of `(\w+)` takes (a vector|vectors)\b", message)
+    if match is None or match[2] not in {word.__name__ for word in SHAPES}:
         return None
-    if found[1] == "color":
+    if match[1] == "color":
         return (
             "a color is a tuple of red, green and blue from 0 to 1, such as `(1, 0, 0)`; "
             "`hsv` and `lab` make such colors"
         )
-    return f"`{found[1]}` of `{found[2]}` is a tuple of three numbers, such as `(0, 1, 0)`"
+    return f"`{match[1]}` of `{match[2]}` is a tuple of three numbers, such as `(0, 1, 0)`"
 
 
 def plain_default(value: Any) -> bool:
-    """Whether a word's default can be written into the core form."""
+    """Return whether a word's default can be written into the core form."""
     return is_literal(value) or (isinstance(value, tuple) and all(map(is_literal, value)))

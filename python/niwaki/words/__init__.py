@@ -1,19 +1,19 @@
-"""The functions and types that a model may use.
+"""Words of the modelling language: the functions and types that a model may use.
 
-choices         `sample`, `choose`: draws
-draws           `flip`, `gaussian`, ...: draws from a family
-distributions   `Gaussian`, `Uniform`, ...: distributions as values
-effects         `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
-memo            `mem`: functions that are called once for each value of their arguments
-shapes          `box`, `cylinder`, ...: solids, and flat shapes such as `stroke`
-measures        `Frame`, `Bark`: what some of them take
-colors          `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
-polygons        `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
-frames          `look`
-vectors         `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
-numbers         `clip`, `lerp`, `sign`
-soft            `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
-running         the run that a call belongs to
+- choices: `sample`, `choose`
+- draws: `flip`, `gaussian`, ...: draws from a family
+- distributions: `Gaussian`, `Uniform`, ...: distributions as values
+- effects: `factor`, `condition`, `observe`, `query`, `emit`, `future`, `force`, `infer`
+- memo: `mem`, for memoised functions
+- shapes: `box`, `cylinder`, ...: solids, and flat shapes such as `stroke`
+- measures: `Frame`, `Bark`, which some shapes take
+- colors: `hsv`, `lab`, `to_hsv`, `to_lab`, `color_difference`
+- polygons: `polygon_area`, `polygon_contains`, `polygon_distance`, `polygon_disc_area`, `polygon_inset`
+- frames: `look`
+- vectors: `vec`, `dot`, `cross`, `norm`, `normalize`, `distance`, `rotate`, `rotation`
+- numbers: `clip`, `lerp`, `sign`
+- soft: `softeq`, `soft_at_least`, `soft_at_most`, `smooth_max`, `smooth_min`, `smooth_abs`
+- running: the current run
 """
 
 from niwaki.words import (

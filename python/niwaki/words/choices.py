@@ -1,4 +1,4 @@
-"""Draws from a distribution that is a value, and from values; how a word draws from a family."""
+"""The words `sample` and `choose`, and the maker of words that draw from a family."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 def draws(name: str, family: Callable[P, d.Distribution], drawn: type[T]) -> Callable[P, T]:
-    """The word that draws from a family, and what type of value it gives."""
+    """Make the word that draws from a family; `drawn` is the type of its values."""
 
     def draw(*args: P.args, **kwargs: P.kwargs) -> T:
         value: T = runner(name).sample(family(*args, **kwargs))
@@ -38,14 +38,14 @@ def sample(dist: d.Distribution) -> Any:
 
 
 def choose(values: Sequence[T], weights: Sequence[float] | None = None) -> T:
-    """One of `values`, all equally likely or with probability proportional to its weight.
+    """Choose one of `values`, all equally likely or with probability proportional to weights.
 
     Parameters
     ----------
     values
-        What to choose from, a list or tuple; not empty.
+        A list or tuple of values, not empty.
     weights
-        Weight of each value, as many as values.
+        The weight of each value; by default all are equal.
     """
     dist = d.DiscreteUniform(0, len(values) - 1) if weights is None else d.Categorical(weights)
     index: int = runner("choose").sample(dist)

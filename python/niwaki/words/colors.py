@@ -1,7 +1,7 @@
-"""Colours: vectors of three sRGB parts in [0, 1], made from and read as HSV and CIELAB.
+"""Colours as vectors of three sRGB parts in [0, 1], with conversions from and to HSV and CIELAB.
 
-The formulas and constants are those of the engine's `math/color`. Nothing is clamped: a CIELAB colour that no screen
-can show has parts outside of [0, 1].
+The formulas and constants are the same as in the engine's `math/color`. Parts are not clamped: a CIELAB colour that no
+screen can show has parts outside of [0, 1].
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ Three = tuple[float, float, float]
 
 
 def hsv(h: float, s: float, v: float) -> Vec:
-    """A colour from hue, saturation and value.
+    """Return the colour with a hue, saturation and value.
 
     Parameters
     ----------
     h
-        The hue in turns: 0 is red, 1/3 green, 2/3 blue; whole turns make no difference.
+        Hue in turns: 0 is red, 1/3 green, 2/3 blue; whole turns are ignored.
     s, v
         Saturation and value, in [0, 1].
 
     Returns
     -------
     Vec
-        Its sRGB parts.
+        The colour's sRGB parts.
     """
 
     def part(n: float) -> float:
@@ -54,7 +54,7 @@ def hsv(h: float, s: float, v: float) -> Vec:
 
 
 def to_hsv(color: VecLike) -> Vec:
-    """Hue (turns, in [0, 1)), saturation and value of a colour; a grey has hue 0.
+    """Return the hue (in turns, in [0, 1)), saturation and value of a colour; a grey has hue 0.
 
     Parameters
     ----------
@@ -76,19 +76,19 @@ def to_hsv(color: VecLike) -> Vec:
 
 
 def lab(l: float, a: float, b: float) -> Vec:  # noqa: E741 (its name everywhere)
-    """A colour from its CIELAB coordinates (white point D65).
+    """Return the colour with CIELAB coordinates (white point D65).
 
     Parameters
     ----------
     l
         Lightness, from 0 (black) to 100 (white).
     a, b
-        From green to red, from blue to yellow.
+        Position from green to red, and from blue to yellow.
 
     Returns
     -------
     Vec
-        Its sRGB parts; outside of [0, 1] where no screen can show the colour.
+        The colour's sRGB parts, outside of [0, 1] if no screen can show the colour.
     """
     y = (l + 16.0) / 116.0
     x, z = y + a / 500.0, y - b / 200.0
@@ -97,7 +97,7 @@ def lab(l: float, a: float, b: float) -> Vec:  # noqa: E741 (its name everywhere
 
 
 def to_lab(color: VecLike) -> Vec:
-    """The CIELAB coordinates of a colour: lightness, green to red, blue to yellow.
+    """Return the CIELAB coordinates of a colour: lightness, green to red, blue to yellow.
 
     Parameters
     ----------
@@ -110,14 +110,14 @@ def to_lab(color: VecLike) -> Vec:
 
 
 def color_difference(a: VecLike, b: VecLike) -> float:
-    """How different two colours look: CIEDE2000. About 1 is the smallest difference that a person sees.
+    """Return the difference CIEDE2000 of two colours; about 1 is the smallest difference that a person sees.
 
-    Sharma, Wu & Dalal 2005, equations 2 to 22. For the plain distance in CIELAB write `distance(to_lab(a), to_lab(b))`.
+    See Sharma, Wu & Dalal 2005, equations 2 to 22. The plain distance in CIELAB is `distance(to_lab(a), to_lab(b))`.
 
     Parameters
     ----------
     a, b
-        Three sRGB parts each.
+        The sRGB parts of the two colours.
     """
     l1, a1, b1 = to_lab(a).parts
     l2, a2, b2 = to_lab(b).parts

@@ -45,7 +45,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Distribution:
-    """What all distributions have in common: the family's name and the parameters in order."""
+    """Base class of all distributions, with the family's name and the parameters in order."""
 
     family: ClassVar[str] = ""
 

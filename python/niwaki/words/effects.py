@@ -1,4 +1,4 @@
-"""The effects of a model: score a run, record an answer, add to the scene, postpone a call."""
+"""Words with effects: they score a run, record an answer, add to the scene, or postpone a call."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ T = TypeVar("T")
 
 
 def observe(dist: Distribution, value: T) -> T:
-    """Say that `value` was seen where the model would draw from `dist`; adds its log density to the score.
+    """Add the log density of an observed value to the score, as if the model had drawn it from `dist`.
 
     Parameters
     ----------
     dist
         A distribution value such as `Gaussian(0, 1)`.
     value
-        What was seen.
+        The observed value.
 
     Returns
     -------
     The observed value.
     """
-    seen: T = runner("observe").observe(dist, value)
-    return seen
+    observed: T = runner("observe").observe(dist, value)
+    return observed
 
 
 def factor(log_score: float) -> None:
-    """Add `log_score` (nats) to the log score of this run.
+    """Add `log_score` (in nats) to the log score of the run.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def factor(log_score: float) -> None:
 
 
 def condition(holds: bool) -> None:
-    """Forbid every run in which `holds` is false.
+    """Forbid the run if `holds` is false.
 
     Parameters
     ----------
@@ -56,12 +56,12 @@ def condition(holds: bool) -> None:
 
 
 def query(key: str, value: Any) -> None:
-    """Record an answer under a key; written once in a run, and only read from outside.
+    """Record an answer of the run under a key, as a part of the result.
 
     Parameters
     ----------
     key
-        The answer's name.
+        The answer's name, used once in a run.
     value
         The answer.
     """
@@ -75,73 +75,73 @@ def emit(
     metalness: float | None = None,
     roughness: float | None = None,
 ) -> None:
-    """Add shapes to the scene. All shapes of one `emit` are one primitive and are not tested against one another.
+    """Add shapes to the scene. The shapes of an `emit` form one part, and may overlap each other.
 
     Parameters
     ----------
     shapes
         Shapes, or lists and tuples of shapes.
     name
-        What addresses and files call the part, in place of `emit`: a constant of letters, digits, `_` and `-`.
+        The part's name in addresses and files, instead of `emit`: a constant of letters, digits, `_` and `-`.
     color
-        `(r, g, b)` in [0, 1], for the shapes without a colour of their own.
+        `(r, g, b)` in [0, 1], for shapes that have no colour yet.
     metalness
-        From 0 (paint, wood, stone) to 1 (metal), for the solids without one of their own.
+        From 0 (paint, wood, stone) to 1 (metal), for solids that have no metalness yet.
     roughness
-        From 0 (a mirror) to 1 (chalk), for the solids without one of their own.
+        From 0 (a mirror) to 1 (chalk), for solids that have no roughness yet.
     """
     look = {"color": color, "metalness": metalness, "roughness": roughness}
-    given = {key: value for key, value in look.items() if value is not None}
-    runner("emit").emit([worn(shape, given) for shape in flatten(shapes)] if given else shapes)
+    options = {key: value for key, value in look.items() if value is not None}
+    runner("emit").emit([worn(shape, options) for shape in flatten(shapes)] if options else shapes)
 
 
 def future(function: Callable[..., T], *args: Any) -> T:
-    """Leave a call for later; in which order calls left for later run has no meaning.
+    """Postpone a call, and return a future of its value. Futures may run in any order.
 
     Parameters
     ----------
     function
         A model function.
     args
-        Its arguments, by position.
+        The function's arguments, by position.
 
     Returns
     -------
-    A future of the function's value. It may be passed on; only `force` looks at it.
+    A future of the function's value. You can pass it on, but only `force` reads it.
     """
     promise: T = runner("future").future(function, args)
     return promise
 
 
 def force(promise: T) -> T:
-    """The value of a future, waiting for it if it has not returned.
+    """Return the value of a future, after its call has run.
 
     Parameters
     ----------
     promise
-        What `future` gave; anything else is given back.
+        A future; any other value is returned as it is.
     """
     value: T = runner("force").force(promise)
     return value
 
 
 def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sample") -> Any:
-    """What a search of another model gives: inference as a part of the language (dissertation 2.3.1).
+    """Search another model inside this model, and return its value (dissertation 2.3.1).
 
-    The choices, factors and shapes of the inner model are its own; the run around it sees only the value. That depends
-    on the model, its arguments and a seed, which is a choice of the run around it, named like any other choice.
+    The outer run gets only the value, not the choices, factors and shapes of the inner model. The value depends on the
+    model, its arguments and a seed. The seed is a choice of the outer run, with an address like any other choice.
 
     Parameters
     ----------
     model
-        A model, a function, a lambda.
+        The inner model: a model, a function or a lambda.
     method
         `smc(...)`, `ais(...)`, `mh(...)`, `importance(...)`, `rejection(...)`, `forward(...)` or `enumerate_all(...)`,
         with constant settings or as a constant of the module.
     args
         The inner model's arguments, by position.
     keep
-        "sample": the value of one sample, drawn by weight; "best": that of the sample with the best log score.
+        "sample": the value of a sample, drawn by weight; "best": the value of the sample with the best log score.
 
     Returns
     -------
@@ -151,7 +151,7 @@ def infer(model: Callable[..., Any], method: Any, *args: Any, keep: str = "sampl
 
 
 def flatten(shapes: Sequence[Any]) -> list[Any]:
-    """The shapes of one `emit` in order, with lists and tuples opened; anything else is a `TypeError`."""
+    """Return the shapes of an `emit` in order, with lists and tuples opened; other values raise `TypeError`."""
     flat: list[Any] = []
     waiting = [*reversed(shapes)]
     while waiting:

@@ -1,4 +1,4 @@
-"""Places to look from: what a search that sees the scene looks at."""
+"""The word `look`, which sets the frame from which a guide sees the scene."""
 
 from __future__ import annotations
 
@@ -7,28 +7,28 @@ from niwaki.words.vectors import Vec, VecLike, dot, norm
 
 __all__ = ["look"]
 
-#: Above this cosine a direction is too close to the y axis for that axis to be up.
+#: Cosine to the y axis above which a direction is too close to it for the y axis to be up.
 STEEP = 0.9
 
-#: Below this sine two directions lie along one line.
+#: Sine below which two directions are parallel.
 ALONG = 1e-9
 
 
 def look(position: VecLike, forward: VecLike, up: VecLike | None = None) -> Frame:
-    """Say from where the next choices should be seen; it changes nothing in the model.
+    """Set the frame from which guides see the target and the scene at the next choices.
 
-    Guides see the target and the scene from there. As a statement of its own it holds up to the next `look` of the
-    function; its value can be assigned too, and then it is the variable assigned last that counts.
+    The model's values and scores do not change. As a statement, a `look` lasts up to the next `look` of the function.
+    The frame can also be assigned to a variable; the last assigned variable counts.
 
     Parameters
     ----------
     position
-        Where the next part begins; two numbers in the plane (then z is 0), or three.
+        The start of the next part: two numbers in the plane (then z is 0), or three.
     forward
-        The direction in which it would go, of any length but 0.
+        The direction of the next part, of any length but 0.
     up
-        A direction that is not along `forward`; it is made perpendicular. When left out: the z axis in the plane, in
-        space the y axis, or the z axis where `forward` is close to that.
+        A direction that is not parallel to `forward`; it is made perpendicular. By default, the z axis in the plane,
+        and in space the y axis, or the z axis if `forward` is close to the y axis.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What the words for shapes take, how the engine makes a shape of it, and what an `emit` adds to a shape's look."""
+"""Arguments of the words for shapes, the maker of shapes, and the look that an `emit` gives to shapes."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ Axis = str | VecLike
 
 
 class Frame(NamedTuple):
-    """Where a `segment` begins, splits or ends; a tuple of four will do.
+    """A ring where a `segment` starts, splits or ends; a tuple of four values can replace it.
 
     Attributes
     ----------
     center
-        The middle of the ring.
+        The ring's centre.
     forward
         Unit direction towards the tip.
     up
-        Unit direction at right angles to `forward`: the rotation of the ring.
+        Unit direction at right angles to `forward`, which sets the ring's rotation.
     radius
-        Greater than 0.
+        The ring's radius, greater than 0.
     """
 
     center: VecLike
@@ -40,14 +40,14 @@ class Frame(NamedTuple):
 
 
 class Bark(NamedTuple):
-    """The piece of a parent's cone that the base of a `segment` lies on; a tuple of four will do.
+    """The piece of a parent's cone under the base of a `segment`; a tuple of four values can replace it.
 
     Attributes
     ----------
     low, high
         Points of the parent's axis, below and above the branch.
     low_radius, high_radius
-        The parent's radius there.
+        The parent's radii at these points.
     """
 
     low: VecLike
@@ -57,30 +57,30 @@ class Bark(NamedTuple):
 
 
 def make(word: str, *arguments: Any) -> Any:
-    """The shape of a word with these arguments, in order."""
+    """Make the shape of a word from its arguments, in order."""
     if word == "mesh":
         vertices, faces, *rest = arguments
         arguments = (np.asarray(vertices, dtype=np.float64), np.asarray(faces, dtype=np.int64), *rest)
     return _engine.shape(word, *arguments)
 
 
-#: What an `emit` gives to those of its shapes that do not have it: colours to all, the others to solids.
+#: Options of an `emit` for shapes that do not have them: a colour for all shapes, the others for solids.
 LOOKS = ("color", "metalness", "roughness")
 
 
 def worn(shape: Any, look: Mapping[str, Any], over: bool = False) -> Any:
-    """A shape with a look, where it has none of its own or `over` is given; what is no shape is given back."""
+    """Return a shape with a look, which replaces an existing look only if `over`; return other values as they are."""
     if not isinstance(shape, _engine.Shape):
         return shape
     names = LOOKS if shape.flat() is None else LOOKS[:1]
-    given = {
+    options = {
         name: value
         for name, value in look.items()
         if value is not None and name in names and (over or getattr(shape, name) is None)
     }
-    if not given:
+    if not options:
         return shape
-    # Checked as the words check them.
-    named = _engine.shape("box", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), **given)
-    checked = {name: getattr(named, name) for name in given}
+    # A box with this look has it checked and converted as any word does.
+    named = _engine.shape("box", (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), **options)
+    checked = {name: getattr(named, name) for name in options}
     return _engine.Shape.of_data(json.dumps({**json.loads(shape.data()), **checked}))

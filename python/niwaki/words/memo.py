@@ -1,4 +1,4 @@
-"""Memoised functions: one call for each value of the arguments in a run, whoever asks."""
+"""Memoised functions, which run once in a run of the model for each value of their arguments."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ T = TypeVar("T")
 
 
 class Memoised(Generic[P, T]):
-    """A function whose calls with equal arguments are one call of the run.
+    """A memoised function: in a run, its calls with equal arguments are one call.
 
     Attributes
     ----------
     function
-        The function, or the model, that is memoised.
+        The memoised function or model.
     name : str
-        Its part of addresses: `name` of `name(3)/choice`.
+        The function's part of addresses: `name` in `name(3)/choice`.
     """
 
     def __init__(self, function: Callable[P, T], name: str) -> None:
@@ -31,7 +31,7 @@ class Memoised(Generic[P, T]):
         functools.update_wrapper(cast(Any, self), function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
-        """The value of the call, in a plain run."""
+        """Call the function in a plain run."""
         return cast(T, runner(self.name).recall(self, args, kwargs))
 
     def __repr__(self) -> str:
@@ -39,17 +39,17 @@ class Memoised(Generic[P, T]):
 
 
 def mem(function: Callable[P, T]) -> Memoised[P, T]:
-    """Memoise a function: within a run it is called once for each value of its arguments, which it gives ever after.
+    """Memoise a function: in a run it runs once for each value of its arguments, and later calls return the same value.
 
-    So a property of a thing can be drawn where it is first needed: `color(3)` is the colour of ball 3, however often
-    and from wherever it is asked for. Above a function of a module it is a decorator; in a model, `color = mem(paint)`
-    is another memoised function at each run of the line.
+    So a property can be drawn where it is first needed: `color(3)` is the colour of ball 3, however many calls need it.
+    Above a function of a module, `mem` is a decorator. In a model, `color = mem(paint)` makes a new memoised function
+    each time the line runs.
 
     Parameters
     ----------
     function
-        A model function. Its arguments are numbers, truths, strings, `None`, or tuples and lists of them; they are
-        equal when they are written the same, so 1, 1.0 and `True` are three arguments.
+        A model function. Its arguments are numbers, truth values, strings, `None`, or tuples and lists of these.
+        Arguments are equal if they are written the same, so 1, 1.0 and `True` are three arguments.
 
     Returns
     -------

@@ -1,7 +1,7 @@
-"""Polygons of the plane: a room, a plot, an outline. A polygon is a list or tuple of its corners, in either direction.
+"""Functions of polygons in the plane. A polygon is a list or tuple of corners, in either direction.
 
-The first corner is not repeated. Results for a polygon that crosses itself have no meaning.
-`niwaki.targets.outline.load_polygon` reads one from a file.
+The first corner is not repeated at the end. Results for a polygon that crosses itself have no meaning.
+`niwaki.targets.outline.load_polygon` reads a polygon from a file.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ Point = tuple[float, float]
 
 
 def polygon_area(polygon: Polygon) -> float:
-    """The area of a polygon.
+    """Return the area of a polygon.
 
     Parameters
     ----------
     polygon
-        Its corners, at least three points of two numbers.
+        The polygon's corners, at least three points of two numbers.
     """
     return abs(_twice(_corners(polygon)) * 0.5)
 
 
 def polygon_contains(polygon: Polygon, point: VecLike) -> bool:
-    """Whether a point lies inside of a polygon.
+    """Return whether a point is inside a polygon.
 
     Parameters
     ----------
     polygon
-        Its corners.
+        The polygon's corners.
     point
         Two numbers.
     """
@@ -47,12 +47,12 @@ def polygon_contains(polygon: Polygon, point: VecLike) -> bool:
 
 
 def polygon_distance(polygon: Polygon, point: VecLike) -> float:
-    """The distance from a point, inside or outside, to the boundary of a polygon.
+    """Return the distance from a point, inside or outside, to the boundary of a polygon.
 
     Parameters
     ----------
     polygon
-        Its corners.
+        The polygon's corners.
     point
         Two numbers.
     """
@@ -69,14 +69,14 @@ def polygon_distance(polygon: Polygon, point: VecLike) -> float:
 
 
 def polygon_disc_area(polygon: Polygon, center: VecLike, radius: float) -> float:
-    """The area that a polygon and a disc have in common.
+    """Return the area of the intersection of a polygon and a disc.
 
     Parameters
     ----------
     polygon
-        Its corners.
+        The polygon's corners.
     center, radius
-        The disc.
+        The disc's centre and radius.
     """
     corners, (x, y) = _corners(polygon), _point(center)
     if radius <= 0.0:
@@ -111,14 +111,14 @@ def polygon_disc_area(polygon: Polygon, center: VecLike, radius: float) -> float
 
 
 def polygon_inset(polygon: Polygon, by: float) -> list[Vec]:
-    """The polygon with every edge moved inwards, corners mitred.
+    """Return the polygon with every edge moved inwards, and mitred corners.
 
     Parameters
     ----------
     polygon
-        Its corners.
+        The polygon's corners.
     by
-        How far; outwards when negative. So far that an edge vanishes is an error.
+        The distance, negative for outwards. A distance at which an edge vanishes is an error.
     """
     corners = _corners(polygon)
     turn = _twice(corners)
@@ -159,7 +159,7 @@ def _edges(corners: list[Point]) -> Iterator[tuple[Point, Point]]:
 
 
 def _twice(corners: list[Point]) -> float:
-    """Twice the area, positive for corners that go round counter-clockwise."""
+    """Return twice the area, positive for counter-clockwise corners."""
     x, y = corners[0]
     total = 0.0
     for (ax, ay), (bx, by) in _edges(corners):

@@ -1,6 +1,6 @@
-"""The run that a call belongs to: inside a plain-Python run the functions call the runner, outside they raise.
+"""The current plain-Python run, which the words call; outside of a run they raise an error.
 
-The compiled engine never calls these functions; it has them by name.
+The engine never calls the words' Python functions; the compiler recognises them by name.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from niwaki.errors import InputError
 
 
 class Runner(Protocol):
-    """What a plain-Python run answers; one method for each effect."""
+    """Interface of a plain-Python run, with a method for each effect."""
 
     def sample(self, dist: Any) -> Any:
         """Make a choice."""
         ...
 
     def observe(self, dist: Any, value: Any) -> Any:
-        """Score a value that was seen."""
+        """Score an observed value."""
         ...
 
     def factor(self, log_score: float) -> None:
@@ -28,23 +28,23 @@ class Runner(Protocol):
         ...
 
     def condition(self, holds: Any) -> None:
-        """Forbid the run unless it holds."""
+        """Forbid the run unless `holds`."""
         ...
 
     def query(self, key: Any, value: Any) -> None:
-        """Record an answer."""
+        """Record the answer of a query."""
         ...
 
     def emit(self, shapes: Sequence[Any]) -> None:
-        """Add a primitive to the scene."""
+        """Add shapes to the scene."""
         ...
 
     def future(self, function: Callable[..., Any], args: Sequence[Any]) -> Any:
-        """Leave a call for later."""
+        """Postpone a call."""
         ...
 
     def force(self, value: Any) -> Any:
-        """Wait for a future."""
+        """Return the value of a future."""
         ...
 
     def mem(self, function: Callable[..., Any]) -> Any:
@@ -52,7 +52,7 @@ class Runner(Protocol):
         ...
 
     def recall(self, function: Any, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        """A call of a memoised function."""
+        """Call a memoised function."""
         ...
 
     def infer(self, model: Callable[..., Any], method: Any, args: Sequence[Any], keep: str) -> Any:
@@ -60,7 +60,7 @@ class Runner(Protocol):
         ...
 
     def constraint(self, kind: str, a: float, b: float, width: float) -> None:
-        """Keep what a soft constraint compares."""
+        """Record the numbers that a soft constraint compares."""
         ...
 
 
@@ -68,8 +68,8 @@ current: ContextVar[Runner | None] = ContextVar("niwaki_runner", default=None)
 
 
 def runner(word: str) -> Runner:
-    """The run that is going on, or an error that names the word."""
-    found = current.get()
-    if found is None:
+    """Return the current run, or raise the error that names the word."""
+    run = current.get()
+    if run is None:
         raise InputError("outside-a-model", word=word)
-    return found
+    return run

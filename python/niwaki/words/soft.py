@@ -1,8 +1,8 @@
-"""Soft constraints: what should hold, within a stated width, as log scores for `factor`; and smooth bends.
+"""Soft constraints, as log scores for `factor`, and smooth versions of the minimum, maximum and absolute value.
 
-Each function has derivatives of every order in all of its arguments. A width has the units of what is compared; it
-must be above 0. The one-sided scores and the smooth minimum, maximum and absolute value are all made of
-`sqrt(d^2 + width^2)`, which is `|d|` far from 0 and bends within a width of it.
+Each function has derivatives of every order in all of its arguments. A width is a tolerance in the units of the
+compared numbers, above 0. The one-sided scores and the smooth functions use `sqrt(d^2 + width^2)`, which is `|d|` far
+from 0 and bends within a width of 0.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ HALF_LOG_TAU = 0.918_938_533_204_672_8
 
 
 def softeq(a: float, b: float, width: float) -> float:
-    """The log score for `a` being equal to `b`: the log of a normal density (dissertation eq. 4.1), nats.
+    """Return the log score, in nats, for `a` being equal to `b`: a normal log density (dissertation eq. 4.1).
 
     Parameters
     ----------
     a, b
-        What should be equal.
+        The numbers that should be equal.
     width
         The standard deviation of `a - b`; above 0.
 
     Returns
     -------
     float
-        `-((a - b) / width)^2 / 2 - log(width) - log(2 pi) / 2`: give it to `factor`.
+        `-((a - b) / width)^2 / 2 - log(width) - log(2 pi) / 2`, for `factor`.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("softeq", width)
     _note("softeq", a, b, width)
@@ -38,22 +38,22 @@ def softeq(a: float, b: float, width: float) -> float:
 
 
 def soft_at_least(a: float, b: float, width: float) -> float:
-    """The log score for `a` being `b` or more: flat where it is, falling like a normal density where it is not, nats.
+    """Return the log score, in nats, for `a` being `b` or more: flat above `b`, falling like a normal density below.
 
     Parameters
     ----------
     a
-        What should be large.
+        The number that should be large.
     b
-        How large at least.
+        The least value that it should have.
     width
-        How far below `b` costs as much as one standard deviation; above 0.
+        The distance below `b` that counts as one standard deviation; above 0.
 
     Returns
     -------
     float
         `-e^2 / 2` with the smooth shortfall `e = (d + sqrt(d^2 + 1)) / 2`, `d = (b - a) / width`: about 0 far above,
-        -1/8 at it, `-d^2 / 2` well below. Give it to `factor`.
+        -1/8 at `b`, `-d^2 / 2` far below, for `factor`.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("soft_at_least", width)
     _note("soft_at_least", a, b, width)
@@ -61,21 +61,21 @@ def soft_at_least(a: float, b: float, width: float) -> float:
 
 
 def soft_at_most(a: float, b: float, width: float) -> float:
-    """The log score for `a` being `b` or less: `soft_at_least` turned around, nats.
+    """Return the log score, in nats, for `a` being `b` or less: the mirror image of `soft_at_least`.
 
     Parameters
     ----------
     a
-        What should be small.
+        The number that should be small.
     b
-        How large at most.
+        The greatest value that it should have.
     width
-        How far above `b` costs as much as one standard deviation; above 0.
+        The distance above `b` that counts as one standard deviation; above 0.
 
     Returns
     -------
     float
-        `-e^2 / 2` with the smooth excess `e = (d + sqrt(d^2 + 1)) / 2`, `d = (a - b) / width`. Give it to `factor`.
+        `-e^2 / 2` with the smooth excess `e = (d + sqrt(d^2 + 1)) / 2`, `d = (a - b) / width`, for `factor`.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("soft_at_most", width)
     _note("soft_at_most", a, b, width)
@@ -83,42 +83,42 @@ def soft_at_most(a: float, b: float, width: float) -> float:
 
 
 def smooth_max(a: float, b: float, width: float) -> float:
-    """The larger of two, without a corner: above it by `width / 2` where they are equal, by less elsewhere.
+    """Return a smooth maximum, at most `width / 2` above the larger number, where both are equal.
 
     Parameters
     ----------
     a, b
         Two numbers.
     width
-        How far apart they are where the bend ends; above 0.
+        The difference of the numbers at which the bend ends; above 0.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("smooth_max", width)
     return 0.5 * (a + b + math.sqrt((a - b) * (a - b) + width * width))
 
 
 def smooth_min(a: float, b: float, width: float) -> float:
-    """The smaller of two, without a corner: below it by `width / 2` where they are equal, by less elsewhere.
+    """Return a smooth minimum, at most `width / 2` below the smaller number, where both are equal.
 
     Parameters
     ----------
     a, b
         Two numbers.
     width
-        How far apart they are where the bend ends; above 0.
+        The difference of the numbers at which the bend ends; above 0.
     """
     a, b, width = 1.0 * a, 1.0 * b, _checked("smooth_min", width)
     return 0.5 * (a + b - math.sqrt((a - b) * (a - b) + width * width))
 
 
 def smooth_abs(x: float, width: float) -> float:
-    """The distance from 0, without a corner: above it by `width` at 0, by less elsewhere.
+    """Return a smooth absolute value, at most `width` above `|x|`, at 0.
 
     Parameters
     ----------
     x
         A number.
     width
-        How far from 0 the bend ends; above 0.
+        The distance from 0 at which the bend ends; above 0.
     """
     x, width = 1.0 * x, _checked("smooth_abs", width)
     return math.sqrt(x * x + width * width)
@@ -137,7 +137,7 @@ def _checked(word: str, width: float) -> float:
 
 
 def _note(kind: str, a: float, b: float, width: float) -> None:
-    """Tell a plain run that keeps residuals."""
+    """Report the constraint to a plain run, which records residuals."""
     run = current.get()
     if run is not None:
         run.constraint(kind, a, b, width)

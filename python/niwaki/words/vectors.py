@@ -1,6 +1,6 @@
 """Vectors of two to four numbers, for points and directions; `+ - *` and `/` work as in geometry books.
 
-Right-handed, y up; angles in radians.
+Coordinates are right-handed, y is up, and angles are in radians.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Vec:
-    """A vector; made by `vec(x, y)`, `vec(x, y, z)` or `vec(x, y, z, w)`."""
+    """A vector, made by `vec(x, y)`, `vec(x, y, z)` or `vec(x, y, z, w)`."""
 
     parts: tuple[float, ...]
 
@@ -65,10 +65,10 @@ class Vec:
         return self.parts[index]
 
     def __add__(self, other: Vec) -> Vec:
-        return Vec(tuple(a + b for a, b in zip(self.parts, _same(self, other), strict=True)))
+        return Vec(tuple(a + b for a, b in zip(self.parts, _same_length(self, other), strict=True)))
 
     def __sub__(self, other: Vec) -> Vec:
-        return Vec(tuple(a - b for a, b in zip(self.parts, _same(self, other), strict=True)))
+        return Vec(tuple(a - b for a, b in zip(self.parts, _same_length(self, other), strict=True)))
 
     def __mul__(self, factor: float) -> Vec:
         return Vec(tuple(a * _number(factor) for a in self.parts))
@@ -92,9 +92,9 @@ VecLike = Vec | Sequence[float]
 
 
 class Rotation(tuple[tuple[float, ...], ...]):
-    """A rotation of space, as three rows of three; `rotation * vector` turns, `rotation * rotation` composes.
+    """A rotation of space, a matrix of three rows; `rotation * vector` turns, `rotation * rotation` composes.
 
-    Made by `rotation(axis, angle)`. In a product the right-hand one turns first.
+    `rotation(axis, angle)` makes a rotation. In a product, the right-hand rotation turns first.
     """
 
     __slots__ = ()
@@ -123,7 +123,7 @@ def _three(v: Vec) -> tuple[float, ...]:
 
 
 def _sum(terms: Iterable[float]) -> float:
-    """From left to right from 0, as the engine adds; `sum` compensates for rounding from Python 3.12 on."""
+    """Add from left to right from 0, as the engine does; `sum` compensates for rounding from Python 3.12 on."""
     total = 0.0
     for term in terms:
         total = total + term
@@ -136,7 +136,7 @@ def _number(value: object) -> float:
     return value
 
 
-def _same(left: Vec, right: object) -> tuple[float, ...]:
+def _same_length(left: Vec, right: object) -> tuple[float, ...]:
     if not isinstance(right, Vec) or len(right) != len(left):
         raise TypeError(f"{left!r} and {right!r} are not vectors of one length")
     return right.parts
@@ -147,7 +147,7 @@ def _vec(value: VecLike) -> Vec:
 
 
 def vec(x: float, y: float, z: float | None = None, w: float | None = None) -> Vec:
-    """A vector of two, three or four numbers.
+    """Make a vector of two, three or four numbers.
 
     Parameters
     ----------
@@ -158,38 +158,38 @@ def vec(x: float, y: float, z: float | None = None, w: float | None = None) -> V
 
 
 def dot(a: VecLike, b: VecLike) -> float:
-    """The scalar product of two vectors of one length."""
+    """Return the scalar product of two vectors of the same length."""
     a, b = _vec(a), _vec(b)
     total = 0.0
-    for left, right in zip(a.parts, _same(a, b), strict=True):
+    for left, right in zip(a.parts, _same_length(a, b), strict=True):
         total += left * right
     return total
 
 
 def cross(a: VecLike, b: VecLike) -> Vec:
-    """The vector product of two vectors of three numbers, right-handed."""
+    """Return the right-handed vector product of two vectors of three numbers."""
     ax, ay, az = _vec(a).parts
     bx, by, bz = _vec(b).parts
     return Vec((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
 
 
 def norm(v: VecLike) -> float:
-    """The length of a vector."""
+    """Return the length of a vector."""
     return math.sqrt(dot(v, v))
 
 
 def normalize(v: VecLike) -> Vec:
-    """The vector of length one in the same direction."""
+    """Return the vector of length one in the same direction."""
     return _vec(v) / norm(v)
 
 
 def distance(a: VecLike, b: VecLike) -> float:
-    """The distance between two points."""
+    """Return the distance between two points."""
     return norm(_vec(a) - _vec(b))
 
 
 def rotation(axis: VecLike, angle: float) -> Rotation:
-    """The rotation by `angle` radians about `axis`, right-handed; `rotation * vector` turns a vector."""
+    """Return the right-handed rotation by `angle` radians about `axis`; `rotation * vector` turns a vector."""
     x, y, z = normalize(axis).parts
     c, s = math.cos(angle), math.sin(angle)
     t = 1.0 - c
@@ -203,5 +203,5 @@ def rotation(axis: VecLike, angle: float) -> Rotation:
 
 
 def rotate(v: VecLike, axis: VecLike, angle: float) -> Vec:
-    """The vector `v` turned by `angle` radians about `axis`, right-handed."""
+    """Return the vector `v`, turned by `angle` radians about `axis`, right-handed."""
     return Vec(tuple(dot(row, v) for row in rotation(axis, angle)))

@@ -177,7 +177,7 @@ def test_a_fault_is_the_result_of_its_search(tmp_path: Path, thread: ThreadPoolE
     errors = [json.loads(line) for line in log.read_text().splitlines() if "error" in json.loads(line)]
     assert len(errors) == len(failed) and "= help:" in errors[0]["error"]
     # The first line is stored, which names no file, so that it is the same in every checkout.
-    assert {one.message for one in failed} == {"every run is impossible"}
+    assert {one.message for one in failed} == {"every run of the search is impossible"}
     assert __file__ not in (tmp_path / "1-of-1").joinpath(next(tmp_path.glob("*/seg-*")).name).read_text(
         "latin-1"
     )

@@ -163,9 +163,9 @@ def test_parts_that_are_not_solids_are_reported_by_address(tmp_path: Path) -> No
     with pytest.raises(FileError) as caught:
         scene.export(tmp_path / "ship.stl")
     assert str(caught.value) == (
-        "error[not-a-solid]: 2 of 4 shapes are not solids that can be printed\n"
+        "error[not-a-solid]: 2 of 4 shapes cannot be printed: they are not closed solids\n"
         " = why: ship/keel (its triangles face inwards); ship/sail, shape 2 (3 open edges)\n"
-        " = help: close these meshes in the program that wrote them, or write .glb, .obj or .ply, which accept any mesh"
+        " = help: close these meshes in your modelling program, or export .glb, .obj or .ply, which accept any mesh"
     )
     assert list(tmp_path.iterdir()) == []
 

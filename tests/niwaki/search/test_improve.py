@@ -127,7 +127,7 @@ def path_target() -> nw.Target:
 
 
 def test_what_dies_as_usual_is_tried_in_other_forms_and_told() -> None:
-    with pytest.raises(nw.InputError, match="every run is impossible"):
+    with pytest.raises(nw.InputError, match="every run of the search is impossible"):
         nw.grow(garden_path, path_target(), particles=100, seed=1)
     result = nw.grow(garden_path, path_target(), seed=1)
     assert result.info.attempts[0].died_at is not None and result.info.attempts[-1].died_at is None
@@ -139,7 +139,7 @@ def test_a_dead_search_names_the_parts_and_what_was_tried() -> None:
     with pytest.raises(nw.InputError) as found:
         nw.grow(boxes, path_target(), 3, 0.5, seed=1)
     text = str(found.value)
-    assert "`boxes/emit` runs into another one of this line in 100 of 100" in text
+    assert "`boxes/emit` runs into another part of this line in 100 of 100" in text
     assert "emit(box((apart * i" in text and "^^^^" in text
     assert len(found.value.values["attempts"].split(";")) == 6 and "depth-first" in text
 

@@ -1,4 +1,4 @@
-"""Errors about settings and arguments; files have their own table."""
+"""Errors about settings and arguments; the table of files is `files`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ INPUTS = (
     *GUIDES,
     Message(
         "no-cell-filled",
-        "no cell of the grid is filled by `{path}`",
+        "`{path}` fills no cell of the grid",
         why="the mesh is smaller than one cell, or empty inside",
         help="make the cells smaller than {size}, or scale the mesh up",
         example="voxel_size=10 for a mesh of size 1",
@@ -35,14 +35,14 @@ INPUTS = (
     Message(
         "no-samples",
         "the number of samples is zero",
-        help="set it to at least one",
+        help="ask for at least one sample",
         example="importance(0)",
         cure="importance(1000)",
     ),
     Message(
         "too-many-runs",
         "the model has more runs than can be listed",
-        why="enumeration visits every one",
+        why="enumeration visits every run",
         help="make the model smaller, raise the limit, or use `smc` or `importance`",
         example="run(model, method=enumerate_all()) with 40 flips",
         cure="run(model, method=importance(1000))",
@@ -58,7 +58,7 @@ INPUTS = (
     Message(
         "rejection-bound",
         "a run scores above the bound of rejection",
-        why="rejection is only correct if no run scores above its bound",
+        why="rejection is correct only if no run scores above its bound",
         help="raise the bound to the greatest score that a run can have",
         example="rejection(bound=0) of a model with factor(1)",
         cure="rejection(bound=1)",
@@ -66,7 +66,7 @@ INPUTS = (
     Message(
         "bad-power",
         "the power of the score cannot be {found}",
-        help="set it to a number greater than 0; 1 leaves the scores as they are",
+        help="set `power` to a number greater than 0; 1 leaves the scores as they are",
         example="smc(power=-1)",
         cure="smc(power=1)",
     ),
@@ -74,14 +74,14 @@ INPUTS = (
         "bad-anneal",
         "`anneal` cannot be {found}",
         why="{reason}",
-        help="give the power at each barrier, or the share of particles to keep, or leave it out",
+        help="give a list with the power at each barrier, or the fraction of particles to keep, or leave `anneal` out",
         example="smc(anneal=[])",
         cure="smc(power=16, anneal=[1, 2, 4, 8, 16])",
     ),
     Message(
         "bad-threshold",
         "the resampling threshold cannot be {found}",
-        help="set it to a share of the particles, from 0 to 1",
+        help="set `threshold` to a fraction of the particles, from 0 to 1",
         example="smc(threshold=3)",
         cure="smc(threshold=0.5)",
     ),
@@ -94,38 +94,38 @@ INPUTS = (
     ),
     Message(
         "everything-impossible",
-        "every run is impossible",
+        "every run of the search is impossible",
         why="at {barrier}, all {count} runs had a score of minus infinity because of {constraint}",
         help="{cure}",
         example="niwaki grow tower.py:tower --floor 1        # the tower's first block stands at y = 0",
         cure="niwaki grow tower.py:tower --floor 0",
         about=(
-            "A constraint forbids a scene: its score is then minus infinity, which no other part makes good. Every run that "
-            "was tried broke one, so that there is no result. The message says which constraint it was, how often, and which "
-            "parts broke it most often, with their lines.\n\n"
-            "| constraint | what forbids a scene | what helps |\n| --- | --- | --- |\n"
-            "| `floor` | a part reaches below the height | a lower `--floor`, or a model that starts above it |\n"
-            "| `avoid` | a part reaches into the obstacle | another place to start, a smaller obstacle |\n"
-            "| `no_self_intersection` | two primitives overlap | one `emit` for parts that belong together, a distance "
-            "between others, or `--rule surface` |\n"
-            "| `condition`, `factor`, `observe` | the model's own | a condition that more runs meet, or a `factor` in its "
+            "A constraint forbids a scene: the score is then minus infinity, whatever the rest of the scene is. Every run of the "
+            "search broke a constraint, so there is no result. The message names the constraint, the number of runs that broke it, "
+            "and the parts that broke it most often, with their lines.\n\n"
+            "| constraint | forbids a scene when | remedy |\n| --- | --- | --- |\n"
+            "| `floor` | a part reaches below the floor | a lower `--floor`, or a model that starts above the floor |\n"
+            "| `avoid` | a part reaches into the obstacle | another place for the first part, a smaller obstacle |\n"
+            "| `no_self_intersection` | two shapes overlap | one `emit` for parts that belong together, a distance "
+            "between other parts, or `--rule surface` |\n"
+            "| `condition`, `factor`, `observe` | the model forbids it | a condition that more runs meet, or a `factor` in its "
             "place, which only lowers the score |\n\n"
-            "Where the first part of every run breaks the constraint, more particles change nothing. Where runs become "
-            "impossible later, one after the other, more particles (`-n`) or futures can help."
+            "If the first part of every run breaks the constraint, more particles change nothing. If runs become impossible "
+            "later, one after the other, more particles (`-n`) or futures can help."
         ),
     ),
     Message(
         "weights-of-runs",
-        "samples of {runs} separate runs have no common weights",
+        "samples of {runs} separate searches have no common weights",
         why="a particle's weight is relative to its own population",
-        help="use `smc(particles, populations=n)`, which weighs its populations by their evidence, or look at each run",
+        help="use `smc(particles, populations=n)`, which weighs its populations by their evidence, or read each search's samples",
         example="grow(ship, target, runs=4).weights",
         cure="run(ship, smc(300, populations=4), sketch=target).weights",
     ),
     Message(
         "not-enumerable",
-        "not every choice of the model can be listed",
-        why="an exact answer visits every value of every choice, so each choice needs a finite list of values",
+        "the model has a choice whose values cannot be listed",
+        why="enumeration visits every value of every choice, so each choice needs a finite list of values",
         help="use `smc`, `importance` or `rejection` instead of `enumerate_all`",
         example="run(model, method=enumerate_all()) with a gaussian",
         cure="run(model, method=importance(1000))",
@@ -134,7 +134,7 @@ INPUTS = (
         "sketch-without-slope",
         "the score of the scene has no gradient",
         why="sketches count cells and pixels, and a count has no slope",
-        help="use `mh()` or particles for it, or describe with `factor` in the model what the shapes should be like",
+        help="use `mh()` or particles, or describe the wanted shapes in the model with `factor`",
         example="log_density(grow(ship, target).best)",
         cure="log_density(run(ship).best)",
     ),
@@ -148,9 +148,9 @@ INPUTS = (
     ),
     Message(
         "no-normal-fits",
-        "a normal distribution does not suit `{name}`",
-        why="a normal is over the same real numbers in every run, and this model {found}",
-        help="use `smc()`, with a guide of `train_guide` as its `proposal` where it should learn, or `mh()`",
+        "a normal distribution cannot approximate `{name}`",
+        why="a normal needs the same real numbers in every run, and this model {found}",
+        help="use `smc()` or `mh()`; `smc` can learn: give it a guide of `train_guide`",
         example="run(tree, method=vi())",
         cure="run(tree, method=smc())",
     ),
@@ -185,8 +185,8 @@ INPUTS = (
     Message(
         "no-source-file",
         "the source of `{name}` cannot be read",
-        why="a model is compiled from its text",
-        help="keep it in a file; a function that was typed at the prompt or created by `exec` has no text",
+        why="the compiler reads the text of a model",
+        help="keep `{name}` in a file; a function from Python's prompt or from `exec` has no text",
         example="a model typed at Python's prompt",
         cure="the same model in ship.py",
     ),
@@ -194,30 +194,30 @@ INPUTS = (
         "outside-a-model",
         "`{word}` is used outside of a model",
         why="only a run of a model can make choices, add scores and add shapes",
-        help="put it into a function with `@model` and run that function",
+        help="put `{word}` into a function with `@model` and run that function",
         example="x = gaussian(0, 1)",
         cure="@model\ndef m():\n    return gaussian(0, 1)",
     ),
     Message(
         "missing-choice",
-        'no choice was given for "{address}"',
-        why="the nearest addresses given are {nearest}",
-        help="add it to `choices`, or give a seed to draw the missing choices",
+        '`choices` has no value for "{address}"',
+        why="the nearest addresses in `choices` are {nearest}",
+        help="add the address to `choices`, or give a seed to draw missing choices",
         example="run_python(ship, choices={})",
         cure="run_python(ship, choices={}, seed=1)",
     ),
     Message(
         "nothing-offered",
-        "the last drag has not offered this difference",
-        why="only a change that was found for the text of the file can be written",
-        help="drag the part again, and accept what is offered then",
-        example="one.ask('rewrite', difference='...')",
-        cure="one.ask('rewrite', difference=dragged['offers'][0]['difference'])",
+        "the last drag did not offer this difference",
+        why="the studio writes only a change that a drag computed for the file's text",
+        help="drag the part again, and accept a difference of the new offers",
+        example="client.ask('rewrite', difference='...')",
+        cure="client.ask('rewrite', difference=dragged['offers'][0]['difference'])",
     ),
     Message(
         "edited-meanwhile",
-        "`{path}` has changed since this difference was found, and was not written",
-        why="a change is written only into the text that it was found for",
+        "`{path}` has changed since this difference was computed, and was not written",
+        why="a difference applies only to the text for which it was computed",
         help="drag the part again",
         example="change.apply()   # after an edit of the file",
         cure="dragging.source(to)[0].apply()",
@@ -225,8 +225,8 @@ INPUTS = (
     Message(
         "no-part",
         "`{pattern}` matches no part of `{name}`",
-        why="a part is a call or an iteration of a loop with choices; a pattern without `/` is compared with the last part of "
-        "an address, any other with the whole address",
+        why="a part is a call or an iteration of a loop with choices; a pattern without `/` must match the last part of "
+        "an address, and a pattern with `/` the whole address",
         help="the nearest are {parts}",
         example='result.regrow("wnig[1]")',
         cure='result.regrow("wing[1]")',
@@ -234,8 +234,8 @@ INPUTS = (
     Message(
         "many-parts",
         "`{pattern}` matches several parts of `{name}`",
-        why="one part is grown again in place, with all the others as they are",
-        help="name one of {parts}",
+        why="`regrow` grows one part again, and leaves all other parts as they are",
+        help="name one of these parts: {parts}",
         example='result.regrow("wing[*]")',
         cure='result.regrow("wing[1]")',
     ),

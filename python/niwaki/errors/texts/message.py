@@ -1,4 +1,4 @@
-"""The shape of one entry of the table of messages."""
+"""The entry of a message in the table of messages."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from string import Formatter
 
 @dataclass(frozen=True)
 class Message:
-    """A message's texts. `{name}` is replaced by a value from the code that raises it.
+    """Texts of a message. A value from the code that raises the error replaces `{name}`.
 
     Attributes
     ----------
     code
         The error's name, kebab-case.
     title
-        What happened, complete without `why`; lower case, no full stop.
+        What happened, understandable without `why`; lower case, no full stop.
     label, second
-        The text beside the carets, and beside the second place if there is one.
+        The text beside the carets, and beside the second place if the error has a second place.
     why
-        Why there is such a rule.
+        The reason for the rule.
     help
         What to write or do instead.
     example
         A program or a command that is refused; for the language, a model that the tests compile.
     cure
-        The same, put right; for the language, a model that the tests compile.
+        The corrected program or command; for the language, a model that the tests compile.
     about
-        What the manual's page says in place of `why`; Markdown.
+        The text of the manual's page in place of `why`; Markdown.
     """
 
     code: str
@@ -42,6 +42,6 @@ class Message:
 
     @property
     def names(self) -> set[str]:
-        """The names of the values that it needs."""
+        """The names of the values that the templates need."""
         texts = (self.title, self.why, self.help)
         return {name for text in texts for _, name, _, _ in Formatter().parse(text) if name}

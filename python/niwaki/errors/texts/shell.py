@@ -1,4 +1,4 @@
-"""Errors about the words of a shell: arguments of a model, runs by number, folders."""
+"""Errors about the arguments of commands: arguments of a model, runs by number, folders."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ SHELL = (
     ),
     Message(
         "already-there",
-        "`{path}` is there already",
-        why="files in the way: {count}; nothing is replaced without a word",
+        "`{path}` already exists",
+        why="files that would be replaced: {count}; Niwaki replaces no file unless you say so",
         help="name another place with `-o`, or {cure}",
         example="niwaki grow ship -o out, a second time",
         cure="niwaki grow ship -o out --force",
@@ -24,15 +24,15 @@ SHELL = (
     Message(
         "every-run-impossible",
         "none of {count} runs of `{name}` is possible",
-        why="each breaks a constraint of the model: {constraint}",
-        help="`niwaki grow` searches for the runs that keep it; `show` only draws runs as they come",
+        why="each run breaks a constraint of the model: {constraint}",
+        help="use `niwaki grow`, which searches for runs that keep the constraint; `show` does not search",
         example="niwaki show, of a model with a condition that almost no run keeps",
         cure="niwaki grow, of the same model",
     ),
     Message(
         "hold-without-run",
         "`{flag}` needs {other}",
-        why="what is held or grown again is a part of a result that is there",
+        why="only parts of an existing result can be held or grown again",
         help="give {cure}",
         example="niwaki grow spaceship --hold 'wings*'",
         cure="niwaki grow spaceship --from out/run.json --hold 'wings*'",
@@ -40,7 +40,7 @@ SHELL = (
     Message(
         "nothing-fits",
         "none of the {count} choices of this run fits `{model}`",
-        why="a choice fits where the model has one at the same address, and its value is possible there",
+        why="a choice fits if the model has a choice at the same address that can have its value",
         help="name the right file with `--model`, or grow the model again",
         example="niwaki replay out/run.json --anyway, after every function was renamed",
         cure="niwaki grow tower.py:tower",
