@@ -1,5 +1,5 @@
-from . import anyway as anyway
 from . import references as references
+from . import replay_changed as replay_changed
 from . import results as results
 from . import run_files as run_files
 from . import trust as trust

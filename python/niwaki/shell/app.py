@@ -1,4 +1,4 @@
-"""The application, and what the commands share.
+"""The application, and the options that commands share.
 
 Results go to files and stdout, progress and warnings to stderr.
 """
@@ -11,26 +11,26 @@ from typing import Annotated, Any
 
 import typer
 
-#: The commands and what they do. The module of a command is loaded when the command is used.
+#: The commands and their help. The module of a command is loaded when the command is used.
 COMMANDS = {
     "models": "List the gallery: name, how to run it, target, title.",
     "show": "Draw runs of a model side by side, with no target.",
     "grow": "Grow a model into its target.",
-    "batch": "Do many searches on all processors or many machines, and go on with them.",
-    "replay": "Write the best result of a search again, in any format.",
-    "check": "Compile a model and report what it is made of, with advice.",
+    "batch": "Run a batch of many searches, on all processors or many machines; a stopped batch resumes.",
+    "replay": "Write a stored result again, in any format.",
+    "check": "Compile a model; report its functions and choices, with advice.",
     "sample": "Sample a model by Markov chains.",
-    "color": "Colour a drawing in ways that differ.",
+    "color": "Colour a drawing, in several ways that differ.",
     "letters": "Write a text in vines or lightning.",
-    "guide": "Train guides, and show what they see.",
-    "studio": "Open a page to search, hold parts and grow the rest again.",
-    "explain": "Draw what each strategy runs again for one proposal.",
-    "doctor": "Report what is installed, what works, and what is missing for what.",
+    "guide": "Train a guide for a model, or show what a guide sees.",
+    "studio": "Open a page in the browser: search, hold parts, grow the rest again.",
+    "explain": "Draw which calls of a model each strategy runs again for one proposal.",
+    "doctor": "Report versions, the machine and optional packages, and test the core.",
 }
 
 
 class _Commands(typer.core.TyperGroup):
-    """The commands, each loaded from the module of its name when it is used."""
+    """A group of commands, each of which is loaded from the module of its name when it is used."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         return list(COMMANDS)
@@ -69,28 +69,32 @@ def niwaki() -> None:
 
 
 ModelName = Annotated[
-    str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function; the file is run.")
+    str, typer.Argument(metavar="MODEL", help="A gallery name, or file.py:function. The Python file is run.")
 ]
-#: What several commands have is one option, so that it means the same everywhere.
-Runs = Annotated[int, typer.Option("-n", "--runs", metavar="N", help="How many results.")]
+#: An option that several commands share is defined once, so that it means the same everywhere.
+Runs = Annotated[int, typer.Option("-n", "--runs", metavar="N", help="Number of results.")]
 Seed = Annotated[
     int | None,
-    typer.Option("--seed", metavar="N", help="The random stream. Default: a new one, which is printed."),
+    typer.Option(
+        "--seed", metavar="N", help="Seed of the random stream. Default: a new seed, which is printed."
+    ),
 ]
 Threads = Annotated[
     int | None,
-    typer.Option("--threads", metavar="N", help="Default: all cores. Results do not depend on it."),
+    typer.Option(
+        "--threads", metavar="N", help="Number of threads; results do not depend on it. Default: all cores."
+    ),
 ]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON; files are written only with -o.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON. Files are then written only with -o.")]
 
 Megabytes = Annotated[
     int,
     typer.Option(
-        "--max-memory", metavar="MB", min=1, help="Most memory of a run or a population, megabytes."
+        "--max-memory", metavar="MB", min=1, help="Memory limit of a run or a population, in megabytes."
     ),
 ]
 
 
-def counted(number: int, what: str) -> str:
-    """A number of things, as a sentence has it."""
-    return f"{number} {what}{'' if number == 1 else 's'}"
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun, in the plural where needed: `3 primitives`."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"

@@ -1,7 +1,7 @@
-"""Arguments of a model, as words of a shell: `niwaki grow tower.py:tower width=3.0 --preset wide.toml`.
+"""Arguments of a model on the command line: `niwaki grow tower.py:tower width=3.0 --preset wide.toml`.
 
-Names, defaults and types are those of the model's signature. A word is read as the type says; where there is none, as
-the type of the default; else as a Python literal. `--preset` is a TOML file with a value for each name; words win.
+The model's signature has their names, defaults and types. A word is read by the annotated type, else by the type of the
+default, else as a Python literal. `--preset` names a TOML file with values by name; words override its values.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from niwaki.lang.models import Model
 
 Arguments = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[NAME=VALUE]...", help="Arguments of the model; its defaults where left out."),
+    typer.Argument(metavar="[NAME=VALUE]...", help="Arguments of the model. Default: the model's."),
 ]
 Preset = Annotated[
     Path | None,
-    typer.Option("--preset", metavar="FILE", help="A TOML file with arguments of the model, NAME = VALUE."),
+    typer.Option("--preset", metavar="FILE", help="A TOML file with arguments of the model: NAME = VALUE."),
 ]
 
-#: What a word of each type looks like, and an example.
+#: The form of a value of each type, and an example.
 _SHAPES: dict[type, tuple[str, str]] = {
     bool: ("true or false", "true"),
     int: ("a whole number", "3"),
@@ -41,14 +41,14 @@ _TRUTH = {"true": True, "yes": True, "1": True, "false": False, "no": False, "0"
 
 
 def read(model: Model[..., Any], words: Iterable[str] | None, preset: Path | None = None) -> dict[str, Any]:
-    """The arguments by name.
+    """Read the arguments by name.
 
     Parameters
     ----------
     model
         The model.
     words
-        As `NAME=VALUE`.
+        Words of the form `NAME=VALUE`.
     preset
         A TOML file.
 
@@ -57,10 +57,10 @@ def read(model: Model[..., Any], words: Iterable[str] | None, preset: Path | Non
     InputError
         `unknown-argument`: the model has no such argument; `bad-setting`: a value is of another type.
     FileError
-        The preset cannot be read, or is no TOML.
+        The preset cannot be read, or is not TOML.
     """
     table = {} if preset is None else toml_of(text_of(preset, "preset", "a preset"), preset)
-    found = fitting(model, table)
+    values = fitting(model, table)
     signature = inspect.signature(model.function)
     kinds = _kinds(model, signature)
     for word in words or ():
@@ -74,17 +74,17 @@ def read(model: Model[..., Any], words: Iterable[str] | None, preset: Path | Non
                 has=described(model) or "none",
             )
         _check_name(model, signature, name)
-        found[name] = _fitting(name, _value(text, kinds.get(name)), kinds.get(name), repr(text))
-    return found
+        values[name] = _fitting(name, _value(text, kinds.get(name)), kinds.get(name), repr(text))
+    return values
 
 
 def fitting(model: Model[..., Any], table: Mapping[str, Any]) -> dict[str, Any]:
-    """Values by name as the model's signature has them.
+    """Convert values by name to the types of the model's signature.
 
     Raises
     ------
     InputError
-        As for `read`.
+        See `read`.
     """
     signature = inspect.signature(model.function)
     kinds = _kinds(model, signature)
@@ -93,49 +93,51 @@ def fitting(model: Model[..., Any], table: Mapping[str, Any]) -> dict[str, Any]:
     return {name: _fitting(name, value, kinds.get(name), repr(value)) for name, value in table.items()}
 
 
-def bound(model: Model[..., Any], given: dict[str, Any]) -> list[Any]:
-    """The arguments by position.
+def bound(model: Model[..., Any], values: dict[str, Any]) -> list[Any]:
+    """Return the arguments by position.
 
     Raises
     ------
     InputError
-        `model-arguments`: one is missing.
+        `model-arguments`: an argument is missing.
     """
-    return arguments(model, (), given)
+    return arguments(model, (), values)
 
 
 def described(model: Model[..., Any]) -> str:
-    """The arguments of a model with their defaults: `y=0.0, width=4.0`."""
+    """Return the arguments of a model with their defaults as text: `y=0.0, width=4.0`."""
     parts = inspect.signature(model.function).parameters.values()
-    return ", ".join(one.name if one.default is one.empty else f"{one.name}={one.default!r}" for one in parts)
+    return ", ".join(
+        part.name if part.default is part.empty else f"{part.name}={part.default!r}" for part in parts
+    )
 
 
 def _check_name(model: Model[..., Any], signature: inspect.Signature, name: str) -> None:
     if name in signature.parameters:
         return
     near = get_close_matches(name, signature.parameters, n=1)
-    reason = f"did you mean `{near[0]}`?" if near else "the arguments are those of the function's first line"
+    reason = f"did you mean `{near[0]}`?" if near else "the first line of the function has its arguments"
     raise InputError(
         "unknown-argument", name=name, model=model.name, reason=reason, has=described(model) or "none"
     )
 
 
 def _kinds(model: Model[..., Any], signature: inspect.Signature) -> dict[str, type]:
-    """The type of each argument, where it is known."""
+    """Return the type of each argument whose type is known."""
     try:
         hints = get_type_hints(model.function)
     except (NameError, TypeError):
         hints = {}
-    found: dict[str, type] = {}
-    for one in signature.parameters.values():
-        kind = hints.get(one.name, type(one.default))
+    kinds: dict[str, type] = {}
+    for parameter in signature.parameters.values():
+        kind = hints.get(parameter.name, type(parameter.default))
         if kind in _SHAPES:
-            found[one.name] = kind
-    return found
+            kinds[parameter.name] = kind
+    return kinds
 
 
 def _value(text: str, kind: type | None) -> Any:
-    """What a word says; the word itself where it says nothing else."""
+    """Read a word as a value of a type; a word that cannot be read stays a text."""
     if kind is str:
         return text
     if kind is bool:
@@ -146,8 +148,8 @@ def _value(text: str, kind: type | None) -> Any:
         return text
 
 
-def _fitting(name: str, value: Any, kind: type | None, found: str) -> Any:
-    """The value as its type has it."""
+def _fitting(name: str, value: Any, kind: type | None, text: str) -> Any:
+    """Return the value converted to its type; `text` is the value in messages."""
     if kind is None:
         return value
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -159,7 +161,7 @@ def _fitting(name: str, value: Any, kind: type | None, found: str) -> Any:
     raise InputError(
         "bad-setting",
         name=name,
-        found=found,
+        found=text,
         expected=expected,
         suggestion=f"{expected}, for instance {name}={example}",
     )

@@ -1,4 +1,4 @@
-"""`niwaki batch`: many searches into one folder, which goes on; and its results as files."""
+"""`niwaki batch`: many searches into one folder, which a later call resumes; and its results as files."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from niwaki.errors import InputError
 from niwaki.errors.files import ensure_folder
 from niwaki.errors.settings import bad, count
 from niwaki.inputs.modules import run_file
-from niwaki.shell import batch_files, folders, results, writing
+from niwaki.shell import batch_files, folders, formats, results
 from niwaki.shell.app import Runs, app
 from niwaki.shell.progress import batch_line, standing
 
 
 class _Group(typer.core.TyperGroup):
-    """What is no command is a file to run."""
+    """A group of commands in which any other word is a batch file to run."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         if args and args[0] not in (*self.commands, "--help"):
@@ -31,45 +31,59 @@ class _Group(typer.core.TyperGroup):
 
 group = typer.Typer(
     cls=_Group,
-    help="Do many searches on all processors or many machines, and go on with them: niwaki batch SPEC.toml.",
+    help="Run a batch of many searches, on all processors or many machines: niwaki batch SPEC.toml.",
     no_args_is_help=True,
     rich_markup_mode=None,
 )
 app.add_typer(group, name="batch")
 
-#: How many of the best are drawn and written, when nothing is said.
+#: Number of best results that are drawn and written by default.
 BEST = 24
 
-#: What can be written, and the names in a folder.
+#: The formats, and the names of their files in a folder.
 FORMATS = {"csv": "results.csv", "parquet": "results.parquet", "png": "sheet.png", "glb": "meshes"}
 
 
 @group.command()
 def run(
     spec: Annotated[
-        Path, typer.Argument(metavar="SPEC", help="A TOML file: the model, seeds, and what varies.")
+        Path,
+        typer.Argument(
+            metavar="SPEC", help="A TOML file with the model, the seeds, and the settings that vary."
+        ),
     ],
     output: Annotated[str | None, folders.output("a folder with SPEC's name")] = None,
     processes: Annotated[
         int | None,
-        typer.Option("--processes", metavar="N", help="How many. Default: the processors of the machine."),
+        typer.Option(
+            "--processes",
+            metavar="N",
+            help="Number of worker processes. Default: the processors of the machine.",
+        ),
     ] = None,
     shard: Annotated[
-        str | None, typer.Option("--shard", metavar="I/N", help="Only this part of the batch, such as 3/16.")
+        str | None, typer.Option("--shard", metavar="I/N", help="Run only a part of the batch, such as 3/16.")
     ] = None,
     engine: Annotated[
         str | None,
-        typer.Option("--engine", metavar="local|ray|dask", help="Where searches run. Default: local."),
+        typer.Option(
+            "--engine", metavar="local|ray|dask", help="Engine that runs the searches. Default: local."
+        ),
     ] = None,
     cluster: Annotated[
         str | None,
-        typer.Option("--cluster", metavar="URL", help="One that runs. Default: processes of this machine."),
+        typer.Option(
+            "--cluster",
+            metavar="URL",
+            help="Address of a running cluster. Default: processes of this machine.",
+        ),
     ] = None,
     chunk: Annotated[
-        float, typer.Option("--chunk", metavar="SECONDS", help="Searches that a worker gets at once.")
+        float,
+        typer.Option("--chunk", metavar="SECONDS", help="Seconds of searches that a worker gets at once."),
     ] = pools.TARGET,
 ) -> None:
-    """Do the searches of SPEC that its folder does not have; the same command goes on after Ctrl-C or a kill."""
+    """Run the searches of SPEC that its folder lacks. The same command resumes after Ctrl-C or a kill."""
     if engine is not None and engine not in ("local", *clusters.ENGINES):
         raise bad("--engine", engine, f"one of local, {', '.join(clusters.ENGINES)}", "local")
     if cluster is not None and engine not in clusters.ENGINES:
@@ -77,16 +91,16 @@ def run(
             "flag-alone",
             flag="--cluster",
             other="`--engine ray` or `--engine dask`",
-            reason="it is where the engine runs",
+            reason="only these engines run on a cluster",
         )
-    part = plan.shard_of(shard)
-    found = batch_files.load(spec)
-    asked = found.table.spec(found.seeds)
+    shard_part = plan.shard_of(shard)
+    batch = batch_files.load(spec)
+    table_spec = batch.table.spec(batch.seeds)
     folders.one_file(output, (), False)
-    folder = Path(found.name if output is None else output)
+    folder = Path(batch.name if output is None else output)
     if not batches.is_batch(folder):
-        folders.taken(results.present(folder), False, "one where a batch is, or nothing")
-    store = batches.Store(folder, asked)
+        folders.refuse_existing(results.present(folder), False, "an empty folder, or a folder of a batch")
+    store = batches.Store(folder, table_spec)
     workers = count("--processes", batches.cores() if processes is None else processes, most=100_000)
     last: batches.Standing | None = None
     try:
@@ -94,7 +108,7 @@ def run(
             executor = None
             if engine in clusters.ENGINES:
                 executor = stack.enter_context(clusters.ENGINES[engine](workers, cluster))
-            show = stack.enter_context(batch_line(found.name))
+            show = stack.enter_context(batch_line(batch.name))
 
             def watch(now: batches.Standing) -> None:
                 nonlocal last
@@ -102,60 +116,66 @@ def run(
                 show(now)
 
             done = failed = 0
-            own = batches.Workers(executor, workers, chunk)
-            for one in found.table.run(store, part, own, watch):
+            pool = batches.Workers(executor, workers, chunk)
+            for outcome in batch.table.run(store, shard_part, pool, watch):
                 done += 1
-                failed += one.fault is not None
-                if one.fault is not None and failed == 1:
-                    print(f"warning: case {one.case}, seed {one.seed}: {one.message}", file=sys.stderr)
+                failed += outcome.fault is not None
+                if outcome.fault is not None and failed == 1:
+                    print(
+                        f"warning: case {outcome.case}, seed {outcome.seed}: {outcome.message}",
+                        file=sys.stderr,
+                    )
     except KeyboardInterrupt:
         again = " ".join(sys.argv[1:]) if sys.argv[1:2] == ["batch"] else f"batch {spec}"
-        print(f"interrupted; go on with: niwaki {again}", file=sys.stderr)
+        print(f"interrupted; resume with: niwaki {again}", file=sys.stderr)
         raise typer.Exit(130) from None
     if last is not None:
         print(standing(last))
-    faults = f", {failed} of which failed" if failed else ""
-    print(f"{done:,} search{'' if done == 1 else 'es'}{faults}; in {folder}")
+    faults = f" ({failed} failed)" if failed else ""
+    print(f"{done:,} search{'' if done == 1 else 'es'}{faults}; files in {folder}")
 
 
 @group.command("export")
 def export_(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a batch.")],
-    formats: Annotated[
+    file_formats: Annotated[
         str | None,
         typer.Option(
             "--format",
             metavar="LIST",
-            help=f"Which files, with commas: {', '.join(FORMATS)}; tables of all, a sheet and meshes of the best.",
+            help=f"Formats, with commas: {', '.join(FORMATS)}. Tables have all results, sheet and meshes the best.",
         ),
     ] = None,
     runs: Runs = BEST,
     choices: Annotated[
-        bool, typer.Option("--choices", help="In the table, the choices of each best run, as JSON.")
+        bool,
+        typer.Option(
+            "--choices", help="Add a column to the table with the choices of each best run, as JSON."
+        ),
     ] = False,
     model: Annotated[
         list[Path] | None,
         typer.Option(
-            "--model", metavar="FILE", help="The Python file with the model's host functions; it is run."
+            "--model", metavar="FILE", help="The Python file with the model's host functions. It is run."
         ),
     ] = None,
     output: Annotated[str | None, folders.output("FOLDER")] = None,
     force: folders.Force = False,
 ) -> None:
-    """Write the results of FOLDER as files, and say how many there are, with a hash of all."""
+    """Write the results of FOLDER as files, and print their number and their hash."""
     count("--runs", runs, most=10_000)
-    alone = folders.one_file(output, ("csv", "parquet", "png"), force, format=formats)
-    wanted = alone.suffix if alone else formats
-    chosen = () if wanted is None else writing.listed(wanted, FORMATS)
+    single_file = folders.one_file(output, ("csv", "parquet", "png"), force, format=file_formats)
+    format_text = single_file.suffix if single_file else file_formats
+    selected = () if format_text is None else formats.parse(format_text, FORMATS)
     store = batches.Store(folder)
     if not store:
         raise InputError("no-batch", path=folder)
     modules = tuple(Path(place).stem for place in model or ())
     for place in model or ():
         run_file(place.resolve())
-    there = folder if alone or output is None else ensure_folder(Path(output))
-    places = {one: alone or there / FORMATS[one] for one in chosen}
-    folders.taken([] if alone else places.values(), force)
+    destination = folder if single_file or output is None else ensure_folder(Path(output))
+    places = {name: single_file or destination / FORMATS[name] for name in selected}
+    folders.refuse_existing([] if single_file else places.values(), force)
     written: list[Path] = []
     if "csv" in places:
         written.append(export.write_csv(places["csv"], store, modules, choices))

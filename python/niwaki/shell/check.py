@@ -1,4 +1,4 @@
-"""`niwaki check`: compile a model and report what it is made of, with advice."""
+"""`niwaki check`: functions and choices of a model, with advice."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import typer
 
 from niwaki import lang, shell, targets
 from niwaki.errors import InputError, ModelError
-from niwaki.shell import arguments, controls, trying
+from niwaki.shell import arguments, compare, controls
 from niwaki.shell.app import ModelName, app
 
 
@@ -24,55 +24,61 @@ def check(
     bytecode: Annotated[bool, typer.Option("--bytecode", help="Print the bytecode.")] = False,
     other: Annotated[
         str | None,
-        typer.Option("--try", metavar="MODEL", help="Another version: short searches say which is better."),
+        typer.Option(
+            "--try",
+            metavar="MODEL",
+            help="Another version of the model; short searches tell which one is better.",
+        ),
     ] = None,
     target: Annotated[
         str | None,
-        typer.Option("--target", metavar="FILE", help="A mesh to fill, with --try. Default: the model's."),
+        typer.Option(
+            "--target", metavar="FILE", help="A mesh to fill, with --try. Default: the model's target."
+        ),
     ] = None,
 ) -> None:
-    """Compile MODEL and report its functions and choices, with advice; exit 1 when it does not compile."""
-    found = shell.references.find(model)
+    """Compile MODEL and report its functions and choices, with advice. Exit code 1: the model does not compile."""
+    reference = shell.references.find(model)
     start = time.perf_counter()
-    arguments.read(found.model, values, preset)
+    arguments.read(reference.model, values, preset)
     try:
-        compiled = found.model.core()
+        compiled = reference.model.core()
     except ModelError as error:
         print(error, file=sys.stderr)
         raise typer.Exit(1) from None
     lowered = time.perf_counter() - start
-    program = found.model.program()
+    program = reference.model.program()
     if core:
         print(compiled.text, end="")
     if bytecode:
         print(program.disassemble(), end="")
     if core or bytecode:
         return
-    own = [row for row in program.functions if "/" not in row[0]]
-    print(f"{found.reference}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
-    print(f"  arguments   {arguments.described(found.model) or 'none'}")
+    functions = [row for row in program.functions if "/" not in row[0]]
+    print(f"{reference.name}: compiled in {1e3 * (lowered + program.seconds):.1f} ms")
+    print(f"  arguments   {arguments.described(reference.model) or 'none'}")
     print(f"  constants   {len(compiled.constants)}")
-    print(f"  functions   {len(own)}")
-    width = max(len(name) for name, _, _ in own)
+    print(f"  functions   {len(functions)}")
+    width = max(len(name) for name, _, _ in functions)
     inner: Counter[str] = Counter()
     for name, _, sites in program.functions:
         outer, _, part = name.partition("/")
         inner[outer] += sites if part else 0
-    for name, kind, sites in own:
+    for name, kind, sites in functions:
         total = sites + inner[name]
-        what = "pure" if kind == "pure" else f"{total} site{'' if total == 1 else 's'}"
-        print(f"    {name:<{width}}  {what}")
+        sites_text = "pure" if kind == "pure" else f"{total} site{'' if total == 1 else 's'}"
+        print(f"    {name:<{width}}  {sites_text}")
     print(f"  choices     {len(program.choices)}")
     for name, component, line in program.choices:
         print(f"    {name.split('/')[0]:<{width}}  {component:<20} line {line}")
     if other is not None:
-        score = targets.asks.score(controls.asked({"target": target}, found))
+        score = targets.asks.score(controls.terms({"target": target}, reference))
         if score.target is None:
-            raise InputError("no-target", name=found.reference)
-        print(trying.tried(found, shell.references.find(other), score))
+            raise InputError("no-target", name=reference.name)
+        print(compare.compare(reference, shell.references.find(other), score))
         return
     if target is not None:
-        reason = "it is what both versions are grown into"
+        reason = "it is the target of both versions"
         raise InputError("flag-alone", flag="--target", other="`--try`", reason=reason)
-    for one in lang.advice.advise(found.model.function):
-        print(f"\n{one}")
+    for advice in lang.advice.advise(reference.model.function):
+        print(f"\n{advice}")

@@ -1,4 +1,4 @@
-"""Where the time of a command went, as its last line says it."""
+"""The time of a command by its parts, for its last line."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 class Clock:
-    """Seconds of the wall by what was done in them; for the command of a process its start is the first part.
+    """Wall-clock seconds of each part of a command; for the command of a process the first part is its start.
 
     >>> clock = Clock()
     >>> with clock.part("search"):
@@ -18,7 +18,7 @@ class Clock:
     ['search']
     """
 
-    #: Whether this process is for one command.
+    #: Whether this process runs a single command.
     of_process = False
 
     def __init__(self) -> None:
@@ -26,7 +26,7 @@ class Clock:
 
     @contextmanager
     def part(self, name: str) -> Iterator[None]:
-        """Inside, time counts for this name."""
+        """Add the time inside the context to the part of this name."""
         began = time.perf_counter()
         try:
             yield
@@ -34,12 +34,12 @@ class Clock:
             self.parts[name] = self.parts.get(name, 0.0) + time.perf_counter() - began
 
     def __str__(self) -> str:
-        listed = ", ".join(f"{name} {seconds:.2f}" for name, seconds in self.parts.items())
-        return f"{sum(self.parts.values()):.2f} s: {listed}"
+        parts = ", ".join(f"{name} {seconds:.2f}" for name, seconds in self.parts.items())
+        return f"{sum(self.parts.values()):.2f} s: {parts}"
 
 
 def since_start() -> float:
-    """Seconds since this process began; its processor time where the system does not say when that was."""
+    """Return the seconds since this process began, or its processor time where the system does not tell its start."""
     with suppress(OSError, ValueError, IndexError, AttributeError):
         # Field 22 of Linux's stat: the start in hundredths of a second after boot (proc_pid_stat(5), USER_HZ).
         fields = Path("/proc/self/stat").read_text().rpartition(")")[2].split()

@@ -1,4 +1,4 @@
-"""`niwaki color`: a drawing in colours that keep its rules and differ from one another, written to a folder."""
+"""`niwaki color`: colourings of a drawing that obey its rules and differ from each other, written to a folder."""
 
 from __future__ import annotations
 
@@ -25,77 +25,83 @@ def color(
         str,
         typer.Argument(
             metavar="DRAWING",
-            help="An SVG with a class or id for each region, an image whose colours are the regions, "
-            "or one of ours: robot, house, bug, rocket.",
+            help="An SVG with a class or id for each region, an image with a colour for each region, "
+            "or a drawing of the package: robot, house, bug, rocket.",
         ),
     ],
     rules: Annotated[
-        str | None, typer.Option("--rules", metavar="FILE", help="Rules for the regions, a TOML file.")
+        str | None, typer.Option("--rules", metavar="FILE", help="A TOML file with rules for the regions.")
     ] = None,
     runs: Runs = 12,
     output: folders.Output = None,
     force: folders.Force = False,
     side: Annotated[
-        int, typer.Option("--side", metavar="N", help="Pixels of the longer side of each PNG.")
+        int, typer.Option("--side", metavar="N", help="Longer side of each PNG, in pixels.")
     ] = 1024,
     pixels: Annotated[
-        int, typer.Option("--pixels", metavar="N", help="Longer side of a drawing when it is measured.")
+        int,
+        typer.Option(
+            "--pixels", metavar="N", help="Longer side of the drawing when it is measured, in pixels."
+        ),
     ] = 512,
     strictness: Annotated[
-        float, typer.Option("--strictness", metavar="NUMBER", help="Of the rules; larger is stricter.")
+        float,
+        typer.Option("--strictness", metavar="NUMBER", help="Strictness of the rules; larger is stricter."),
     ] = 100.0,
     seed: Seed = None,
     threads: Threads = None,
 ) -> None:
-    """Color DRAWING in colourings that differ; writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
+    """Colour DRAWING in several ways. Writes 01.svg, 01.png, ..., sheet.png, colors.json and residuals.csv."""
     methods.at_least_one("--runs", runs)
     for flag, value in (("--side", side), ("--pixels", pixels)):
         whole(flag, value, most=LARGEST)
     seed = search.fresh(seed)
-    read = coloring.Drawing.load(drawing, pixels)
-    asked = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
-    _before(read, asked)
-    kinds = ("png", "json", "csv") if read.artwork is None else ("svg", "png", "json", "csv")
-    alone = folders.one_file(output, kinds, force)
+    picture = coloring.Drawing.load(drawing, pixels)
+    rule_set = coloring.Rules.load(rules) if rules is not None else coloring.rules_of(drawing)
+    _preview(picture, rule_set)
+    kinds = ("png", "json", "csv") if picture.artwork is None else ("svg", "png", "json", "csv")
+    single_file = folders.one_file(output, kinds, force)
     start = time.perf_counter()
-    with folders.own_folder(output, force) if alone is None else nullcontext() as folder:
+    with folders.own_folder(output, force) if single_file is None else nullcontext() as folder:
         with coloring_line(Path(drawing).name) as progress:
-            found = coloring.color(
-                read, asked, runs, strictness=strictness, seed=seed, threads=threads, progress=progress
+            colorings = coloring.color(
+                picture, rule_set, runs, strictness=strictness, seed=seed, threads=threads, progress=progress
             )
         seconds = time.perf_counter() - start
         if folder is not None:
-            written = coloring.files.write(found, folder, side)
-    _summary(found, seconds, seed)
-    if alone is None:
-        print(f"{len(written)} files in {folder}, sheet.png first of all")
+            written = coloring.files.write(colorings, folder, side)
+    _summary(colorings, seconds, seed)
+    if single_file is None:
+        print(f"{len(written)} files in {folder}; see sheet.png first")
         return
-    made = coloring.files.contents(found, side)
-    # Of one colouring the sheet is a picture with a number.
+    contents = coloring.files.contents(colorings, side)
+    # The picture of a single colouring is 01.png, not sheet.png.
     first = next(
-        name for name in made if name.endswith(alone.suffix.lower()) and (runs > 1 or name != "sheet.png")
+        name
+        for name in contents
+        if name.endswith(single_file.suffix.lower()) and (runs > 1 or name != "sheet.png")
     )
-    print(write_whole(alone, made[first]()))
+    print(write_whole(single_file, contents[first]()))
 
 
-def _before(drawing: coloring.Drawing, rules: coloring.Rules) -> None:
-    """What is known before the search: regions, and how near the rules can come to holding."""
+def _preview(drawing: coloring.Drawing, rules: coloring.Rules) -> None:
+    """Print the regions and rules, and a warning about rules that cannot all hold."""
     rules.check(drawing.names)
     print(f"{len(drawing.names)} regions, {len(drawing.pairs)} pairs of neighbours, {len(list(rules))} rules")
     if drawing.hidden:
         print(f"warning: no pixel shows {', '.join(drawing.hidden)}")
     slack, forced = coloring.agree.least_slack(rules)
     if slack > 0.5:
-        print(f"warning: not all rules can hold; some will be {slack:.1f} units off:")
-        print("\n".join(f"  {one}" for one in forced))
+        print(f"warning: the rules contradict each other; some will be {slack:.1f} units off:")
+        print("\n".join(f"  {rule}" for rule in forced))
 
 
-def _summary(found: list[coloring.Coloring], seconds: float, seed: int) -> None:
-    """A line for each colouring: its score and the rule that it keeps worst."""
-    print(f"{counted(len(found), 'colouring')} in {seconds:.1f} s, seed {seed}")
-    for k, one in enumerate(found):
-        line = f"  {k + 1:02}  log score {one.log_score:9.2f}"
-        if one.kept:
-            worst = max(one.kept, key=lambda kept: abs(kept.residual))
+def _summary(colorings: list[coloring.Coloring], seconds: float, seed: int) -> None:
+    """Print a line for each colouring, with its score and the rule that it breaks most."""
+    print(f"{counted(len(colorings), 'colouring')} in {seconds:.1f} s, seed {seed}")
+    for k, result in enumerate(colorings):
+        line = f"  {k + 1:02}  log score {result.log_score:9.2f}"
+        if result.kept:
+            worst = max(result.kept, key=lambda rule: abs(rule.residual))
             line += f"  {abs(worst.residual):5.1f} off: {worst.rule}"
         print(line)

@@ -1,12 +1,12 @@
-"""What the shape should be like, as flags: each is one control, and controls multiply.
+"""Flags for targets and constraints of a shape; several of them multiply.
 
     --target crown.obj --avoid wall.obj --floor 0
     --match-image skyline.png --camera cam.json
     --match-image letter.png                        (models that draw in the plane)
     --match-shadow face.png --weight-image face_w.png --light -1,-0.3,0 --receiver floor.obj
 
-The flags are the options of `niwaki.targets.asks`. Flags that contradict one another, or need another flag, are refused
-before any file is read.
+The flags are the options of `niwaki.targets.asks`. Flags that contradict each other, or need a flag that is missing,
+are refused before any file is read.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from niwaki.shell.settings import Flags
 from niwaki.targets.asks import OPTIONS, flag
 from niwaki.targets.sketches import Ask
 
-#: What is typed for options of these kinds; for others a text.
+#: The type on the command line of options of these kinds; any other option is a text.
 _TYPES: dict[str, Any] = {"number": float, "count": int, "meshes": list[str]}
 
-#: Options that are typed as numbers with commas: how many corners, of how many numbers, and an example.
+#: Kinds of options that are numbers with commas: the number of corners, of numbers in each, and an example.
 _NUMBERS = {
     "direction": (1, 3, "-1,-0.3,0"),
     "box": (2, 3, "-5,0,-5,5,10,5"),
@@ -35,13 +35,13 @@ _NUMBERS = {
 
 
 def kind(name: str) -> Any:
-    """The type of an option, as it is typed."""
-    found = _TYPES.get(OPTIONS[name].kind, str)
-    return found if OPTIONS[name].usual is not None else found | None
+    """Return the type of an option on the command line."""
+    plain = _TYPES.get(OPTIONS[name].kind, str)
+    return plain if OPTIONS[name].usual is not None else plain | None
 
 
 def flags(*names: str) -> Flags:
-    """Options as flags; one that was not given is None."""
+    """Return options as flags; a flag that is left out is None."""
     return Flags(
         tuple(
             inspect.Parameter(
@@ -58,47 +58,47 @@ def flags(*names: str) -> Flags:
     )
 
 
-#: All options that were given.
-Wish = Annotated[dict[str, Any], flags(*OPTIONS)]
+#: All options of targets and constraints.
+Options = Annotated[dict[str, Any], flags(*OPTIONS)]
 
 
-def asked(wish: Mapping[str, Any], found: ModelReference) -> list[Ask]:
-    """What is asked of a model by options as they were typed."""
-    if wish.get("match_image") is not None and wish.get("match_shadow") is not None:
+def terms(options: Mapping[str, Any], reference: ModelReference) -> list[Ask]:
+    """Return the terms of a model's score for options from the command line."""
+    if options.get("match_image") is not None and options.get("match_shadow") is not None:
         raise InputError(
             "flags-exclude",
             flag="--match-image",
             other="--match-shadow",
-            reason="both are seen by the one --camera and weighed by the one --weight-image",
+            reason="there is one --camera and one --weight-image for both",
             cure="multiply `match_image(...)` and `match_shadow(...)` in Python",
         )
-    return found.asked(read(wish))
+    return reference.asked(read(options))
 
 
-def read(wish: Mapping[str, Any]) -> dict[str, Any]:
-    """The values of options that were typed."""
+def read(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of options from the command line."""
     return {
         name: _numbers(name, value) if OPTIONS[name].kind in _NUMBERS and value is not None else value
-        for name, value in wish.items()
+        for name, value in options.items()
     }
 
 
 def _numbers(name: str, text: str) -> Any:
-    """A direction, or the low and the high corner of a box: numbers with commas between them."""
+    """Read numbers with commas between them: a direction, or the low and the high corner of a box."""
     corners, size, example = _NUMBERS[OPTIONS[name].kind]
     try:
-        found = tuple(float(part) for part in text.split(","))
+        values = tuple(float(part) for part in text.split(","))
     except ValueError:
-        found = ()
-    low, high = found[:size], found[size:]
-    if len(found) != corners * size:
-        expected, such = f"{corners * size} numbers with commas between them", "numbers"
+        values = ()
+    low, high = values[:size], values[size:]
+    if len(values) != corners * size:
+        expected, noun = f"{corners * size} numbers with commas between them", "numbers"
     elif corners == 1 or all(a < b for a, b in zip(low, high, strict=True)):
         return low if corners == 1 else (low, high)
     else:
         along = "x, y and z" if size == 3 else "x and y"
-        expected, such = f"a low corner, then one that is higher along {along}", "a box"
-    suggestion = f"such {such}, for instance {example}"
+        expected, noun = f"a low corner, then a corner that is higher along {along}", "a box"
+    suggestion = f"such {noun}, for instance {example}"
     raise InputError(
         "bad-setting", name=flag(name), found=repr(text), expected=expected, suggestion=suggestion
     )

@@ -1,9 +1,9 @@
-"""Grow the gallery into its targets and leave pictures and files behind.
+"""Growth of the gallery into its targets, with pictures and files.
 
     python -m niwaki.shell.demo OUT
 
-Each entry with a target is grown as the shell would grow it; its command is printed, so that it can be tried with other
-settings. OUT/NAME gets best.glb, best.png, sheet.png (all results beside each other) and run.json.
+Each entry with a target is grown by its command, which is printed, so that you can try it with other settings.
+OUT/NAME gets best.glb, best.png, sheet.png (all results side by side) and run.json.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ SEED = 1
 
 
 def demo(folder: Path) -> None:
-    """Grow every entry that has a target; files go to folders in `folder`.
+    """Grow every entry that has a target into a folder of its name.
 
     Parameters
     ----------
     folder
-        Made where it is missing.
+        The parent folder; it is created if it is missing.
     """
     start = time.perf_counter()
     for entry in entries():
@@ -34,14 +34,14 @@ def demo(folder: Path) -> None:
             continue
         place = folder / entry.name
         print(f"\n{entry.name}: {entry.title}, into the target `{entry.target_name}`")
-        words = f"grow {entry.name} --runs {RUNS} --seed {SEED} --force -o".split() + [str(place)]
-        print("$ niwaki", *words, flush=True)
-        began = time.perf_counter()
-        app(words, standalone_mode=False)
-        seconds = time.perf_counter() - began
+        command = f"grow {entry.name} --runs {RUNS} --seed {SEED} --force -o".split() + [str(place)]
+        print("$ niwaki", *command, flush=True)
+        entry_start = time.perf_counter()
+        app(command, standalone_mode=False)
+        seconds = time.perf_counter() - entry_start
         searching = sum(run["seconds"] for run in json.loads((place / "run.json").read_text())["runs"])
         print(f"{searching:.1f} s of inference, {seconds - searching:.1f} s of compiling, pictures and files")
-    print(f"\n{time.perf_counter() - start:.1f} s in all; look at {folder}/*/sheet.png")
+    print(f"\n{time.perf_counter() - start:.1f} s in total; see {folder}/*/sheet.png")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""`niwaki doctor`: what is installed, what works, and what is missing for what."""
+"""`niwaki doctor`: versions, the machine, the optional packages, and small tests of the core."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from niwaki.shell.app import app
 def doctor(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Report versions, the machine and the extras, and try the core; exit 1 when the core does not work."""
-    found = checkup.doctor()
-    print(json.dumps(found.data(), indent=2) if as_json else found)
-    if not found.works:
+    """Report versions, the machine and optional packages, and test the core. Exit code 1: the core does not work."""
+    report = checkup.doctor()
+    print(json.dumps(report.data(), indent=2) if as_json else report)
+    if not report.works:
         raise typer.Exit(1)

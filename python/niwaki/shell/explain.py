@@ -1,4 +1,4 @@
-"""`niwaki explain`: what each strategy does for one proposal, as a picture."""
+"""`niwaki explain`: the work of each strategy for one proposal, as a picture."""
 
 from __future__ import annotations
 
@@ -16,22 +16,24 @@ def explain(
     model: ModelName,
     choice: Annotated[
         str,
-        typer.Option("--choice", metavar="ADDRESS", help="The choice to change; a pattern is possible."),
+        typer.Option(
+            "--choice", metavar="ADDRESS", help="The choice to change, by its address or a pattern."
+        ),
     ],
     seed: Seed = None,
     output: Annotated[str | None, folders.output("explain.svg")] = None,
     force: folders.Force = False,
 ) -> None:
-    """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for a proposal."""
-    found = shell.references.find(model)
+    """Draw which calls of MODEL each strategy runs, resumes, skips, creates and removes for one proposal."""
+    reference = shell.references.find(model)
     place = folders.own_file(output, "explain.svg", ("svg", "png"), force)
     seed = search.fresh(seed)
-    explained = search.explain(found.model, choice, seed=seed)
-    draw.reuse.draw(explained, place)
-    total = len(explained["activations"])
-    old, new = (draw.reuse.value_text(explained[key]) for key in ("old", "new"))
-    print(f"{explained['path']}: {old} becomes {new}; {total} calls, seed {seed}")
+    report = search.explain(reference.model, choice, seed=seed)
+    draw.reuse.draw(report, place)
+    total = len(report["activations"])
+    old, new = (draw.reuse.value_text(report[key]) for key in ("old", "new"))
+    print(f"{report['path']}: {old} becomes {new}; {total} calls, seed {seed}")
     print(f"{'':<8}" + "".join(f"{word:>20}" for word in draw.reuse.WORDS.values()))
-    for name, (steps, _) in explained["runs"].items():
+    for name, (steps, _) in report["runs"].items():
         print(f"{name:<8}" + "".join(f"{n:>20}" for n in draw.reuse.counts(steps, total).values()))
     print(place)

@@ -1,9 +1,8 @@
-"""Where a command writes: a folder or one file, so that nothing is replaced without a word.
+"""The output folder or file of a command; no file is replaced without `--force`.
 
-`-o` names a folder or, with a suffix, one file: the one of the command's files that has this suffix. What a command
-would replace is refused before its work, unless `--force` is given. Without `-o` the first of `out`, `out-2`, `out-3`,
-... is taken that has no results; of a command that writes one file, the first of `show.png`, `show-2.png`, ... that is
-not there.
+`-o` names a folder or, with a suffix, one file of this suffix. A command that would replace a file ends before its
+work, unless `--force` is set. Without `-o` the output is the first of `out`, `out-2`, `out-3`, ... that has no results.
+A command that writes one file takes the first of `show.png`, `show-2.png`, ... that does not exist.
 """
 
 from __future__ import annotations
@@ -22,76 +21,76 @@ import typer
 from niwaki.errors import FileError, InputError
 from niwaki.errors.files import check_place, ensure_folder
 from niwaki.errors.folders import held_folder
-from niwaki.shell import results, resuming
+from niwaki.shell import results, resume
 from niwaki.shell.app import Json
 
 
-def output(usual: str) -> Any:
-    """The option `-o` of a command; `usual` is where it writes when nothing is said."""
-    what = f"Where to: a folder or, with a suffix, a file. Default: {usual}."
-    return typer.Option("-o", "--output", metavar="PATH", help=what)
+def output(default: str) -> Any:
+    """Return the option `-o` of a command with its default output."""
+    text = f"Output: a folder or, with a suffix, a file. Default: {default}."
+    return typer.Option("-o", "--output", metavar="PATH", help=text)
 
 
-#: The folder when none is named.
-USUAL = "out"
+#: The folder without `-o`.
+DEFAULT = "out"
 
-Output = Annotated[str | None, output(USUAL)]
-Force = Annotated[bool, typer.Option("--force", help="Replace what is there.")]
+Output = Annotated[str | None, output(DEFAULT)]
+Force = Annotated[bool, typer.Option("--force", help="Replace existing files.")]
 
 
 @dataclass(frozen=True)
-class Out:
-    """Where results go."""
+class Destination:
+    """The output of a command."""
 
     output: Output = None
     force: Force = False
     as_json: Json = False
 
-    def alone(self, suffixes: Iterable[str], **others: Any) -> Path | None:
-        """The one file that is named, as of `one_file`."""
-        return one_file(self.output, suffixes, self.force, **others)
+    def single_file(self, suffixes: Iterable[str], **folder_flags: Any) -> Path | None:
+        """Return the file that `-o` names, or None (`one_file`)."""
+        return one_file(self.output, suffixes, self.force, **folder_flags)
 
-    def folder(self, alone: Path | None) -> AbstractContextManager[Path | None]:
-        """A folder for the results, held for them; none where one file is written, or only the numbers are printed."""
-        if alone is not None or (self.output is None and self.as_json):
+    def folder(self, single_file: Path | None) -> AbstractContextManager[Path | None]:
+        """Return a locked folder for the results; None where a single file is written, or numbers are only printed."""
+        if single_file is not None or (self.output is None and self.as_json):
             return nullcontext()
         return own_folder(self.output, self.force)
 
     @property
     def stream(self) -> TextIO:
-        """Where words go that must not be among the numbers."""
+        """The stream for messages that must not stand among the numbers of `--json`."""
         return sys.stderr if self.as_json else sys.stdout
 
 
-def taken(places: Iterable[Path], force: bool, cure: str = "add `--force` to replace it") -> None:
+def refuse_existing(places: Iterable[Path], force: bool, cure: str = "add `--force` to replace it") -> None:
     """Refuse to replace files.
 
     Raises
     ------
     InputError
-        `already-there`: one of them is, and `force` is not given.
+        `already-there`: a file exists, and `force` is not set.
     """
-    there = [] if force else [place for place in places if os.path.exists(place)]
-    if there:
-        raise InputError("already-there", path=there[0], count=len(there), cure=cure)
+    existing = [] if force else [place for place in places if os.path.exists(place)]
+    if existing:
+        raise InputError("already-there", path=existing[0], count=len(existing), cure=cure)
 
 
-def one_file(output: str | None, suffixes: Iterable[str], force: bool, **others: Any) -> Path | None:
-    """The file that `-o` names, where a file can be written; None where it names a folder, or nothing.
+def one_file(output: str | None, suffixes: Iterable[str], force: bool, **folder_flags: Any) -> Path | None:
+    """Return the file that `-o` names; None where it names a folder, or is left out.
 
     Parameters
     ----------
     output, force
-        As they were given.
+        Values of `-o` and `--force`.
     suffixes
-        Of the files that the command can write alone, without dots.
-    others
-        Flags that say which files are written to a folder, by their names; None where they were not given.
+        Suffixes, without dots, of the files that the command can write alone.
+    folder_flags
+        Flags that select files in a folder, by their names; None for a flag that was left out.
 
     Raises
     ------
     InputError
-        `bad-setting`: the command writes no such file; `flags-exclude`: one of the `others` was given for a file;
+        `bad-setting`: the command writes no such file; `flags-exclude`: one of the `folder_flags` stands beside a file;
         `already-there`.
     FileError
         `file-unwritable`.
@@ -104,37 +103,37 @@ def one_file(output: str | None, suffixes: Iterable[str], force: bool, **others:
             "bad-setting",
             name="-o",
             found=repr(output),
-            expected=" or ".join(["a folder", *(f".{one}" for one in suffixes)]),
-            suggestion=f"such a place; the name of a folder with a dot ends in a slash: {output}/",
+            expected=" or ".join(["a folder", *(f".{suffix}" for suffix in suffixes)]),
+            suggestion=f"such a path; end the name of a folder in a slash if it has a dot: {output}/",
         )
-    for flag in (flag for flag, given in others.items() if given is not None):
+    for flag in (flag for flag, value in folder_flags.items() if value is not None):
         raise InputError(
             "flags-exclude",
             flag=f"-o {output}",
             other=f"--{flag}",
-            reason="one file is written, and its suffix says which",
-            cure=f"name a folder with `-o`, or leave `--{flag}` out",
+            reason="`-o` names one file, and its suffix selects the format",
+            cure=f"name a folder with `-o`, or leave out `--{flag}`",
         )
-    taken([place], force)
+    refuse_existing([place], force)
     return check_place(ensure_folder(place.parent) / place.name)
 
 
-def own_file(output: str | None, usual: str, suffixes: Iterable[str], force: bool) -> Path:
-    """The place of the one file that a command writes; `usual` is its name where only a folder is named.
+def own_file(output: str | None, default: str, suffixes: Iterable[str], force: bool) -> Path:
+    """Return the path of the only file of a command; `default` is its name where `-o` names only a folder.
 
     Raises
     ------
     InputError, FileError
-        As `one_file`.
+        See `one_file`.
     """
-    if found := one_file(output, suffixes, force):
-        return found
-    place = Path(output or ".", usual)
+    if named := one_file(output, suffixes, force):
+        return named
+    place = Path(output or ".", default)
     if output is not None:
-        taken([place], force)
+        refuse_existing([place], force)
     elif not force:
-        names = (place.with_stem(f"{place.stem}-{number}") for number in count(2))
-        place = next(one for one in chain([place], names) if not os.path.exists(one))
+        alternatives = (place.with_stem(f"{place.stem}-{number}") for number in count(2))
+        place = next(path for path in chain([place], alternatives) if not os.path.exists(path))
     return check_place(ensure_folder(place.parent) / place.name)
 
 
@@ -142,16 +141,16 @@ def own_file(output: str | None, usual: str, suffixes: Iterable[str], force: boo
 def own_folder(
     output: str | None, force: bool = False, joins: Callable[[Path], bool] = lambda _: False
 ) -> Iterator[Path]:
-    """A folder for the results of one run, held for it.
+    """Yield a folder for the results of one run, locked for it.
 
     Parameters
     ----------
     output
-        What was named with `-o`.
+        The value of `-o`.
     force
-        Whether results that are there may be replaced.
+        Whether existing results may be replaced.
     joins
-        Whether the results of a folder are of the same run, so that others may join them.
+        A function that tells whether a folder has results of the same run, so that more files may join them.
 
     Raises
     ------
@@ -161,7 +160,7 @@ def own_folder(
         `folder-in-use`: another process writes there.
     """
     for number in count(1):
-        place = Path(output or (USUAL if number == 1 else f"{USUAL}-{number}"))
+        place = Path(output or (DEFAULT if number == 1 else f"{DEFAULT}-{number}"))
         with ExitStack() as stack:
             try:
                 folder = stack.enter_context(held_folder(place))
@@ -169,20 +168,20 @@ def own_folder(
                 if output is not None or error.code != "folder-in-use":
                     raise
                 continue
-            there = [] if joins(folder) else present(folder)
+            existing = [] if joins(folder) else present(folder)
             if output is not None:
-                taken(there, force)
-            if output is not None or force or not there:
+                refuse_existing(existing, force)
+            if output is not None or force or not existing:
                 yield folder
                 return
 
 
-def said(place: Path) -> str:
-    """Where the files are, for the last line of a command."""
+def location(place: Path) -> str:
+    """Describe the place of the files, for the last line of a command."""
     return f"files in {place}" if place.is_dir() else str(place)
 
 
 def present(folder: Path) -> list[Path]:
-    """What a folder has of another run."""
-    left = folder / resuming.NAME
-    return [*([left] if left.exists() else []), *results.present(folder)]
+    """Return the files of another run in a folder: its checkpoint and its results."""
+    checkpoint = folder / resume.NAME
+    return [*([checkpoint] if checkpoint.exists() else []), *results.present(folder)]

@@ -19,15 +19,15 @@ from niwaki.errors import InputError
 from niwaki.errors.folders import held_folder
 from niwaki.errors.schema import fitted
 from niwaki.shell import (
-    asking,
     controls,
     folders,
-    held,
-    picking,
+    formats,
+    origin,
     pictures,
-    resuming,
+    request,
+    resume,
+    selection,
     settings,
-    writing,
 )
 from niwaki.shell.app import Threads, app, counted
 from niwaki.shell.clock import Clock
@@ -39,148 +39,150 @@ from niwaki.targets.asks import DRAWN
 @settings.with_settings
 def grow(
     context: typer.Context,
-    what: resuming.What,
-    wish: controls.Wish,
-    how: asking.How,
-    origin: held.Flags,
-    out: folders.Out,
-    flags: writing.Flags,
-    drawn: pictures.Pictures,
+    source: resume.Source,
+    options: controls.Options,
+    search_flags: request.SearchFlags,
+    origin_flags: origin.Flags,
+    out: folders.Destination,
+    flags: formats.Flags,
+    images: pictures.Pictures,
     threads: Threads = None,
     *,
-    given: Annotated[
+    method_settings: Annotated[
         dict[str, Any],
         settings.of_methods(
             *settings.METHODS.values(),
             power="16, with absolute weights 1",
-            particles="the model's own, or 300; of improve a third",
+            particles="the model's own, or 300; a third of it for improve",
         ),
     ],
 ) -> None:
-    """Grow MODEL into its target; writes best.glb (best.svg of a drawing), best.png, sheet.png and run.json."""
+    """Grow MODEL into its target. Writes best.glb (best.svg for a drawing), best.png, sheet.png and run.json."""
     clock = Clock()
-    if what.resume is not None:
-        search, found, wanted, checkpoint = resuming.left(context, what.resume, "grow", Wanted.of_data)
-        with held_folder(what.resume) as folder:
-            result = _searched(search, found, threads, checkpoint, clock)
-            _end(result, found, folder, wanted, out, checkpoint, clock)
+    if source.resume is not None:
+        search, reference, contents, stored = resume.stopped_search(
+            context, source.resume, "grow", Contents.of_data
+        )
+        with held_folder(source.resume) as folder:
+            result = _run(search, reference, threads, stored, clock)
+            _end(result, reference, folder, contents, out, stored, clock)
         return
     with clock.part("compile"):
-        found, arguments = resuming.model_of(context, what)
-        found.model.program()
-    alone = out.alone(writing.ALONE, **flags.of_folders)
-    patterns, values = held.read(origin)
-    onto = held.Origin.of_flags(origin, patterns)
-    asks = controls.asked(wish, found)
-    style = found.style or ("ink" if any(sketch in DRAWN for sketch, _ in asks) else None)
-    files = writing.Files.of_flags(flags, style, alone)
+        reference, arguments = resume.model_of(context, source)
+        reference.model.program()
+    single_file = out.single_file(formats.SINGLE_FILES, **flags.of_folders)
+    patterns, values = origin.read(origin_flags)
+    earlier = origin.Origin.of_flags(origin_flags, patterns)
+    asks = controls.terms(options, reference)
+    style = reference.style or ("ink" if any(sketch in DRAWN for sketch, _ in asks) else None)
+    files = formats.Files.of_flags(flags, style, single_file)
     with clock.part("target"):
-        search = asking.searched(
-            found, asks, how, given, arguments, {**values, **(onto.held if onto else {})} or None
-        )
-    picking.exported(flags.export, how.runs if given["diverse"] is None else given["diverse"])
-    wanted = Wanted(files, drawn, flags.export, None if onto is None else onto.data())
-    # Before the search: that a folder cannot be written to must not be the news at its end.
-    with out.folder(alone) as folder:
+        hold = {**values, **(earlier.held if earlier else {})}
+        search = request.search_of(reference, asks, search_flags, method_settings, arguments, hold or None)
+    diverse = method_settings["diverse"]
+    selection.exported(flags.export, search_flags.runs if diverse is None else diverse)
+    contents = Contents(files, images, flags.export, None if earlier is None else earlier.data())
+    # The folder comes before the search: a search must not end with a folder that cannot be written to.
+    with out.folder(single_file) as folder:
         if folder is not None:
-            # Of a search that failed here.
+            # An earlier search in this folder may have failed.
             (folder / pictures.IMPOSSIBLE).unlink(missing_ok=True)
-        with _shown(search, folder if drawn.wanted and style is None else None, drawn.quick):
-            kept: nw.Checkpoint | None = None
-            if onto is not None and onto.reroll:
+        with _draw_impossible(search, folder if images.wanted and style is None else None, images.quick):
+            checkpoint: nw.Checkpoint | None = None
+            if earlier is not None and earlier.reroll:
                 with clock.part("search"):
-                    result = onto.rerolled(search, given["particles"], threads)
+                    result = earlier.reroll_parts(search, method_settings["particles"], threads)
             else:
                 if folder is not None:
-                    kept = resuming.begun(folder, "grow", found, **asdict(wanted))
-                result = _searched(search, found, threads, kept, clock)
-        _end(result, found, folder, wanted, out, kept, clock, alone)
+                    checkpoint = resume.new_checkpoint(folder, "grow", reference, **asdict(contents))
+                result = _run(search, reference, threads, checkpoint, clock)
+        _end(result, reference, folder, contents, out, checkpoint, clock, single_file)
 
 
-def _searched(
+def _run(
     search: nw.Search,
-    found: shell.references.ModelReference,
+    reference: shell.references.ModelReference,
     threads: int | None,
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
 ) -> nw.Result:
-    """Carry it out, with a line about its progress."""
+    """Run the search, with a line about its progress."""
     with clock.part("search"):
-        with progress_line(found.reference) as progress, resuming.told(checkpoint, "grow"):
+        with progress_line(reference.name) as progress, resume.report_interrupt(checkpoint, "grow"):
             return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
 @contextmanager
-def _shown(search: nw.Search, folder: Path | None, quick: bool) -> Iterator[None]:
-    """Where every run is impossible, a picture in the folder shows why."""
+def _draw_impossible(search: nw.Search, folder: Path | None, quick: bool) -> Iterator[None]:
+    """Draw a picture into the folder that shows why every run is impossible."""
     try:
         yield
     except InputError as error:
         if error.code == "everything-impossible" and folder is not None:
-            if said := pictures.impossible(search, folder, quick):
-                print(said, file=sys.stderr)
+            if line := pictures.impossible(search, folder, quick):
+                print(line, file=sys.stderr)
         raise
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What to write of a result, kept in a checkpoint.
+class Contents:
+    """The contents of a folder of results, also stored in a checkpoint.
 
     Attributes
     ----------
     files
-        The files of the best, and of those that are exported.
+        The files of the best result and of exported results.
     drawn
-        Which pictures are drawn.
+        The pictures.
     export
-        Numbers of results, as typed.
+        Numbers of results, as on the command line.
     origin
-        What the search goes on from.
+        The earlier result from which the search starts.
     """
 
-    files: writing.Files
+    files: formats.Files
     drawn: pictures.Pictures
     export: str | None
     origin: dict[str, Any] | None
 
     @classmethod
-    def of_data(cls, data: dict[str, Any]) -> Wanted:
-        """Read from JSON what `dataclasses.asdict` gave."""
-        writing.Files.of_data(data["files"])
-        wanted: Wanted = fitted(data, cls)
-        return wanted
+    def of_data(cls, data: dict[str, Any]) -> Contents:
+        """Read the contents from the data of `dataclasses.asdict`."""
+        formats.Files.of_data(data["files"])
+        contents: Contents = fitted(data, cls)
+        return contents
 
 
 def _end(
     result: nw.Result,
-    found: shell.references.ModelReference,
+    reference: shell.references.ModelReference,
     folder: Path | None,
-    wanted: Wanted,
-    out: folders.Out,
+    contents: Contents,
+    out: folders.Destination,
     checkpoint: nw.Checkpoint | None,
     clock: Clock,
-    alone: Path | None = None,
+    single_file: Path | None = None,
 ) -> None:
-    """Write the files, where there is a folder for them, or the one `alone`, and say what was found."""
-    place = alone or folder
+    """Write the files to the folder or the single file, if there is one, and print a summary."""
+    place = single_file or folder
     if place is not None:
-        data = shell.run_files.written(result, found)
-        if wanted.origin is not None:
-            data["origin"] = wanted.origin
-        if alone is not None:
+        data = shell.run_files.written(result, reference)
+        if contents.origin is not None:
+            data["origin"] = contents.origin
+        if single_file is not None:
             with clock.part("files"):
-                drawn = pictures.Pictures(quick=wanted.drawn.quick)
-                shell.results.write_one(alone, data, result.best, wanted.files, drawn)
+                images = pictures.Pictures(quick=contents.drawn.quick)
+                shell.results.write_one(single_file, data, result.best, contents.files, images)
         else:
-            with resuming.ended(result, checkpoint):
-                _write(place, result, data, wanted, clock)
+            with resume.remove_when_done(result, checkpoint):
+                _write(place, result, data, contents, clock)
     if out.as_json:
         print(json.dumps({"runs": [shell.run_files.numbers(sample) for sample in result]}))
     elif place is not None:
         _summary(result, place, clock)
     if result.interrupted:
         if folder is not None:
-            print(resuming.interrupted(folder, "grow"), file=out.stream)
+            print(resume.interrupt_message(folder, "grow"), file=out.stream)
         raise typer.Exit(130)
 
 
@@ -188,27 +190,27 @@ def _write(
     folder: Path,
     result: nw.Result,
     data: dict[str, Any],
-    wanted: Wanted,
+    contents: Contents,
     clock: Clock,
 ) -> None:
-    """Write run.json first: the other files can be created again from it."""
+    """Write run.json first, from which the other files can be written again, then those files."""
     best: nw.Sample = result.best
     if best.primitives == 0:
-        with shell.results.written(folder, data, ()):
+        with shell.results.results_folder(folder, data, ()):
             print(
                 "warning: the best run emitted nothing, so there is no mesh and no picture", file=sys.stderr
             )
         return
-    files, drawn = wanted.files, wanted.drawn
-    numbers = picking.exported(wanted.export, len(result))
-    picked = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
-    names = [*files.names(), *(name for number, _ in picked for name in files.names(number))]
-    with shell.results.written(folder, data, [*names, *drawn.names(result, files.style)]):
+    files, images = contents.files, contents.drawn
+    numbers = selection.exported(contents.export, len(result))
+    selected = [(number, result[number - 1]) for number in numbers if result[number - 1].primitives]
+    names = [*files.names(), *(name for number, _ in selected for name in files.names(number))]
+    with shell.results.results_folder(folder, data, [*names, *images.names(result, files.style)]):
         with clock.part("pictures"):
-            drawn.write(result, folder, files.style)
+            images.write(result, folder, files.style)
         with clock.part("files"):
             files.write(best, folder)
-            for number, sample in picked:
+            for number, sample in selected:
                 files.write(sample, folder, number)
 
 
@@ -219,5 +221,5 @@ def _summary(result: nw.Result, place: Path, clock: Clock) -> None:
         print(losses)
     for number, sample in enumerate(result, 1):
         print(f"{results.caption(sample, number)}   {counted(sample.primitives, 'primitive')}")
-    print(f"best: #{result.samples.index(result.best) + 1}; {folders.said(place)}")
+    print(f"best: #{result.samples.index(result.best) + 1}; {folders.location(place)}")
     print(clock)

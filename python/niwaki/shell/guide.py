@@ -1,4 +1,4 @@
-"""`niwaki guide`: train a guide for a model, and show what one sees."""
+"""`niwaki guide`: training of a guide for a model, and a report about a guide."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from niwaki.methods import Guide
 from niwaki.search.checkpoint import begun_seed
 from niwaki.shell import controls, folders, settings
 from niwaki.shell.app import ModelName, Seed, Threads, app
-from niwaki.shell.progress import said
+from niwaki.shell.progress import status_line
 
 group = typer.Typer(
-    help="Train guides, and show what they see.",
+    help="Train a guide for a model, or show what a guide sees.",
     no_args_is_help=True,
     rich_markup_mode=None,
 )
 app.add_typer(group, name="guide")
 
-#: The last line of a training that was stopped.
-INTERRUPTED = "interrupted; go on with the same command, and --resume {} in place of -o"
+#: The last line of a stopped training.
+INTERRUPTED = "interrupted; resume with the same command, and --resume {} in place of -o"
 
 
 @group.command()
@@ -43,7 +43,7 @@ def train(
         typer.Option(
             "--targets",
             metavar="FOLDER|NAME",
-            help="A folder of drawings or of meshes; or a collection of our drawings, such as scribbles.",
+            help="A folder of drawings or of meshes, or a collection of the package's drawings, such as scribbles.",
         ),
     ],
     output: Annotated[str | None, folders.output("MODEL.guide")] = None,
@@ -51,7 +51,9 @@ def train(
     searches: Annotated[
         str | None,
         typer.Option(
-            "--searches", metavar="LIST", help="How many for each round, with commas. Default: 150,400."
+            "--searches",
+            metavar="LIST",
+            help="Number of searches for each round, with commas. Default: 150,400.",
         ),
     ] = None,
     objective: Annotated[
@@ -59,38 +61,38 @@ def train(
         typer.Option(
             "--objective",
             metavar="examples|bound|particles",
-            help="Learn from the best runs of searches, or from runs of its own by a bound of the evidence.",
+            help="Examples: learn from the best runs of searches. Bound, particles: maximise a bound of the evidence.",
         ),
     ] = "examples",
     start: Annotated[
-        str | None, typer.Option("--start", metavar="FILE", help="A guide to go on with.")
+        str | None, typer.Option("--start", metavar="FILE", help="A guide from which the training starts.")
     ] = None,
     resume: Annotated[
         Path | None,
         typer.Option(
             "--resume",
             metavar="PATH",
-            help="Go on with what was stopped or killed: the training of this file, in place of -o.",
+            help="Resume the stopped or killed training of this file. It stands in place of -o.",
         ),
     ] = None,
     mirror: Annotated[
-        bool, typer.Option("--mirror/--no-mirror", help="Learn from mirrored drawings, too.")
+        bool, typer.Option("--mirror/--no-mirror", help="Also learn from mirrored drawings.")
     ] = True,
     searches_ahead: Annotated[
         int | None,
         typer.Option(
             "--searches-ahead",
             metavar="N",
-            help="Then teach it to look ahead, by so many searches, such as 2000.",
+            help="Then train the guide's look-ahead with this number of searches, such as 2000.",
         ),
     ] = None,
     *,
-    asked: Annotated[dict[str, Any], controls.flags("window", "pixels", "voxel")],
+    options: Annotated[dict[str, Any], controls.flags("window", "pixels", "voxel")],
     seed: Seed = None,
     threads: Threads = None,
 ) -> None:
-    """Train a guide for MODEL: rounds of searches, each of which learns from the best runs of the last."""
-    found = shell.references.find(model)
+    """Train a guide for MODEL in rounds of searches; each round learns from the best runs of the last."""
+    reference = shell.references.find(model)
     counts = None if searches is None else settings.numbers("searches", searches, int)
     training = guides.Training() if objective == "examples" else guides.Training.bound(objective=objective)
     if resume is not None and (output is not None or force):
@@ -98,22 +100,22 @@ def train(
             "flags-exclude",
             flag="--resume",
             other="-o" if output is not None else "--force",
-            reason="the training goes on in its own file",
-            cure="give only one of them",
+            reason="the file of --resume is the output",
+            cure="use only one of the two",
         )
-    file = resume or folders.own_file(output, f"{found.model.name}.guide", ("guide",), force)
+    file = resume or folders.own_file(output, f"{reference.model.name}.guide", ("guide",), force)
     place = check_place(file.with_name(f"{file.name}.checkpoint"))
     if resume is None:
-        folders.taken([place], force)
+        folders.refuse_existing([place], force)
         place.unlink(missing_ok=True)
     elif not place.is_file():
         raise InputError("no-checkpoint", path=place)
     seed = search.fresh(begun_seed(seed, place))
-    goals = _goals(found, places, controls.read(asked), mirror)
-    began = time.perf_counter()
-    with _shown(found.reference) as progress, _told(place, file):
+    goals = _goals(reference, places, controls.read(options), mirror)
+    start_time = time.perf_counter()
+    with _training_line(reference.name) as progress, _report_interrupt(place, file):
         guide = nw.train_guide(
-            found.model,
+            reference.model,
             goals.learned,
             goals.score,
             goals.args,
@@ -129,7 +131,7 @@ def train(
     if searches_ahead is not None and not guide.report.get("interrupted"):
         guide = guides.train_look_ahead(
             guide,
-            found.model,
+            reference.model,
             goals.learned,
             goals.score,
             goals.args,
@@ -139,17 +141,17 @@ def train(
             threads=threads,
         )
     guide.save(file)
-    seconds = time.perf_counter() - began
+    seconds = time.perf_counter() - start_time
     print(f"{file}: {guide!r}, {len(guide.data) / 1000:.0f} kB, {seconds:.0f} s, seed {seed}")
-    if any(one.get("interrupted") for one in (guide.report, guide.report.get("look_ahead", {}))):
+    if any(report.get("interrupted") for report in (guide.report, guide.report.get("look_ahead", {}))):
         print(INTERRUPTED.format(file))
         raise typer.Exit(130)
     place.unlink(missing_ok=True)
 
 
 @contextmanager
-def _told(checkpoint: Path, file: Path) -> Iterator[None]:
-    """Where Ctrl-C comes before there is a guide, the last line says how to go on."""
+def _report_interrupt(checkpoint: Path, file: Path) -> Iterator[None]:
+    """Print how to resume when Ctrl-C comes before there is a guide."""
     try:
         yield
     except KeyboardInterrupt:
@@ -160,17 +162,17 @@ def _told(checkpoint: Path, file: Path) -> Iterator[None]:
 
 
 @group.command()
-def show(file: Annotated[str, typer.Argument(metavar="FILE", help="A guide's file.")]) -> None:
-    """Print what each choice of a guide sees, and how well the guide did."""
+def show(file: Annotated[str, typer.Argument(metavar="FILE", help="The file of a guide.")]) -> None:
+    """Print the inputs of each choice of a guide, and how well the guide did in training."""
     guide = Guide.load(file)
     print(guide.show())
-    for one in guide.report.get("rounds", ()):
-        print(_line(one["number"], one["traces"], one.get("bounds", ()), one.get("summary", {})))
+    for row in guide.report.get("rounds", ()):
+        print(_line(row["number"], row["traces"], row.get("bounds", ()), row.get("summary", {})))
 
 
 @dataclass(frozen=True)
 class _Goals:
-    """What to learn from, and what judges."""
+    """Targets for training, and targets that judge the guide."""
 
     learned: Sequence[Any]
     held_out: Sequence[Any]
@@ -179,41 +181,43 @@ class _Goals:
 
 
 def _goals(
-    found: shell.references.ModelReference,
+    reference: shell.references.ModelReference,
     places: str,
-    asked: dict[str, Any],
+    options: dict[str, Any],
     mirror: bool,
 ) -> _Goals:
-    """The targets of a folder or a collection; each eighth judges."""
-    page = asked["window"] or (None if found.entry is None else found.entry.window)
+    """Return the targets of a folder or a collection; every eighth target judges the guide."""
+    page = options["window"] or (None if reference.entry is None else reference.entry.window)
     if page is not None:
-        drawings = _drawings(places, asked["pixels"] or targets.drawings.SIDE)
-        learned = [one for i, one in enumerate(drawings) if i % guides.EVERY]
+        drawings = _drawings(places, options["pixels"] or targets.drawings.SIDE)
+        learned = [drawing for i, drawing in enumerate(drawings) if i % guides.EVERY]
         if mirror:
-            learned += [one.mirrored() for one in learned]
+            learned += [drawing.mirrored() for drawing in learned]
         return _Goals(
             learned,
             drawings[:: guides.EVERY],
-            lambda one: one.score(page),
-            (lambda one: one.place(page)) if found.follows else None,
+            lambda drawing: drawing.score(page),
+            (lambda drawing: drawing.place(page)) if reference.follows else None,
         )
     files = _files(places, targets.reading.FORMATS)
     meshes = [nw.Target.load(file) for file in files]
-    size = asked["voxel"] if asked["voxel"] is not None or found.entry is None else found.entry.voxel
+    size = (
+        options["voxel"] if options["voxel"] is not None or reference.entry is None else reference.entry.voxel
+    )
     return _Goals(
-        [one for i, one in enumerate(meshes) if i % guides.EVERY],
+        [mesh for i, mesh in enumerate(meshes) if i % guides.EVERY],
         meshes[:: guides.EVERY],
-        lambda one: nw.no_self_intersection() * nw.match_volume(one, size),
+        lambda mesh: nw.no_self_intersection() * nw.match_volume(mesh, size),
     )
 
 
 def _drawings(places: str, pixels: int) -> list[targets.drawing.Drawing]:
-    """The drawings of a folder, or those of a collection that are for training."""
+    """Return the drawings of a folder, or the drawings for training of a collection."""
     if places in targets.drawings.COLLECTIONS and not Path(places).exists():
         names = targets.drawings.names(places, "training")
         if not names:
-            known = {one.partition("/")[0] for one in targets.drawings.names(use="training")}
-            reason = f"all of `{places}` are held out, so that guides can be judged by them"
+            known = {name.partition("/")[0] for name in targets.drawings.names(use="training")}
+            reason = f"all drawings of `{places}` are held out to judge guides"
             raise InputError(
                 "guide-targets", name=places, reason=reason, cure=f"`--targets {', '.join(sorted(known))}`"
             )
@@ -222,13 +226,13 @@ def _drawings(places: str, pixels: int) -> list[targets.drawing.Drawing]:
 
 
 def _files(places: str, formats: Sequence[str]) -> list[Path]:
-    """The files of a folder that have one of these formats, by name; at least two."""
+    """Return the files of a folder in these formats, sorted by name; at least two."""
     folder = Path(places)
     known = ", ".join(formats)
     if not folder.is_dir():
-        reason = f"there is no folder {folder.absolute()}"
+        reason = f"the folder {folder.absolute()} does not exist"
         raise InputError("guide-targets", name=places, reason=reason, cure=f"a folder of files {known}")
-    files = sorted(one for one in folder.iterdir() if one.suffix.lower() in formats)
+    files = sorted(file for file in folder.iterdir() if file.suffix.lower() in formats)
     if len(files) < 2:
         reason = f"{len(files)} file{'' if len(files) == 1 else 's'} of the formats {known}"
         raise InputError("guide-targets", name=places, reason=reason, cure="a folder of at least two targets")
@@ -236,21 +240,23 @@ def _files(places: str, formats: Sequence[str]) -> list[Path]:
 
 
 def _line(number: int, traces: int, bounds: Sequence[Any], summary: dict[str, float]) -> str:
-    what = f"a bound of {max(one[2] for one in bounds):.1f} nats" if bounds else f"{traces} traces"
-    name = "the guide that was given" if number < 0 else f"round {number + 1}: {what}"
+    basis = f"a bound of {max(bound[2] for bound in bounds):.1f} nats" if bounds else f"{traces} traces"
+    name = "the guide of --start" if number < 0 else f"round {number + 1}: {basis}"
     return f"{name}; held out: {sentence(summary) or 'nothing'}"
 
 
 @contextmanager
-def _shown(name: str) -> Iterator[Callable[[guides.Round], None]]:
-    """A line for each round on stderr, and progress within a round."""
-    with said(f"training {name}") as tell:
+def _training_line(name: str) -> Iterator[Callable[[guides.Round], None]]:
+    """Print a line for each round on stderr, and show progress within a round."""
+    with status_line(f"training {name}") as update:
 
         def show(now: guides.Round) -> None:
             if now.is_judged:
                 print(_line(now.number, now.traces, now.bounds, now.summary()), file=sys.stderr)
                 return
-            what = f"step {now.step} of {now.steps}" if now.steps else f"{now.traces} traces of {now.wanted}"
-            tell(f"round {now.number + 1} of {now.rounds}, {what}")
+            progress = (
+                f"step {now.step} of {now.steps}" if now.steps else f"{now.traces} traces of {now.wanted}"
+            )
+            update(f"round {now.number + 1} of {now.rounds}, {progress}")
 
         yield show

@@ -23,28 +23,28 @@ __all__ = ["app", "main"]
 
 
 def main() -> NoReturn:
-    """Run the command line; errors that we raise on purpose have no traceback."""
-    _open_closed()
+    """Run the command line; Niwaki's own errors have no traceback."""
+    _reopen_closed_streams()
     Clock.of_process = True
-    # What is loaded stays: looking for garbage among it takes a tenth of the time to load it.
+    # Loaded modules stay: looking for garbage among them takes a tenth of the time to load them.
     gc.set_threshold(50_000)
     for stream in (sys.stdout, sys.stderr):
         make_lenient(stream)
-    warnings.showwarning = _warned  # type: ignore[assignment]
+    warnings.showwarning = _show_warning  # type: ignore[assignment]
     try:
-        code = _ended()
+        exit_code = _run()
         sys.stdout.flush()
     except OSError as error:
-        code = _refused(error)
-    raise SystemExit(code)
+        exit_code = _report_refusal(error)
+    raise SystemExit(exit_code)
 
 
-def _ended() -> Any:
-    """Run the command line; its exit code."""
+def _run() -> Any:
+    """Run the command line and return its exit code."""
     try:
         app(standalone_mode=True)
-    except SystemExit as ended:
-        return ended.code
+    except SystemExit as error:
+        return error.code
     except NiwakiError as error:
         _say(str(error))
         return 2
@@ -54,13 +54,13 @@ def _ended() -> Any:
     return 0
 
 
-def _refused(error: OSError) -> int:
-    """Say what the system refused: to write to stdout, or what no command has turned into a message of its own."""
+def _report_refusal(error: OSError) -> int:
+    """Print an error of the system that no command has turned into a message, such as a stdout that is closed."""
     place = error.filename or "standard output"
     try:
         sys.stdout.flush()
     except OSError:
-        # What is left of the output would be tried once more, and fail, at the end of Python.
+        # Python would try to write the rest of the output at its end, and fail.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if error.errno != errno.EPIPE:
         _say(str(FileError("system-refused", place, reason=error.strerror or str(error))))
@@ -73,20 +73,20 @@ def _say(text: str) -> None:
 
 
 def make_lenient(stream: Any) -> None:
-    r"""Let a stream write characters that its encoding lacks as escapes, such as `\u2713`.
+    r"""Make a stream write characters that its encoding lacks as escapes, such as `\u2713`.
 
-    A redirect on Windows is in cp1252, a pipe in the C locale in ASCII; what was computed must not end in an error.
+    A redirect on Windows is in cp1252, a pipe in the C locale in ASCII; printing a result must not end in an error.
     """
     if isinstance(stream, io.TextIOWrapper) and stream.errors in ("strict", "surrogateescape"):
         stream.reconfigure(errors="backslashreplace")
 
 
-def _warned(message: Warning | str, category: type[Warning], *_: Any) -> None:
+def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
     _say(f"warning: {message}")
 
 
-def _open_closed() -> None:
-    """Streams that were closed when the program began lead nowhere, and no file gets their numbers."""
+def _reopen_closed_streams() -> None:
+    """Open closed standard streams on the null device, so that no file gets their numbers."""
     for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
         if getattr(sys, name) is None:
             os.dup2(os.open(os.devnull, os.O_RDWR), number)

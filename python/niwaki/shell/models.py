@@ -1,4 +1,4 @@
-"""`niwaki models`: the gallery, a line each, with the command that runs it."""
+"""`niwaki models`: the gallery, one line for each model, with the command that runs it."""
 
 from __future__ import annotations
 
@@ -14,6 +14,6 @@ def models() -> None:
         target = entry.target_name or entry.drawing_name or "-"
         print(f"{entry.name:<16} {'grow' if grows else 'sample':<7} {target:<16} {entry.title}")
     print(
-        "\nniwaki grow NAME grows a model into its target; niwaki sample NAME samples one that has none, and "
-        "niwaki grow NAME --target FILE grows it into yours, where it has shapes"
+        "\nniwaki grow NAME grows a model into its target; niwaki sample NAME samples a model without a target. "
+        "niwaki grow NAME --target FILE grows a model with shapes into your own mesh."
     )

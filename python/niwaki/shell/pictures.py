@@ -1,4 +1,4 @@
-"""The pictures of a result: the best, a sheet of all, and what each image or shadow sketch sees."""
+"""The pictures of a result: the best run, a sheet of all runs, and the view of each image or shadow sketch."""
 
 from __future__ import annotations
 
@@ -16,62 +16,63 @@ from niwaki.words.measures import worn
 Quick = Annotated[
     bool,
     typer.Option(
-        "--quick", help="Small pictures with one ray for each pixel, in some hundredths of a second."
+        "--quick", help="Draw small pictures with one ray for each pixel, in some hundredths of a second."
     ),
 ]
 Wanted = Annotated[
-    bool, typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and what was matched.")
+    bool,
+    typer.Option("--picture/--no-picture", help="Draw best.png, sheet.png and the views that were matched."),
 ]
 
-#: A draft: pixels of the best, of a cell of the sheet, and of a panel's height.
+#: Sizes of a draft in pixels: the best, a cell of the sheet, and the height of a panel.
 DRAFT, CELL, PANEL = (320, 240), (240, 180), 180
 
 
-#: The picture of a run that breaks a constraint, and its colours: what breaks it, and the rest.
+#: The picture of a run that breaks a constraint, and the colours of the parts that break it and of the rest.
 IMPOSSIBLE = "impossible.png"
 RED, GREY = (0.80, 0.15, 0.12), (0.80, 0.79, 0.77)
 
 
 def impossible(search: nw.Search, folder: Path, quick: bool) -> str:
-    """Draw a run that breaks a constraint, with the parts that do in red; says what it shows, or nothing."""
-    found = collisions.example(search)
-    if found is None:
+    """Draw a run that breaks a constraint, with the colliding parts in red; return a line about it, or nothing."""
+    example = collisions.example(search)
+    if example is None:
         return ""
-    scene, broken = found
+    scene, broken = example
     parts = [
         (
-            one.address,
+            part.address,
             [
-                worn(shape, {"color": RED if one.address in broken else GREY}, over=True)
-                for shape in one.shapes
+                worn(shape, {"color": RED if part.address in broken else GREY}, over=True)
+                for shape in part.shapes
             ],
         )
-        for one in scene.parts
+        for part in scene.parts
     ]
     place = folder / IMPOSSIBLE
     draft: dict[str, Any] = {"size": DRAFT, "samples": 1} if quick else {"samples": 4}
     draw.picture.save_image(lambda: draw.picture.picture(draw.scene.Scene(parts), **draft), place)
     shown = ", ".join(f"`{address}`" for address in broken[:3])
     more = f" and {len(broken) - 3} more" if len(broken) > 3 else ""
-    return f"{place} shows such a run; in red what makes it impossible: {shown}{more}"
+    return f"{place} shows such a run; the parts in red make it impossible: {shown}{more}"
 
 
 @dataclass(frozen=True)
 class Pictures:
-    """Which pictures to draw, and whether as drafts."""
+    """Flags about pictures: whether to draw them, and whether as drafts."""
 
     wanted: Wanted = True
     quick: Quick = False
 
     def names(self, result: nw.Result, style: str | None) -> list[str]:
-        """The names of the files; one result has no sheet."""
+        """Return the names of the files; a single result has no sheet."""
         if not self.wanted:
             return []
         views = [f"{view.kind}.png" for view in result.score.views]
         return ["best.png", *(["sheet.png"] if len(result) > 1 else []), *views]
 
     def write(self, result: nw.Result, folder: Path, style: str | None) -> None:
-        """Draw them; the `style` is that of a drawing."""
+        """Draw the pictures; `style` is the drawing style, None for scenes in space."""
         names = self.names(result, style)
         if not names:
             return
@@ -89,7 +90,7 @@ class Pictures:
             targets.views.save_view(place, result.best.scene, view, **styled, **draft, **high)
 
     def best(self, sample: nw.Sample, place: Path, style: str | None) -> Path:
-        """Draw one run."""
+        """Draw a run."""
         settings: dict[str, Any] = {} if style is None else {"style": style, "size": (800, 800)}
         if self.quick:
             settings |= {"samples": 1, "size": DRAFT if style is None else (DRAFT[1], DRAFT[1])}

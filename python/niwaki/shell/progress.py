@@ -1,4 +1,4 @@
-"""How a search goes on, on stderr: a line that changes on a terminal, and elsewhere a line every few seconds."""
+"""Progress of a search on stderr: one changing line on a terminal, elsewhere a new line every few seconds."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from rich.console import Console
 
 from niwaki import batches, result
 
-#: Seconds between two lines where stderr is a file or a pipe: short runs say nothing, long ones show that they live.
+#: Seconds between two lines where stderr is a file or a pipe; a short run prints nothing.
 EVERY = 5.0
 
 
 @contextmanager
-def said(title: str, keeps: bool = True) -> Iterator[Callable[[str], None]]:
-    """Inside, a function that shows what it is given after the title; `keeps` where Ctrl-C keeps what there is."""
+def status_line(title: str, keeps_best: bool = True) -> Iterator[Callable[[str], None]]:
+    """Yield a function that shows a text after the title; `keeps_best` tells whether Ctrl-C keeps the best so far."""
     console = Console(stderr=True)
     if console.is_terminal:
-        end = "   (Ctrl-C keeps the best so far)" if keeps else ""
+        end = "   (Ctrl-C keeps the best so far)" if keeps_best else ""
         with console.status(title) as status:
             yield lambda text: status.update(f"{title}: {text}{end}")
         return
@@ -31,7 +31,7 @@ def said(title: str, keeps: bool = True) -> Iterator[Callable[[str], None]]:
         nonlocal last
         if time.monotonic() - last >= EVERY:
             last = time.monotonic()
-            # A search does not end because nobody can be told how far it is.
+            # A search does not end because its progress cannot be printed.
             with suppress(OSError):
                 print(f"{title}: {text}", file=sys.stderr, flush=True)
 
@@ -40,8 +40,8 @@ def said(title: str, keeps: bool = True) -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """Progress of `grow`."""
-    with said(f"growing {name}") as show:
+    """Show the progress of `grow`."""
+    with status_line(f"growing {name}") as show:
         yield lambda now: show(
             f"run {now.run + 1} of {now.runs}, step {now.done}, {now.ended} ended, best {_best(now)}"
         )
@@ -49,27 +49,27 @@ def progress_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
 
 @contextmanager
 def sampling_line(name: str, proposals: int) -> Iterator[Callable[[result.Progress], None]]:
-    """Progress of `sample`."""
-    with said(f"sampling {name}") as show:
+    """Show the progress of `sample`."""
+    with status_line(f"sampling {name}") as show:
         yield lambda now: show(f"{now.done} of {proposals} proposals, best {_best(now)}")
 
 
 @contextmanager
 def coloring_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
-    """Progress of `color`."""
-    with said(f"coloring {name}", keeps=False) as show:
+    """Show the progress of `color`."""
+    with status_line(f"coloring {name}", keeps_best=False) as show:
         yield lambda now: show(f"{now.done} proposals, best {_best(now)}")
 
 
 @contextmanager
 def batch_line(name: str) -> Iterator[Callable[[batches.Standing], None]]:
-    """Progress of `batch`, over all its workers."""
-    with said(f"batch {name}", keeps=False) as show:
+    """Show the progress of `batch`, over all its workers."""
+    with status_line(f"batch {name}", keeps_best=False) as show:
         yield lambda now: show(standing(now))
 
 
 def standing(now: batches.Standing) -> str:
-    """How far a batch is: searches, their rate, what they cost, and the time that is left."""
+    """Describe the progress of a batch: searches, their rate, processor time, and the time that is left."""
     faults = f", {now.faults} failed" if now.faults else ""
     left = "" if now.seconds_left is None else f", {duration(now.seconds_left)} left"
     return (
@@ -79,7 +79,7 @@ def standing(now: batches.Standing) -> str:
 
 
 def duration(seconds: float) -> str:
-    """Seconds as people say them: 43 s, 12 min, 3.4 h."""
+    """Format seconds in a unit of their size: 43 s, 12 min, 3.4 h."""
     if seconds < 120.0:
         return f"{seconds:.0f} s" if seconds >= 10.0 else f"{seconds:.1f} s"
     return f"{seconds / 60.0:.0f} min" if seconds < 7200.0 else f"{seconds / 3600.0:.1f} h"

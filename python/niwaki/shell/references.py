@@ -1,4 +1,4 @@
-"""Models by reference: a name of the gallery, or `file.py:function`."""
+"""References to models: a name of the gallery, or `file.py:function`."""
 
 from __future__ import annotations
 
@@ -19,44 +19,44 @@ from niwaki.targets.sketches import Ask
 
 @dataclass(frozen=True)
 class ModelReference:
-    """A model, and the reference to load it again.
+    """A model with the name by which it can be loaded again.
 
     Attributes
     ----------
-    reference : str
-        A gallery name, or `path:function` with the whole path.
+    name : str
+        A gallery name, or `path:function` with the absolute path.
     model : Model
         The model.
     entry : Entry or None
-        Its place in the gallery.
+        The model's entry in the gallery.
     file_hash : str or None
-        SHA-256 of the bytes of its file, which were run; None for the gallery's.
+        SHA-256 of the bytes of its file, which were run; None for a model of the gallery.
     """
 
-    reference: str
+    name: str
     model: Model[..., Any]
     entry: Entry | None = None
     file_hash: str | None = None
 
     def asked(self, options: Mapping[str, Any]) -> list[Ask]:
-        """What is asked by options (`niwaki.targets.asks`), or is usual where they match nothing."""
+        """Return the terms of the score for options (`niwaki.targets.asks`); without a match, the gallery's."""
         if self.entry is None:
-            return asks.asked(options, name=self.reference)
-        return asks.asked(options, self.entry.asks, self.entry.window, self.reference)
+            return asks.asked(options, name=self.name)
+        return asks.asked(options, self.entry.asks, self.entry.window, self.name)
 
     @property
     def style(self) -> str | None:
-        """The style of its drawings; None for models in space."""
+        """The drawing style of the model; None for models in space."""
         return None if self.entry is None else self.entry.draws
 
     @property
     def follows(self) -> bool:
-        """Whether the model starts where a drawing does: its parameters are x, y and ahead."""
+        """Whether the model starts where a drawing starts: it has the parameters x, y and ahead."""
         return set(self.model.core().parameters) >= {"x", "y", "ahead"}
 
-    def start(self, asked: Iterable[Ask]) -> dict[str, Any]:
-        """The arguments of a model that follows a drawing; none of another model."""
-        return asks.start(asked) if self.follows else {}
+    def start(self, terms: Iterable[Ask]) -> dict[str, Any]:
+        """Return the arguments of a model that follows a drawing; no arguments for any other model."""
+        return asks.start(terms) if self.follows else {}
 
 
 def find(reference: str) -> ModelReference:
@@ -66,10 +66,10 @@ def find(reference: str) -> ModelReference:
         place, colon, name = reference, ":", ""
     if colon and place.endswith(".py"):
         return _in_file(reference, Path(place), name)
-    known = entry(reference)
-    if known is not None:
-        return ModelReference(known.name, known.model, known)
-    names = [one.name for one in entries()]
+    gallery_entry = entry(reference)
+    if gallery_entry is not None:
+        return ModelReference(gallery_entry.name, gallery_entry.model, gallery_entry)
+    names = [listed.name for listed in entries()]
     near = get_close_matches(reference, names, n=1)
     reason = f"did you mean `{near[0]}`?" if near else f"the gallery has {', '.join(names)}"
     raise InputError("unknown-model", name=reference, reason=reason)
@@ -81,15 +81,15 @@ def _in_file(reference: str, place: Path, name: str) -> ModelReference:
     module, digest = run_file(place.resolve())
     space = vars(module)
     models = {key: value for key, value in space.items() if isinstance(value, Model)}
-    # Beside a model of the file, one that it imports from elsewhere is not the one that is meant.
-    own = [key for key, value in models.items() if value.function.__module__ == module.__name__]
-    for keys in (own, list(models)):
+    # A file may import models from elsewhere; its own models go first.
+    local = [key for key, value in models.items() if value.function.__module__ == module.__name__]
+    for keys in (local, list(models)):
         if not name and len(keys) == 1:
             name = keys[0]
-    found = space.get(name)
-    if isinstance(found, FunctionType):
-        found = Model(found)
-    if not isinstance(found, Model):
-        here = ", ".join(models) or "no function marked with `@model`"
-        raise InputError("unknown-model", name=reference, reason=f"{place} defines {here}")
-    return ModelReference(f"{place.resolve()}:{name}", found, file_hash=digest)
+    function = space.get(name)
+    if isinstance(function, FunctionType):
+        function = Model(function)
+    if not isinstance(function, Model):
+        models_here = ", ".join(models) or "no function marked with `@model`"
+        raise InputError("unknown-model", name=reference, reason=f"{place} defines {models_here}")
+    return ModelReference(f"{place.resolve()}:{name}", function, file_hash=digest)

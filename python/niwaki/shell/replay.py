@@ -1,4 +1,4 @@
-"""`niwaki replay`: the best of a search once more, byte for byte."""
+"""`niwaki replay`: a stored result again, byte for byte."""
 
 from __future__ import annotations
 
@@ -10,97 +10,97 @@ import typer
 from niwaki import shell
 from niwaki.errors import InputError
 from niwaki.result import Result, Sample
-from niwaki.shell import folders, picking, pictures, settings, writing
+from niwaki.shell import folders, formats, pictures, selection, settings
 from niwaki.shell.app import app
 
 
 @app.command()
 @settings.with_settings
 def replay(
-    run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="The file that `niwaki grow` wrote.")],
-    number: picking.RunNumber = None,
+    run: Annotated[Path, typer.Argument(metavar="RUN.JSON", help="A run.json of `niwaki grow` or `sample`.")],
+    number: selection.RunNumber = None,
     model: Annotated[
         Path | None,
         typer.Option(
-            "--model", metavar="FILE", help="The Python file with the model's host functions; it is run."
+            "--model", metavar="FILE", help="The Python file with the model's host functions. It is run."
         ),
     ] = None,
     trust: Annotated[
         bool,
         typer.Option(
             "--trust",
-            help="Run the Python files that results name, where unchanged: for models with host functions.",
+            help="Run Python files that results name, if they are unchanged. Models with host functions need it.",
         ),
     ] = False,
     anyway: Annotated[
         bool,
         typer.Option(
             "--anyway",
-            help="Run the model's file as it is now: keep the choices that still fit, say which do not, draw new ones.",
+            help="Run the model's file as it is now: keep choices that still fit, list the others, draw new ones.",
         ),
     ] = False,
     *,
     output: folders.Output = None,
     force: folders.Force = False,
-    flags: writing.Flags,
-    drawn: pictures.Pictures,
+    flags: formats.Flags,
+    images: pictures.Pictures,
 ) -> None:
-    """Write the best result of a search again, byte for byte, in any format.
+    """Write a stored result again, byte for byte, in any format.
 
-    The model is in RUN.JSON, and no Python file is run, unless the model calls host functions: see --trust.
+    RUN.JSON contains the model. No Python file is run, unless the model calls host functions: see --trust.
     """
     data = shell.run_files.load(run)
-    place, count = picking.place(number, len(data["runs"]), data["best"]), len(data["runs"])
-    alone = folders.one_file(output, writing.ALONE, force, **flags.of_folders)
+    place, count = selection.place(number, len(data["runs"]), data["best"]), len(data["runs"])
+    single_file = folders.one_file(output, formats.SINGLE_FILES, force, **flags.of_folders)
 
-    def files(sample: Sample) -> writing.Files:
+    def files(sample: Sample) -> formats.Files:
         style = shell.run_files.style(data, sample)
-        return writing.Files.of_flags(flags, style, alone)
+        return formats.Files.of_flags(flags, style, single_file)
 
     if anyway:
         if flags.export is not None:
-            reason = "the other results are of the model as it was"
+            reason = "the other results belong to the earlier version of the model"
             raise InputError(
                 "flags-exclude",
                 flag="--anyway",
                 other="--export",
                 reason=reason,
-                cure="take one result, with `--run`",
+                cure="select one result with `--run`",
             )
-        changed = shell.anyway.replayed(data, place, model, run)
+        changed = shell.replay_changed.replay_changed(data, place, model, run)
         print(changed)
         search = changed.sample.search
-        data = shell.run_files.written(Result(search, [changed.sample], search.seed), changed.found)
-        sample, others = changed.sample, {}
+        data = shell.run_files.written(Result(search, [changed.sample], search.seed), changed.reference)
+        sample, extra = changed.sample, {}
     else:
         allowed = shell.trust.trusted(data, model, trust)
         sample = shell.run_files.replayed(data, place, allowed, run)
-        numbers = picking.exported(flags.export, count)
-        others = {one: shell.run_files.replayed(data, one - 1, allowed, run) for one in numbers}
+        numbers = selection.exported(flags.export, count)
+        extra = {n: shell.run_files.replayed(data, n - 1, allowed, run) for n in numbers}
         data["shown"] = place
-    if alone is not None:
-        print(shell.results.write_one(alone, data, sample, files(sample), drawn))
+    if single_file is not None:
+        print(shell.results.write_one(single_file, data, sample, files(sample), images))
         return
     with folders.own_folder(output, force, lambda folder: shell.results.is_of(folder, data)) as folder:
-        _write(folder, data, sample, others, files(sample), drawn)
+        _write(folder, data, sample, extra, files(sample), images)
 
 
 def _write(
     folder: Path,
     data: dict[str, Any],
     sample: Sample,
-    others: dict[int, Sample],
-    files: writing.Files,
-    drawn: pictures.Pictures,
+    extra: dict[int, Sample],
+    files: formats.Files,
+    images: pictures.Pictures,
 ) -> None:
-    """Write the files of a run and those of others by their numbers, and say which."""
-    others = {number: one for number, one in others.items() if one.primitives}
-    pictured = drawn.wanted and sample.primitives > 0
-    names = [*files.names(), *(name for number in others for name in files.names(number))]
-    with shell.results.written(folder, data, [*names, *(["best.png"] if pictured else [])]):
-        found = files.write(sample, folder)
-        for number, one in others.items():
-            found += files.write(one, folder, number)
-        if pictured:
-            found.append(drawn.best(sample, folder / "best.png", files.style))
-        print("\n".join(map(str, found)))
+    """Write and print the files of a run, and of the extra runs by their numbers."""
+    extra = {number: run for number, run in extra.items() if run.primitives}
+    has_picture = images.wanted and sample.primitives > 0
+    names = [*files.names(), *(name for number in extra for name in files.names(number))]
+    with shell.results.results_folder(folder, data, [*names, *(["best.png"] if has_picture else [])]):
+        places = files.write(sample, folder)
+        for number, run in extra.items():
+            places += files.write(run, folder, number)
+        if has_picture:
+            places.append(images.best(sample, folder / "best.png", files.style))
+        print("\n".join(map(str, places)))

@@ -1,8 +1,8 @@
-"""run.json: a search as a file that can be replayed in another session.
+"""run.json: a search as a file that another session can replay.
 
-It holds the whole search (`Search.data`: the model itself, its arguments, the score, the method, the seed) and its
-hash, and for each run its scores, its choices by readable address with their families, and its order choices. It names
-the model's file with a hash of its bytes, and the files beside it that show one of its runs, each with a hash.
+The file contains the whole search (`Search.data`: model, arguments, score, method, seed) and its hash. For each run it
+has the scores, the choices by readable address with their families, and the order choices. It names the model's file
+with a hash of its bytes, and the files beside run.json that show its runs, each with a hash.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Choice(Struct):
 
 
 class Run(Struct):
-    """A run, as it can be replayed."""
+    """A run with the data that a replay needs."""
 
     choices: list[Choice]
     ended: bool
@@ -51,7 +51,7 @@ class Run(Struct):
 
 
 class RunFile(Struct):
-    """What must be in a run.json."""
+    """The required fields of a run.json."""
 
     format: Whole
     search: dict[str, Any]
@@ -64,13 +64,13 @@ class RunFile(Struct):
     shown: Whole | None = None
 
 
-def written(result: Result, found: ModelReference) -> dict[str, Any]:
-    """A search and its result as plain data."""
+def written(result: Result, reference: ModelReference) -> dict[str, Any]:
+    """Return a search and its result as plain data."""
     return {
         "format": FORMAT,
         "niwaki": _engine.__version__,
-        "model": found.reference,
-        "file_hash": found.file_hash,
+        "model": reference.name,
+        "file_hash": reference.file_hash,
         "search": result.search.data(),
         "hash": result.search.hash,
         "plan": list(getattr(result.info, "plan", ())),
@@ -83,9 +83,9 @@ def written(result: Result, found: ModelReference) -> dict[str, Any]:
 
 
 def numbers(sample: Sample) -> dict[str, Any]:
-    """The scores of a run, as `--json` prints them; numbers that are not finite become null."""
+    """Return the scores of a run as `--json` prints them; numbers that are not finite become null."""
     fits = sample.fit
-    found = {
+    row = {
         "log_score": sample.log_score,
         "log_prior": sample.log_prior,
         "covered": None if fits is None else fits.covered,
@@ -95,7 +95,7 @@ def numbers(sample: Sample) -> dict[str, Any]:
         "seconds": sample.seconds,
         "cpu_seconds": sample.cpu_seconds,
     }
-    return {k: finite.scalar(v) if isinstance(v, float) else v for k, v in found.items()}
+    return {k: finite.scalar(v) if isinstance(v, float) else v for k, v in row.items()}
 
 
 def _names(sample: Sample) -> dict[str, Any]:
@@ -111,10 +111,10 @@ def _names(sample: Sample) -> dict[str, Any]:
     }
 
 
-def _chosen(value: Any) -> Any:
-    """A choice from JSON."""
+def _choice_value(value: Any) -> Any:
+    """Read the value of a choice from JSON."""
     if isinstance(value, list):
-        return tuple(_chosen(part) for part in value)
+        return tuple(_choice_value(part) for part in value)
     if isinstance(value, dict):
         raise Unfit("$", "the value of a choice", shown(value))
     if not isinstance(value, str):
@@ -126,10 +126,10 @@ def _chosen(value: Any) -> Any:
 
 
 def load(path: str | PathLike[str]) -> dict[str, Any]:
-    """Read a search, and check that it is one; what is in its values is checked where they are read."""
+    """Read a run.json and check its fields; values are checked where they are used."""
     place = Path(path)
     if not is_file(place):
-        raise InputError("bad-run-file", path=place, reason="there is no such file")
+        raise InputError("bad-run-file", path=place, reason="the file does not exist")
     try:
         data = decoded(bytes_of(place, "run"))
         check_format(data, FORMAT)
@@ -149,16 +149,16 @@ def replayed(
     trust: tuple[str, ...] = (),
     path: str | PathLike[str] = "run.json",
 ) -> Sample:
-    """One run of a search once more (the best).
+    """Replay a run of a search.
 
-    Nothing but the file is needed, and the meshes that it names: no file of Python is run.
+    A replay needs only the file and the meshes that it names. It runs no Python file.
 
     Parameters
     ----------
     data
-        What `load` gave.
+        The data of `load`.
     number
-        Which run; the best when left out.
+        The index of the run; None for the best.
     trust
         Names of modules whose host functions the model may call.
     path
@@ -171,17 +171,15 @@ def replayed(
             name="run",
             found=repr(number),
             expected=f"one of the {count} results of this search, from 0 to {count - 1}",
-            suggestion=f"such a number, or leave it out for the best, {data['best']}",
+            suggestion=f"such a number; without it you get the best, {data['best']}",
         )
     number = data["best"] if number is None else number
-    search, given = searched(data, trust, path), choices(data["runs"][number], number, path)
+    search, values = searched(data, trust, path), choices(data["runs"][number], number, path)
     try:
-        with translated(search.model.name, choices=given):
-            trace = search.task.replay(given, None, not data["runs"][number]["ended"])
+        with translated(search.model.name, choices=values):
+            trace = search.task.replay(values, None, not data["runs"][number]["ended"])
     except MALFORMED as error:
-        reason = (
-            f"at `$.runs[{number}].choices` is something that is no list of choices of this model: {error}"
-        )
+        reason = f"`$.runs[{number}].choices` is not a list of choices of this model: {error}"
         raise InputError("bad-run-file", path=path, reason=reason) from error
     except InputError as error:
         raise _read_from(error, path) from error
@@ -191,32 +189,32 @@ def replayed(
 def searched(
     data: dict[str, Any], trust: tuple[str, ...] = (), path: str | PathLike[str] = "run.json"
 ) -> Search:
-    """The search of a run.json; `trust` and `path` as for `replayed`."""
+    """Return the search of a run.json; see `replayed` for `trust` and `path`."""
     try:
-        return _searched(data["search"], trust)
+        return _search_without_missing_meshes(data["search"], trust)
     except InputError as error:
         raise _read_from(error, path) from error
 
 
 def choices(run: dict[str, Any], number: int, path: str | PathLike[str]) -> dict[str, Any]:
-    """The choices of a run by address; its number and the file are for messages."""
-    found = {}
+    """Return the choices of a run by address; its number and the file are for messages."""
+    values = {}
     try:
         for place, part in enumerate(run["choices"]):
             with inside(f".runs[{number}].choices[{place}].value"):
-                found[part["address"]] = _chosen(part["value"])
+                values[part["address"]] = _choice_value(part["value"])
     except Unfit as error:
         raise InputError("bad-run-file", path=path, reason=str(error)) from error
-    return found
+    return values
 
 
 def _read_from(error: InputError, path: str | PathLike[str]) -> InputError:
-    """An error about a search, as one about the file that it was read from."""
+    """Convert an error about a search to an error about its file."""
     unfit, reason = error.values.get("unfit"), ""
     if isinstance(unfit, Unfit):
         reason = str(unfit.inside(".search"))
     elif error.code == "machine-limit":
-        reason = f"at `$.search.model.core` is no model: {error.values['found']}"
+        reason = f"`$.search.model.core` is not a model: {error.values['found']}"
     if reason:
         return InputError("bad-run-file", path=path, reason=reason)
     error.values["source"] = ", ".join([f"`{path}`", *filter(None, [error.values.get("source")])])
@@ -224,20 +222,20 @@ def _read_from(error: InputError, path: str | PathLike[str]) -> InputError:
 
 
 def style(data: dict[str, Any], sample: Sample) -> str | None:
-    """The style in which a search's drawings are drawn: its model's own; None for scenes in space."""
-    known = gallery.entry(str(data.get("model", "")))
-    if known is not None and known.draws is not None:
-        return known.draws
+    """Return the drawing style of a search's model; None for scenes in space."""
+    entry = gallery.entry(str(data.get("model", "")))
+    if entry is not None and entry.draws is not None:
+        return entry.draws
     return "ink" if sample.search.score.window is not None else None
 
 
-def _searched(data: dict[str, Any], trust: tuple[str, ...]) -> Search:
-    """The search; without its score where a mesh of the score is missing or has changed."""
+def _search_without_missing_meshes(data: dict[str, Any], trust: tuple[str, ...]) -> Search:
+    """Return the search, without its score if a mesh of the score is missing or has changed."""
     try:
         return Search.of_data(data, trust)
     except InputError as error:
         if error.code not in ("file-missing", "changed-mesh"):
             raise
-        message = f"{str(error).splitlines()[0]}; the picture is without its target"
+        message = f"{str(error).splitlines()[0]}; the picture does not show its target"
         warn(message, TargetWarning)
         return Search.of_data({**data, "score": []}, trust)

@@ -1,6 +1,6 @@
-"""The settings of methods as flags, read from the methods' classes: their fields and docstrings.
+"""Flags for the settings of methods, made from the fields and docstrings of the methods' classes.
 
-A setting that the chosen method does not have is an error.
+A setting that the selected method does not have is an error.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from niwaki.errors import InputError
 from niwaki.methods import Ais, Guide, Improve, Method, Mh, ParticleGibbs, Pimh, Smc
 from niwaki.shell.references import ModelReference
 
-#: The methods of `niwaki grow`, by the name that is typed.
+#: The methods of `niwaki grow`, by their names on the command line.
 METHODS: dict[str, type[Method]] = {
     "improve": Improve,
     "smc": Smc,
@@ -33,13 +33,14 @@ MethodName = Annotated[
     typer.Option(
         "--method",
         metavar="NAME",
-        help=f"{', '.join(METHODS)}. Default: improve, or smc with --particles or a setting that improve lacks.",
+        help=f"Search method: {', '.join(METHODS)}. Default: improve; smc with --particles or a setting that improve "
+        "lacks.",
     ),
 ]
 Polish = Annotated[
     int | None,
     typer.Option(
-        "--polish", metavar="STEPS", help="Continue from the best result: STEPS proposals of a chain."
+        "--polish", metavar="STEPS", help="Continue from the best result with a chain of STEPS proposals."
     ),
 ]
 PolishKernel = Annotated[
@@ -47,7 +48,7 @@ PolishKernel = Annotated[
     typer.Option(
         "--polish-kernel",
         metavar="KERNEL",
-        help='With --polish: the kernel of the chain; default: "prior()".',
+        help='Kernel of the chain of --polish. Default: "prior()".',
     ),
 ]
 GuideFile = Annotated[
@@ -55,72 +56,72 @@ GuideFile = Annotated[
     typer.Option(
         "--guide",
         metavar="FILE|shipped|none",
-        help="A guide, which draws choices in place of the prior; default: the one that comes with the model, for "
-        "one population into a drawing.",
+        help="A guide, which draws choices in place of the prior. Default: the model's shipped guide, for one "
+        "population into a drawing.",
     ),
 ]
 
-#: Settings that hold a function, which cannot be typed.
+#: Settings whose value is a function, which has no form on the command line.
 _FUNCTIONS = ("proposal",)
-#: What stands for a value in the help, where its type does not say it.
+#: Placeholders for values in the help, where the type alone does not tell enough.
 _METAVARS = {
     **dict.fromkeys(("particles", "powers", "anneal"), "LIST"),
     **dict.fromkeys(("kernel", "rejuvenate"), "KERNEL"),
     "seconds": "SECONDS",
 }
-#: Kinds of values that are typed as they are; everything else is typed as text and read by `_read`.
+#: Types that the command line reads itself; any other setting is a text, which `_read` reads.
 _PLAIN = (int, float, str, bool)
 
 
 @dataclass(frozen=True)
 class Flags:
-    """Flags that a parameter of a command gathers, by name: `given: Annotated[dict[str, Any], Flags(...)]`."""
+    """Flags that a parameter of a command gathers by name: `settings: Annotated[dict[str, Any], Flags(...)]`."""
 
     parameters: tuple[inspect.Parameter, ...]
 
 
-def of_methods(*methods: type[Method], **usual: str) -> Flags:
-    """A flag for each setting of these methods; one that was not given is None.
+def of_methods(*methods: type[Method], **defaults: str) -> Flags:
+    """Return a flag for each setting of these methods; a flag that is left out is None.
 
-    `usual` has the command's own defaults, where they differ from the method's.
+    `defaults` has the command's own defaults, where they differ from the method's.
     """
-    return Flags(tuple(_option(name, methods, usual.get(name)) for name in _names(methods)))
+    return Flags(tuple(_option(name, methods, defaults.get(name)) for name in _names(methods)))
 
 
 def with_settings(command: Callable[..., None]) -> Callable[..., None]:
-    """Give a command the flags of its parameters that are groups: `Flags`, or dataclasses whose fields are flags.
+    """Give a command a flag for each member of its grouped parameters: `Flags`, or dataclasses whose fields are flags.
 
-    A flag of `Flags` that an earlier parameter has is left out.
+    A member of `Flags` that an earlier parameter has already is left out.
     """
     hints = get_type_hints(command, include_extras=True)
     flat: dict[str, inspect.Parameter] = {}
     groups: dict[str, tuple[Any, list[str]]] = {}
-    for own in inspect.signature(command).parameters.values():
-        hint = hints[own.name]
-        gathered = next((one for one in getattr(hint, "__metadata__", ()) if isinstance(one, Flags)), None)
-        if gathered is not None:
-            more = [one for one in gathered.parameters if one.name not in flat]
-            groups[own.name] = dict, [one.name for one in more]
+    for parameter in inspect.signature(command).parameters.values():
+        hint = hints[parameter.name]
+        group = next((extra for extra in getattr(hint, "__metadata__", ()) if isinstance(extra, Flags)), None)
+        if group is not None:
+            members = [member for member in group.parameters if member.name not in flat]
+            groups[parameter.name] = dict, [member.name for member in members]
         elif is_dataclass(hint):
             kinds = get_type_hints(hint, include_extras=True)
-            more = [
-                own.replace(name=one.name, default=one.default, annotation=kinds[one.name])
-                for one in fields(hint)
+            members = [
+                parameter.replace(name=field.name, default=field.default, annotation=kinds[field.name])
+                for field in fields(hint)
             ]
-            groups[own.name] = hint, [one.name for one in more]
+            groups[parameter.name] = hint, [member.name for member in members]
         else:
-            more = [own.replace(annotation=hint)]
-        flat |= {one.name: one.replace(kind=one.KEYWORD_ONLY) for one in more}
+            members = [parameter.replace(annotation=hint)]
+        flat |= {member.name: member.replace(kind=member.KEYWORD_ONLY) for member in members}
 
     @wraps(command)
-    def gathering(**given: Any) -> None:
+    def with_groups(**values: Any) -> None:
         for name, (make, names) in groups.items():
-            given[name] = make(**{one: given.pop(one) for one in names})
-        command(**given)
+            values[name] = make(**{member: values.pop(member) for member in names})
+        command(**values)
 
-    gathering.__signature__ = inspect.Signature([*flat.values()])  # type: ignore[attr-defined]
-    gathering.__annotations__ = {one.name: one.annotation for one in flat.values()}
-    return gathering
+    with_groups.__signature__ = inspect.Signature([*flat.values()])  # type: ignore[attr-defined]
+    with_groups.__annotations__ = {member.name: member.annotation for member in flat.values()}
+    return with_groups
 
 
 def _names(methods: tuple[type[Method], ...]) -> list[str]:
@@ -128,39 +129,43 @@ def _names(methods: tuple[type[Method], ...]) -> list[str]:
     return [name for name in dict.fromkeys(names) if name not in _FUNCTIONS]
 
 
-def _option(name: str, methods: tuple[type[Method], ...], shown: str | None) -> inspect.Parameter:
-    """The option of one setting; `shown` is the default in its help text."""
-    owners: list[Any] = [method for method in methods if name in {field.name for field in fields(method)}]
-    typed = _typed(name, methods)
-    whose = (
+def _option(name: str, methods: tuple[type[Method], ...], default_text: str | None) -> inspect.Parameter:
+    """Return the option of a setting; `default_text` is the default in its help text."""
+    owner_methods: list[Any] = [
+        method for method in methods if name in {field.name for field in fields(method)}
+    ]
+    kind = _typed(name, methods)
+    prefix = (
         ""
-        if len(owners) == len(methods)
-        else f"{', '.join(method.NAME.replace('_', '-') for method in owners)}: "
+        if len(owner_methods) == len(methods)
+        else f"{', '.join(method.NAME.replace('_', '-') for method in owner_methods)}: "
     )
-    default = {field.name: field.default for field in fields(owners[0])}[name]
-    shown = shown or ("" if default is None or typed is bool else str(default))
-    usual = f" Default: {shown}." if shown else ""
+    default = {field.name: field.default for field in fields(owner_methods[0])}[name]
+    default_text = default_text or ("" if default is None or kind is bool else str(default))
+    suffix = f" Default: {default_text}." if default_text else ""
     flag = f"--{name.replace('_', '-')}"
-    if typed is bool:
+    if kind is bool:
         flag += f"/--no-{name.replace('_', '-')}"
-    metavar = _METAVARS.get(name, {int: "N", float: "NUMBER", str: "NAME"}.get(typed))
-    text = f"{whose}{described(owners[0]).get(name, '')}{usual}"
-    option = typer.Option(flag, metavar=metavar, help=text)
-    annotation = Annotated[typed | None, option]  # type: ignore[valid-type]
+    metavar = _METAVARS.get(name, {int: "N", float: "NUMBER", str: "NAME"}.get(kind))
+    help_text = f"{prefix}{described(owner_methods[0]).get(name, '')}{suffix}"
+    option = typer.Option(flag, metavar=metavar, help=help_text)
+    annotation = Annotated[kind | None, option]  # type: ignore[valid-type]
     return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 
 @cache
 def kinds() -> dict[str, Any]:
-    """The type of each setting of the methods of `niwaki grow`, as it is typed."""
+    """Return the type of each setting of the methods of `niwaki grow` on the command line."""
     methods = tuple(METHODS.values())
     return {name: _typed(name, methods) | None for name in _names(methods)}
 
 
 def _typed(name: str, methods: tuple[Any, ...]) -> Any:
-    """The type of a setting, as it is typed."""
+    """Return the type of a setting on the command line."""
     hints = [_hints(method)[name] for method in methods if name in {field.name for field in fields(method)}]
-    plain = [one for one in _PLAIN if all(kind in (one, one | None) for kind in hints)]
+    plain = [
+        candidate for candidate in _PLAIN if all(kind in (candidate, candidate | None) for kind in hints)
+    ]
     return plain[0] if plain else str
 
 
@@ -171,40 +176,40 @@ def _hints(method: Any) -> dict[str, Any]:
 
 @cache
 def described(method: type[Method]) -> dict[str, str]:
-    """The first sentence of each setting in a method's docstring."""
-    found: dict[str, str] = {}
+    """Return the first sentence about each setting in a method's docstring."""
+    sentences: dict[str, str] = {}
     body = inspect.cleandoc(method.__doc__ or "").partition("Parameters\n----------\n")[2]
     for names, text in re.findall(r"^(\w[\w, ]*)\n((?:    .*\n?|\n)+)", body + "\n", re.MULTILINE):
         sentence = re.split(r"(?<=[.]) ", " ".join(text.split()).replace("`", ""), maxsplit=1)[0]
-        found |= {name.strip(): sentence.rstrip(".;:") + "." for name in names.split(",")}
+        sentences |= {name.strip(): sentence.rstrip(".;:") + "." for name in names.split(",")}
     if method is not Smc:
-        found |= {
+        sentences |= {
             name: text
             for name, text in described(Smc).items()
-            if found.get(name, "As for").startswith("As for")
+            if sentences.get(name, "As for").startswith("As for")
         }
-    return found
+    return sentences
 
 
-def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) -> Method:
-    """The method with the given settings, but without its guide and what that needs (`guided`).
+def method(name: str | None, settings: dict[str, Any], defaults: Mapping[str, Any]) -> Method:
+    """Return the method with the given settings; `guided` adds its guide.
 
     Parameters
     ----------
     name
-        One of `METHODS`; None for what `niwaki.grow` does with these settings, or one population where the model has a
-        rule of resampling and no setting is given.
-    given
-        Its settings; None for those that were not given.
-    suits
-        Settings of one population that suit the model; those that the method does not have are left out.
+        A key of `METHODS`. None selects the method that `niwaki.grow` uses with these settings, or one population if
+        the model has a rule of resampling and there are no settings.
+    settings
+        The settings of the method; None for a flag that was left out.
+    defaults
+        The model's settings for one population; those that the method does not have are ignored.
     """
-    options = typed(given)
+    options = typed(settings)
     if name is None:
-        one_population = "resampling" in suits and not options
+        one_population = "resampling" in defaults and not options
         name = "improve" if set(options) <= {*search.OF_IMPROVE, "regrow"} and not one_population else "smc"
-    chosen = METHODS.get(name)
-    if chosen is None:
+    kind = METHODS.get(name)
+    if kind is None:
         raise InputError(
             "bad-setting",
             name="--method",
@@ -213,13 +218,15 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
             suggestion="smc",
         )
     for key in options:
-        if key not in {field.name for field in fields(chosen)}:
-            owners = [own for own, kind in METHODS.items() if key in {field.name for field in fields(kind)}]
-            other = " or ".join(f"`--method {own}`" for own in owners)
+        if key not in {field.name for field in fields(kind)}:
+            owners = [
+                known for known, other in METHODS.items() if key in {field.name for field in fields(other)}
+            ]
+            alternatives = " or ".join(f"`--method {owner}`" for owner in owners)
             reason = f"`--method {name}` has no such setting"
             flag = f"--{key.replace('_', '-')}"
-            raise InputError("flag-alone", flag=flag, other=other, reason=reason)
-    if "seconds" in options and chosen is Smc:
+            raise InputError("flag-alone", flag=flag, other=alternatives, reason=reason)
+    if "seconds" in options and kind is Smc:
         for key, flag in (("particles", "--particles"), ("populations", "--populations")):
             if key in options:
                 raise InputError(
@@ -230,60 +237,62 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
                     cure=f"give only one of them; run.json contains the numbers for {options['seconds']:g} s",
                 )
     options.pop("look_ahead", None)
-    known = {field.name for field in fields(chosen)}
-    own = {key: value for key, value in suits.items() if key in known}
-    if chosen is Improve:
-        return Improve(**{**own, "particles": max(suits["particles"] // 3, 1), **options})
-    options = {**own, **options}
-    if chosen is Smc:
+    field_names = {field.name for field in fields(kind)}
+    of_model = {key: value for key, value in defaults.items() if key in field_names}
+    if kind is Improve:
+        return Improve(**{**of_model, "particles": max(defaults["particles"] // 3, 1), **options})
+    options = {**of_model, **options}
+    if kind is Smc:
         return search.usual(options)
-    return chosen(**{**({"power": search.POWER} if "power" in known else {}), **options})
+    return kind(**{**({"power": search.POWER} if "power" in field_names else {}), **options})
 
 
 def guide(
     file: str | None,
-    found: ModelReference,
+    reference: ModelReference,
     sketches: Sequence[str],
     name: str | None,
-    given: dict[str, Any],
+    settings: dict[str, Any],
 ) -> Guide | None:
-    """The guide of a search: that of the file; else the one that comes with the model, where it suits; or None.
+    """Return the guide of a search: the guide in `file`, else the model's shipped guide where it suits, else None.
 
     Parameters
     ----------
     file
-        A file, "none", or "shipped" for the one that comes with the model.
-    found
+        A file, "none", or "shipped" for the model's shipped guide.
+    reference
         The model.
     sketches
         Names of the sketches of the score.
     name
-        The method that was asked for.
-    given
-        Settings of the method; None for those that were not given.
+        The method on the command line.
+    settings
+        Settings of the method; None for a flag that was left out.
     """
     if file == "none":
         return None
-    own = guides.shipped(found.model)
-    if file == "shipped" and own is not None:
-        return own
+    shipped = guides.shipped(reference.model)
+    if file == "shipped" and shipped is not None:
+        return shipped
     if file is not None:
         return Guide.load(file)
-    asked = typed(given)
-    one_population = name == "smc" or (name is None and not set(asked) & {*search.OF_IMPROVE, "regrow"})
-    if own is None or not one_population or asked.get("weights") == "absolute":
+    options = typed(settings)
+    one_population = name == "smc" or (name is None and not set(options) & {*search.OF_IMPROVE, "regrow"})
+    if shipped is None or not one_population or options.get("weights") == "absolute":
         return None
-    looks_at = {window for window, _ in own.form["windows"]}
-    # In space the usual search is a good one, too: there a guide is taken by name only.
-    if not looks_at <= set(sketches) or "match_volume" in looks_at:
+    windows = {window for window, _ in shipped.form["windows"]}
+    # In space the usual search does well without a guide, so a guide is used only by name.
+    if not windows <= set(sketches) or "match_volume" in windows:
         return None
-    typer.echo(f"the guide that comes with `{own.model}` draws the choices (--guide none: without)", err=True)
-    return own
+    typer.echo(
+        f"the guide shipped with `{shipped.model}` draws the choices (--guide none turns it off)", err=True
+    )
+    return shipped
 
 
-def guided(method: Method, guide: Guide | None, given: Mapping[str, Any]) -> Method:
-    """The method, its choices drawn by a guide, which looks ahead where the given settings say so."""
-    ahead = given.get("look_ahead")
+def guided(method: Method, guide: Guide | None, settings: Mapping[str, Any]) -> Method:
+    """Return the method with a guide and its setting of `--look-ahead`."""
+    ahead = settings.get("look_ahead")
     if guide is None and ahead is None:
         return method
     if not isinstance(method, Smc | ParticleGibbs | Pimh):
@@ -292,13 +301,13 @@ def guided(method: Method, guide: Guide | None, given: Mapping[str, Any]) -> Met
     return replace(method, guide=guide, look_ahead=ahead)
 
 
-def typed(given: dict[str, Any]) -> dict[str, Any]:
-    """The settings that were typed, read."""
-    return {name: _read(name, value) for name, value in given.items() if value is not None}
+def typed(settings: dict[str, Any]) -> dict[str, Any]:
+    """Return the values of the settings that are on the command line."""
+    return {name: _read(name, value) for name, value in settings.items() if value is not None}
 
 
 def polish(steps: int | None, kernel: str | None) -> Mh | None:
-    """The chain that continues from the best, or None."""
+    """Return the chain that continues from the best result, or None."""
     if steps is None:
         if kernel is None:
             return None
@@ -308,7 +317,7 @@ def polish(steps: int | None, kernel: str | None) -> Mh | None:
 
 
 def _read(name: str, value: Any) -> Any:
-    """A setting that was typed as text, where it is more than text."""
+    """Return the value of a setting whose text needs a reader of its own."""
     if name in ("rejuvenate", "kernel"):
         return kernels.parse(value)
     if name == "at":
@@ -326,15 +335,15 @@ def _read(name: str, value: Any) -> Any:
 
 
 def numbers(name: str, text: str, kind: Callable[[str], Any]) -> list[Any]:
-    """Numbers with commas between them."""
+    """Read numbers with commas between them."""
     try:
         return [kind(part) for part in text.split(",")]
     except ValueError:
-        what = "whole numbers" if kind is int else "numbers"
+        noun = "whole numbers" if kind is int else "numbers"
         raise InputError(
             "bad-setting",
             name=f"--{name}",
             found=repr(text),
-            expected=f"one number, or {what} with commas between them",
+            expected=f"one number, or {noun} with commas between them",
             suggestion="such numbers, for instance 1,2,4,8,16",
         ) from None

@@ -1,4 +1,4 @@
-"""`niwaki show`: runs of a model as they come, with no target, as a sheet."""
+"""`niwaki show`: runs of a model without a target, as a sheet."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from niwaki.shell import arguments, folders, pictures
 from niwaki.shell.app import ModelName, Runs, Seed, app, counted
 from niwaki.shell.clock import Clock
 
-#: So many runs are tried for each that is shown: the others break a constraint of the model.
+#: Most attempts for each run of the sheet; runs that break a constraint of the model are not shown.
 TRIES = 50
-#: Pixels of a cell of the sheet, and rays for each where it changes.
+#: Size of a cell of the sheet in pixels, and rays for each pixel where the picture changes.
 CELL, SAMPLES = (320, 240), 4
 
 
@@ -34,52 +34,57 @@ def show(
     force: folders.Force = False,
     quick: pictures.Quick = False,
 ) -> None:
-    """Draw runs of MODEL side by side, as they come, with no target: what the model makes."""
+    """Draw runs of MODEL side by side, without a target."""
     clock = Clock()
     cell = (CELL[0] // 2, CELL[1] // 2) if quick else CELL
     check_room("--runs", methods.at_least_one("--runs", runs), cell[0] * cell[1] * PIXEL, "picture")
-    place = folders.own_file(output, "show.png", [one[1:] for one in IMAGE_FORMATS], force)
+    place = folders.own_file(output, "show.png", [suffix[1:] for suffix in IMAGE_FORMATS], force)
     with clock.part("compile"):
-        found = shell.references.find(model)
-        given = {**_begin(found), **arguments.read(found.model, values, preset)}
-        found.model.program()
+        reference = shell.references.find(model)
+        values_by_name = {**_start(reference), **arguments.read(reference.model, values, preset)}
+        reference.model.program()
     with clock.part("runs"):
-        result = _runs(found.model, given, runs, search.fresh(seed))
-    for number, one in enumerate(result, 1):
-        made = counted(one.primitives, "primitive") if one.primitives else f"{one.value!r}"
-        print(f"#{number}   seed {one.seed}   {made}")
-    if not any(one.primitives for one in result):
+        result = _runs(reference.model, values_by_name, runs, search.fresh(seed))
+    for number, sample in enumerate(result, 1):
+        contents = counted(sample.primitives, "primitive") if sample.primitives else f"{sample.value!r}"
+        print(f"#{number}   seed {sample.seed}   {contents}")
+    if not any(sample.primitives for sample in result):
         print("no run emitted a shape, so there is no picture")
         return
     with clock.part("picture"):
-        style = {} if found.entry is None or found.entry.draws is None else {"style": found.entry.draws}
+        style = (
+            {}
+            if reference.entry is None or reference.entry.draws is None
+            else {"style": reference.entry.draws}
+        )
         sheet: dict[str, Any] = {"size": cell, "samples": 1 if quick else SAMPLES, **style}
-        shown = [(number, one) for number, one in enumerate(result, 1) if one.primitives]
-        captions = [f"#{number}   seed {one.seed}" for number, one in shown]
-        scenes = [one.scene for _, one in shown]
+        shown = [(number, sample) for number, sample in enumerate(result, 1) if sample.primitives]
+        captions = [f"#{number}   seed {sample.seed}" for number, sample in shown]
+        scenes = [sample.scene for _, sample in shown]
         draw.picture.save_image(lambda: draw.sheet.sheet(scenes, captions, **sheet), place)
     print(f"{place}   {clock}")
 
 
-def _begin(found: shell.references.ModelReference) -> dict[str, Any]:
-    """Where a model of the gallery begins that follows a drawing: where its own drawing does."""
-    return {} if found.entry is None or found.entry.drawing_name is None else found.start(found.entry.asks)
+def _start(reference: shell.references.ModelReference) -> dict[str, Any]:
+    """Return the start of a gallery model that follows a drawing: the start of its own drawing."""
+    entry = reference.entry
+    return {} if entry is None or entry.drawing_name is None else reference.start(entry.asks)
 
 
-def _runs(model: nw.Model[..., Any], given: dict[str, Any], count: int, seed: int) -> nw.Result:
-    """The first possible runs of a seed and those that follow it."""
-    first = nw.Search(model, tuple(arguments.bound(model, given)), method=Forward(), seed=seed)
-    kept: list[nw.Sample] = []
+def _runs(model: nw.Model[..., Any], values: dict[str, Any], count: int, seed: int) -> nw.Result:
+    """Return the first runs that are possible, of the seed and the seeds after it."""
+    first = nw.Search(model, tuple(arguments.bound(model, values)), method=Forward(), seed=seed)
+    samples: list[nw.Sample] = []
     causes: Counter[str] = Counter()
     for number in range(TRIES * count):
-        one = replace(first, seed=(seed + number) % 2**64).run().best
-        if one.cause is None:
-            kept.append(one)
+        sample = replace(first, seed=(seed + number) % 2**64).run().best
+        if sample.cause is None:
+            samples.append(sample)
         else:
-            causes[one.cause] += 1
-        if len(kept) == count:
+            causes[sample.cause] += 1
+        if len(samples) == count:
             break
-    if not kept:
+    if not samples:
         listed = ", ".join(f"{cause} ({times})" for cause, times in causes.most_common())
         raise InputError("every-run-impossible", name=model.name, count=TRIES * count, constraint=listed)
-    return nw.Result(first, kept, seed)
+    return nw.Result(first, samples, seed)

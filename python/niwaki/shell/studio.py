@@ -1,4 +1,4 @@
-"""`niwaki studio`: models in a page of this machine's browser."""
+"""`niwaki studio`: a page for models in the browser of this machine."""
 
 from __future__ import annotations
 
@@ -15,23 +15,30 @@ from niwaki.shell.app import app
 def studio(
     models: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[MODEL.PY]...", help="Files of models; the gallery is there, too."),
+        typer.Argument(metavar="[MODEL.PY]...", help="Files of models, in addition to the gallery."),
     ] = None,
     session: Annotated[
-        Path, typer.Option("--session", metavar="FOLDER", help="Where the session is stored, and goes on.")
+        Path,
+        typer.Option(
+            "--session", metavar="FOLDER", help="Folder of the session. An existing session is resumed."
+        ),
     ] = Path("studio-session"),
-    port: Annotated[int, typer.Option("--port", metavar="N", help="Default: a free one.")] = 0,
+    port: Annotated[
+        int, typer.Option("--port", metavar="N", help="Port of the server; 0 takes a free port.")
+    ] = 0,
     trust: Annotated[
         bool,
         typer.Option(
             "--trust",
-            help="Run the Python files that results name, where unchanged: for models with host functions.",
+            help="Run Python files that results name, if they are unchanged. Models with host functions need it.",
         ),
     ] = False,
-    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
+    ] = True,
 ) -> None:
-    """Turn the knobs of models in a page: search, hold what you like, grow the rest again."""
-    # The studio stands above the shell; only this command starts it.
+    """Open a page in the browser: search, hold parts that you like, grow the rest again."""
+    # The studio imports the shell, so the command imports it by name.
     optional("niwaki.studio.serving", "the studio", "studio").serve(
         models or [], session, port, browser, trust
     )

@@ -69,9 +69,9 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_batch_by_its_file_and_what_is_exported(place: Path, tmp_path: Path) -> None:
     done = run("batch", place, "--processes", "1")
     assert done.exit_code == 0, done.output
-    assert "16 searches; in towers" in done.output
+    assert "16 searches; files in towers" in done.output
     again = run("batch", place)
-    assert again.exit_code == 0 and "16 searches; in towers" in again.output
+    assert again.exit_code == 0 and "16 searches; files in towers" in again.output
     # The host function is Python: nothing runs it unless that was said.
     refused = run("batch", "export", "towers", "--format", "csv")
     assert refused.exit_code != 0 and "untrusted-function" in str(refused.exception)

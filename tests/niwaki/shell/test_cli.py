@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from niwaki.errors import NiwakiError
 from niwaki.search.checkpoint import Stored
-from niwaki.shell import resuming
+from niwaki.shell import resume
 from niwaki.shell.main import app
 from typer.testing import CliRunner
 
@@ -195,7 +195,7 @@ def test_ctrl_c_writes_the_best_so_far(tmp_path: Path) -> None:
     out = tmp_path / "out"
     words = [*GROW, "--runs", "100000", "--no-picture", "-o", str(out)]
     child = subprocess.Popen([sys.executable, "-m", "niwaki.shell.main", *words], stdout=subprocess.PIPE)
-    while not has_result(out / resuming.NAME) and child.poll() is None:
+    while not has_result(out / resume.NAME) and child.poll() is None:
         time.sleep(0.02)
     child.send_signal(signal.SIGINT)
     assert child.wait(timeout=60) == 130

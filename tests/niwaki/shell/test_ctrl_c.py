@@ -16,7 +16,7 @@ from typing import Any
 import niwaki as nw
 import pytest
 from niwaki import color, guides
-from niwaki.shell import guide, letters, progress, trying
+from niwaki.shell import compare, guide, letters, progress
 from niwaki.shell.main import app
 from PIL import Image
 from typer.testing import CliRunner
@@ -109,8 +109,8 @@ def stopped(words: str) -> None:
 
 @pytest.mark.parametrize("name", SHOWN)
 def test_ctrl_c_ends_a_command(name: str, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in (progress, letters, guide, trying):
-        monkeypatch.setattr(module, "said", pressing)
+    for module in (progress, letters, guide, compare):
+        monkeypatch.setattr(module, "status_line", pressing)
     stopped(SHOWN[name])
     kept = whole(place / "out")
     wanted = {"grow": "run.json", "sample": "samples.csv", "guide train": "vines.guide.checkpoint"}.get(name)

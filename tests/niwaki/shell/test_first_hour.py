@@ -12,7 +12,7 @@ import pytest
 from niwaki import box
 from niwaki.draw.scene import Scene
 from niwaki.errors import NiwakiError
-from niwaki.shell import arguments, picking
+from niwaki.shell import arguments, selection
 from niwaki.shell.main import app
 from niwaki.shell.references import find
 from PIL import Image
@@ -125,7 +125,7 @@ def test_one_number_in_lines_and_files(place: Path) -> None:
     again = run("replay", "out/run.json", "--export", "all", "--format", "obj", "-o", "all", "--no-picture")
     assert again.exit_code == 0, (again.output, again.exception)
     assert {f"run-{k}.obj" for k in (1, 2, 3)} < {one.name for one in Path("all").iterdir()}
-    assert picking.exported("#2, 1", 2) == [2, 1]
+    assert selection.exported("#2, 1", 2) == [2, 1]
 
 
 def test_no_folder_is_replaced_without_a_word(place: Path) -> None:
@@ -187,7 +187,7 @@ def test_a_replay_of_a_changed_model_keeps_what_fits(place: Path) -> None:
     total = len(before)
     assert done.stdout.splitlines()[:3] == [
         f"{total - 1} of {total} choices fit",
-        "  not possible there: `hat/side`",
+        "  not possible: `hat/side`",
         "  drawn: `hat/side`, `hat/tilt`",
     ]
     after = choices("b")

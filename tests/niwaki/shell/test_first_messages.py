@@ -166,7 +166,8 @@ def test_a_search_that_fails_draws_what_collides_in_red(place: Path) -> None:
     done = run("grow", "first.py:crowded", "--target", "box.obj", "--seed", "1", "--quick", "-o", "bad")
     assert getattr(done.exception, "code", None) == "everything-impossible"
     assert (
-        "bad/impossible.png shows such a run; in red what makes it impossible: `cable`, `road`" in done.stderr
+        "bad/impossible.png shows such a run; the parts in red make it impossible: `cable`, `road`"
+        in done.stderr
     )
     with Image.open("bad/impossible.png") as picture:
         red, green, blue = np.asarray(picture.convert("RGB"), dtype=int).reshape(-1, 3).T

@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 
-TOLD = "the guide that comes with `vines` draws the choices (--guide none: without)\n"
+TOLD = "the guide shipped with `vines` draws the choices (--guide none turns it off)\n"
 GROW = ["grow", "vines", "--match-image", "scribbles/008", "--seed", "1", "--no-picture"]
 
 
@@ -85,7 +85,7 @@ def test_a_guide_is_shown_and_gone_on_with(trained: tuple[Path, Any], pictures: 
         *("-o", tmp_path / "more.guide", "--searches", "4", "--no-mirror", "--seed", "1"),
     )
     assert more.exit_code == 0, more.output
-    assert "the guide that was given; held out" in run("guide", "show", tmp_path / "more.guide").stdout
+    assert "the guide of --start; held out" in run("guide", "show", tmp_path / "more.guide").stdout
 
 
 def test_a_guide_is_taught_to_look_ahead(pictures: Path, tmp_path: Path) -> None:

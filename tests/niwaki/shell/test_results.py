@@ -34,7 +34,7 @@ folder, both = Path(sys.argv[1]), json.loads(Path(sys.argv[2]).read_text())
 for number in itertools.count():
     data = both[number % 2]
     names = ["best.glb", "best.png"] if number % 2 else ["best.glb", "best.stl", "sheet.png"]
-    with held_folder(folder), results.written(folder, data, names):
+    with held_folder(folder), results.results_folder(folder, data, names):
         for name in names:
             write_whole(folder / name, data["hash"].encode() * 200)
 """
@@ -89,7 +89,7 @@ def test_many_kills_mix_no_runs(tmp_path: Path) -> None:
 
 
 def write(folder: Path, data: dict[str, Any], *names: str) -> None:
-    with results.written(folder, data, names):
+    with results.results_folder(folder, data, names):
         for name in names:
             (folder / name).write_bytes(data["hash"].encode() * 200)
 
@@ -121,7 +121,10 @@ def test_a_run_file_cannot_have_other_files_removed(tmp_path: Path) -> None:
 
 
 def test_a_file_that_fails_leaves_the_others_and_run_json(tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt), results.written(tmp_path, data(1), ["best.glb", "best.png"]):
+    with (
+        pytest.raises(KeyboardInterrupt),
+        results.results_folder(tmp_path, data(1), ["best.glb", "best.png"]),
+    ):
         (tmp_path / "best.glb").write_bytes(b"glb")
         raise KeyboardInterrupt
     found = run_files.load(tmp_path / "run.json")

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from niwaki.errors import InputError
-from niwaki.shell import resuming
+from niwaki.shell import resume
 from niwaki.shell.main import app
 from typer.testing import CliRunner
 
@@ -25,7 +25,7 @@ def run(*words: Any) -> Any:
 
 def ended(sign: int, out: Path, *words: str) -> tuple[int, str]:
     """The exit status and the output of a command that is sent a signal when it has written a checkpoint."""
-    place = out / resuming.NAME
+    place = out / resume.NAME
     before = place.stat().st_mtime_ns if place.exists() else 0
     command = [sys.executable, "-m", "niwaki.shell.main", *words]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as child:
@@ -46,17 +46,17 @@ def runs(folder: Path) -> Any:
 def test_a_search_goes_on_after_ctrl_c_and_a_kill(tmp_path: Path) -> None:
     alone, out = tmp_path / "alone", tmp_path / "out"
     assert run(*GROW, "-o", alone).exit_code == 0
-    assert not (alone / resuming.NAME).exists()
+    assert not (alone / resume.NAME).exists()
     status, said = ended(signal.SIGINT, out, *GROW, "-o", str(out))
     assert status == 130
-    assert said.splitlines()[-1] == f"interrupted; go on with: niwaki grow --resume {out}"
+    assert said.splitlines()[-1] == f"interrupted; resume with: niwaki grow --resume {out}"
     assert json.loads((out / "run.json").read_text())["interrupted"]
     ended(signal.SIGKILL, out, "grow", "--resume", str(out))
     again = run("grow", "--resume", out)
     assert again.exit_code == 0, again.output
     assert runs(out) == runs(alone)
     assert (out / "best.glb").read_bytes() == (alone / "best.glb").read_bytes()
-    assert not (out / resuming.NAME).exists()
+    assert not (out / resume.NAME).exists()
 
 
 def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
@@ -66,7 +66,7 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
         return found.code
 
     assert refused("grow", "--resume", tmp_path) == "no-checkpoint"
-    (tmp_path / resuming.NAME).write_text("no checkpoint\n")
+    (tmp_path / resume.NAME).write_text("no checkpoint\n")
     assert refused("grow", "--resume", tmp_path) == "bad-checkpoint"
     assert refused("grow", "spaceship", "--resume", tmp_path) == "flags-exclude"
     assert refused("grow", "--resume", tmp_path, "--seed", 1) == "flags-exclude"
@@ -75,13 +75,13 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_search_that_begins_replaces_the_checkpoint_and_says_so(tmp_path: Path) -> None:
-    (tmp_path / resuming.NAME).write_text("of an older search\n")
+    (tmp_path / resume.NAME).write_text("of an older search\n")
     grown = run(
         "grow", "spaceship", "--particles", "10", "--voxel", "0.5", "--no-picture", "--force", "-o", tmp_path
     )
     assert grown.exit_code == 0, grown.output
-    assert "is replaced" in grown.stderr
-    assert not (tmp_path / resuming.NAME).exists()
+    assert "the checkpoint of an unfinished search" in grown.stderr
+    assert not (tmp_path / resume.NAME).exists()
 
 
 def test_chains_of_the_shell_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -94,7 +94,7 @@ def test_chains_of_the_shell_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     status, said = ended(signal.SIGINT, Path("out"), *words, "-o", "out")
     assert status in (0, 130), said
     if status == 130:
-        assert said.splitlines()[-1] == "interrupted; go on with: niwaki sample --resume out"
+        assert said.splitlines()[-1] == "interrupted; resume with: niwaki sample --resume out"
         assert run("sample", "--resume", "out").exit_code == 0
     assert run(*words, "-o", "alone").exit_code == 0
     assert runs(Path("out")) == runs(Path("alone"))

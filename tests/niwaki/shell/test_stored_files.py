@@ -26,7 +26,7 @@ from niwaki.batches.segments import record, records
 from niwaki.batches.spec import Spec
 from niwaki.errors import FileError
 from niwaki.search.checkpoint import FORMAT, MAGIC, Stored
-from niwaki.shell import resuming
+from niwaki.shell import resume
 from niwaki.shell.main import app
 from typer.testing import CliRunner
 
@@ -153,7 +153,7 @@ class Resumed(Checkpoints):
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir()
-        self.place, search = folder / resuming.NAME, SEARCHES[0]
+        self.place, search = folder / resume.NAME, SEARCHES[0]
         own = {"command": "grow", "model": "pile.py:pile", "file_hash": None, "flags": FLAGS}
         search.run(checkpoint=nw.Checkpoint(self.place, every=0.0, note=own))
         self.files = [(search, self.place.read_bytes())]
