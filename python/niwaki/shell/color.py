@@ -84,7 +84,7 @@ def _before(drawing: coloring.Drawing, rules: coloring.Rules) -> None:
     print(f"{len(drawing.names)} regions, {len(drawing.pairs)} pairs of neighbours, {len(list(rules))} rules")
     if drawing.hidden:
         print(f"warning: no pixel shows {', '.join(drawing.hidden)}")
-    slack, forced = coloring.agree.least_slack(rules)
+    slack, forced = coloring.consistency.least_slack(rules)
     if slack > 0.5:
         print(f"warning: not all rules can hold; some will be {slack:.1f} units off:")
         print("\n".join(f"  {one}" for one in forced))
@@ -95,7 +95,7 @@ def _summary(found: list[coloring.Coloring], seconds: float, seed: int) -> None:
     print(f"{counted(len(found), 'colouring')} in {seconds:.1f} s, seed {seed}")
     for k, one in enumerate(found):
         line = f"  {k + 1:02}  log score {one.log_score:9.2f}"
-        if one.kept:
-            worst = max(one.kept, key=lambda kept: abs(kept.residual))
+        if one.report:
+            worst = max(one.report, key=lambda row: abs(row.residual))
             line += f"  {abs(worst.residual):5.1f} off: {worst.rule}"
         print(line)
