@@ -1,5 +1,5 @@
-// Bundles the page into the package: `view.js` is the stage with three.js, `app.js` the rest, which imports it. The same
-// sources give the same bytes.
+// Bundles the page into the package. `view.js` is the stage with three.js; `app.js` is the rest and imports it. Equal
+// sources give equal bytes.
 import { build } from "esbuild";
 import { copyFileSync, mkdirSync } from "node:fs";
 

@@ -1,6 +1,6 @@
-"""A browser at a studio: the Chromium that `NIWAKI_BROWSER` names, driven by Playwright; without it no test is here.
+"""Fixtures of a browser at a studio: Playwright drives the Chromium of `NIWAKI_BROWSER`; without it no test runs.
 
-These tests have a run of their own, because Playwright keeps an event loop running for the rest of a run.
+These tests run separately, because Playwright keeps an event loop running for the rest of a run.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from studio_process import Served
 
 __all__ = ["browser", "open_page", "pile", "served"]
 
-# `make test-studio` sets it, installs Playwright, and says so where there is no browser.
+# `make test-studio` sets the variable, installs Playwright, and prints a message if there is no browser.
 BROWSER = os.environ.get("NIWAKI_BROWSER")
 collect_ignore_glob = [] if BROWSER else ["test_*.py"]
 
@@ -25,11 +25,11 @@ collect_ignore_glob = [] if BROWSER else ["test_*.py"]
 def browser() -> Iterator[object]:
     driving = pytest.importorskip("playwright.sync_api")
     with driving.sync_playwright() as driver:
-        # Software GL: there is no graphics card in a build machine.
+        # Software GL, because build machines have no graphics card.
         flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-        found = driver.chromium.launch(executable_path=BROWSER, chromium_sandbox=False, args=flags)
-        yield found
-        found.close()
+        chromium = driver.chromium.launch(executable_path=BROWSER, chromium_sandbox=False, args=flags)
+        yield chromium
+        chromium.close()
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -39,8 +39,8 @@ def table():
     OUT.mkdir(parents=True, exist_ok=True)
     lines = [f"{name:12} {seconds:6.2f} s   limit {LIMITS[name]:4.1f} s" for name, seconds in times.items()]
     (OUT / "times.txt").write_text("\n".join(lines) + "\n")
-    kept = os.environ.get("NIWAKI_PICTURES")
-    (Path(kept or OUT) / "studio-times.txt").write_text(as_table())
+    pictures = os.environ.get("NIWAKI_PICTURES")
+    (Path(pictures or OUT) / "studio-times.txt").write_text(as_table())
     print("\n" + "\n".join(lines))
     if os.environ.get("NIWAKI_TIMES"):
         assert not [name for name, seconds in times.items() if seconds > 2 * LIMITS[name]]
@@ -48,23 +48,23 @@ def table():
 
 @pytest.fixture
 def open_page(browser, request):
-    """A function that opens a window of a studio; no script of the page may have failed at the end."""
+    """A function that opens a window of a studio. The test fails if a script of the page fails."""
     contexts = []
 
-    def opened(served: Served, token: str | None = None, **settings):
-        # Playwright's own waiting needs eval; the header is tested by itself.
-        shown = {"viewport": {"width": 1440, "height": 900}, **settings}
-        context = browser.new_context(bypass_csp=True, **shown)
+    def open_window(served: Served, token: str | None = None, **settings):
+        # Playwright needs `eval` to wait; another test checks the policy's header.
+        options = {"viewport": {"width": 1440, "height": 900}, **settings}
+        context = browser.new_context(bypass_csp=True, **options)
         contexts.append(context)
         page = context.new_page()
         page.errors = []
-        page.on("pageerror", lambda one: page.errors.append(str(one)))
+        page.on("pageerror", lambda error: page.errors.append(str(error)))
         page.set_default_timeout(60_000)
         page.goto(f"{served.url}/open?token={token or served.link()}")
         page.wait_for_function("window.__studio?.view?.model")
         return page
 
-    yield opened
+    yield open_window
     for context in contexts:
         for page in context.pages:
             assert page.errors == []

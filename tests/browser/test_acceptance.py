@@ -1,4 +1,4 @@
-"""What the studio promises, tried in a browser: searches, held parts, undo, files, large meshes, the keyboard alone."""
+"""Promises of the studio, in a browser: searches, held parts, undo, files, large meshes, use by keyboard alone."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from niwaki import _engine
 from niwaki.shell import run_files
 from studio_page import at_rest, camera, choose, click_part, grow, timed, until, visible
 
-#: The fields of the view that undo takes back.
+#: The fields of the view that undo restores.
 DOCUMENT = ("model", "arguments", "ask", "settings", "results", "picked", "held", "stars")
 
 
 @pytest.fixture
 def open_page(open_page):
-    """Windows that are small: nothing is looked at here, and a software renderer draws them sooner."""
+    """Small windows, which a software renderer draws faster; these tests compare no pictures."""
     return partial(open_page, viewport={"width": 1080, "height": 640})
 
 
@@ -51,7 +51,7 @@ def test_sliders_move_during_a_search_and_the_newest_values_win(open_page, serve
     until(page, "window.__studio.view.searching")
     for count in (3, 5, 7):
         page.get_by_role("slider", name="results").fill(str(count))
-    page.get_by_role("slider", name="how different").fill("0.5")
+    page.get_by_role("slider", name="Difference of results").fill("0.5")
     assert page.locator("aside input:disabled, aside select:disabled").count() == 0
     until(page, "window.__studio.view.settings.count == 7 && window.__studio.view.settings.strength == 0.5")
     assert page.evaluate("window.__studio.view.searching !== null")
@@ -69,16 +69,16 @@ def test_a_gallery_of_eight_differs_and_stars_keep_their_order(open_page, served
     at_rest(page)
     results = page.evaluate("window.__studio.view.results")
     data = run_files.load(served.folder / "runs" / f"{results[0]['key']['run']}.json")
-    runs = [run_files.replayed(data, one["key"]["number"])._run for one in results]
+    runs = [run_files.replayed(data, result["key"]["number"])._run for result in results]
     assert len(runs) >= 6 and len(_engine.different(runs, len(runs))) == len(runs)
     for number in (4, 1):
         page.locator(".card .star").nth(number).click()
-        until(page, f"window.__studio.view.stars.some(one => one.number == {number})")
-    kept = [results[1]["key"], results[4]["key"]]
+        until(page, f"window.__studio.view.stars.some(star => star.number == {number})")
+    starred = [results[1]["key"], results[4]["key"]]
     choose(page, "spaceship", 3, seed=5)
     grow(page)
-    assert [one["key"] for one in page.evaluate("window.__studio.view.results")][:2] == kept
-    for _ in kept:
+    assert [result["key"] for result in page.evaluate("window.__studio.view.results")][:2] == starred
+    for _ in starred:
         page.locator(".card .star[aria-pressed=true]").first.click()
         page.wait_for_timeout(100)
 
@@ -95,7 +95,7 @@ def test_pinned_choices_are_equal_after_searches(open_page, served):
     page.keyboard.press("h")
     until(page, "window.__studio.view.held.length == 1")
     held = page.evaluate("window.__studio.view.held[0].choices")
-    seed = page.locator("input[placeholder='another each time']")
+    seed = page.locator("input[placeholder='random']")
     for number in range(5):
         seed.fill(str(100 + number))
         seed.blur()
@@ -103,13 +103,13 @@ def test_pinned_choices_are_equal_after_searches(open_page, served):
         grow(page)
         key = page.evaluate("window.__studio.view.picked")
         data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
-        found = {one["address"]: one["value"] for one in data["runs"][key.get("number", 0)]["choices"]}
-        assert {one: found[one] for one in held} == held
+        choices = {row["address"]: row["value"] for row in data["runs"][key.get("number", 0)]["choices"]}
+        assert {address: choices[address] for address in held} == held
     page.keyboard.press("h")
     effort(page, 0)
 
 
-def test_a_hold_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_page, served):
+def test_a_hold_is_shown_at_once_and_later_commands_wait_for_it(open_page, served):
     page = open_page(served)
     choose(page, "spaceship", 1, seed=3)
     effort(page, -2)
@@ -119,14 +119,14 @@ def test_a_hold_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_pa
     click_part(page, address)
     until(page, f"window.__studio.selection.part == {json.dumps(address)}")
     steps = page.evaluate("window.__studio.view.undo")
-    # In one go, so that no answer comes between them.
+    # Both keys in the same script, so that no answer arrives between them.
     press = "key => dispatchEvent(new KeyboardEvent('keydown', key))"
-    seen = page.evaluate(
+    count = page.evaluate(
         f"() => {{ const press = {press}; press({{key: 'h'}}); press({{key: 'z', ctrlKey: true}});"
         " return new Promise(done => setTimeout(() => done(document.querySelectorAll('.held li').length))); }"
     )
-    assert seen == 1
-    # The undo takes the hold back, not the step before it.
+    assert count == 1
+    # The undo removes the hold, not the step before it.
     until(page, f"window.__studio.view.redo == 1 && window.__studio.view.undo == {steps}")
     until(page, "document.querySelectorAll('.held li').length == 0")
     assert page.evaluate("window.__studio.view.held") == []
@@ -137,11 +137,11 @@ def test_a_hold_is_shown_at_once_and_what_follows_waits_until_it_is_held(open_pa
     data = run_files.load(
         served.folder / "runs" / f"{page.evaluate('window.__studio.view.picked')['run']}.json"
     )
-    found = {one["address"]: one["value"] for one in data["runs"][0]["choices"]}
-    assert {one: found[one] for one in held} == held
+    choices = {row["address"]: row["value"] for row in data["runs"][0]["choices"]}
+    assert {address: choices[address] for address in held} == held
     page.keyboard.press("h")
     until(page, "window.__studio.view.held.length == 0")
-    # A hold that is refused is taken back.
+    # The page removes a hold that fails.
     page.evaluate("window.__studio.hold('nothing/like/this')")
     page.locator(".notice", has_text="nothing/like/this").first.wait_for()
     until(page, "document.querySelectorAll('.held li').length == 0")
@@ -156,25 +156,25 @@ def test_undo_ten_deep_and_redo_give_the_same_states(open_page, served):
     before = camera(page)
     states = [document(page)]
 
-    def done(act):
+    def do(act):
         steps = page.evaluate("window.__studio.view.undo")
         act()
         until(page, f"window.__studio.view.undo == {steps + 1}")
         states.append(document(page))
 
-    done(lambda: page.locator(".card .star").nth(1).click())
-    done(lambda: page.locator("[role=option]").nth(2).click())
-    done(lambda: page.get_by_role("slider", name="results").fill("5"))
-    done(lambda: page.get_by_role("slider", name="how different").fill("0.75"))
+    do(lambda: page.locator(".card .star").nth(1).click())
+    do(lambda: page.locator("[role=option]").nth(2).click())
+    do(lambda: page.get_by_role("slider", name="results").fill("5"))
+    do(lambda: page.get_by_role("slider", name="Difference of results").fill("0.75"))
     until(page, "window.__studio.described?.key.number == 2")
-    done(lambda: page.locator(".choice .icon-button").first.click())
-    done(lambda: page.locator(".choice .icon-button").nth(1).click())
-    done(lambda: page.select_option("select[aria-label=Target]", "box"))
+    do(lambda: page.locator(".choice .icon-button").first.click())
+    do(lambda: page.locator(".choice .icon-button").nth(1).click())
+    do(lambda: page.select_option("select[aria-label=Target]", "box"))
     page.get_by_role("button", name="Add an object").click()
-    done(lambda: page.get_by_role("menuitem", name="Floor").click())
+    do(lambda: page.get_by_role("menuitem", name="Floor").click())
     page.get_by_role("button", name="Add an object").click()
-    done(lambda: page.get_by_role("menuitem", name="Box").click())
-    done(lambda: page.locator(".card .star").nth(0).click())
+    do(lambda: page.get_by_role("menuitem", name="Box").click())
+    do(lambda: page.locator(".card .star").nth(0).click())
     assert len(states) == 11
     for state in states[-2::-1]:
         redo = page.evaluate("window.__studio.view.redo")
@@ -264,19 +264,19 @@ def test_a_mesh_above_the_limit_is_refused_with_a_message(open_page, served, tmp
 
 def test_a_floor_waits_for_the_target_under_which_it_lies(open_page, served):
     page = open_page(served)
-    held = []
+    delayed = []
 
     def ghosts_wait(socket):
         studio = socket.connect_to_server()
 
-        def comes(message):
+        def on_message(message):
             is_ghost = (
-                isinstance(message, bytes) and b'"what":"ghost"' in message and b"gallery:ship" in message
+                isinstance(message, bytes) and b'"role":"ghost"' in message and b"gallery:ship" in message
             )
-            (held.append if is_ghost else socket.send)(message)
+            (delayed.append if is_ghost else socket.send)(message)
             sockets.append(socket)
 
-        studio.on_message(comes)
+        studio.on_message(on_message)
 
     sockets = []
     page.route_web_socket("**/socket", ghosts_wait)
@@ -288,10 +288,10 @@ def test_a_floor_waits_for_the_target_under_which_it_lies(open_page, served):
     until(page, "window.__studio.view.model.reference == 'spaceship'")
     page.get_by_title("Add an object").click()
     page.get_by_role("menuitem", name="Floor").click()
-    while not held:
-        page.evaluate("1")  # Playwright hands messages over while it is called.
+    while not delayed:
+        page.evaluate("1")  # Playwright delivers messages only during its calls.
     assert page.evaluate("window.__studio.view.ask.floor") is None
-    for message in held:
+    for message in delayed:
         sockets[-1].send(message)
     until(page, "window.__studio.view.ask.floor != null")
     assert page.evaluate("window.__studio.view.ask.floor") == -1.0
@@ -300,40 +300,40 @@ def test_a_floor_waits_for_the_target_under_which_it_lies(open_page, served):
 def test_the_keyboard_alone_is_enough(open_page, served):
     page = open_page(served)
     page.mouse.move(0, 0)
-    # Another model than the one that is typed: the page tells when the typed one has come.
+    # The first model differs from the typed model, so that the page tells when the typed model arrives.
     page.select_option("select[aria-label=Model]", "building")
     until(page, "window.__studio.view.model.reference == 'building'")
 
     def tab_to(condition):
         for _ in range(80):
             page.keyboard.press("Tab")
-            if page.evaluate(f"(one => {condition})(document.activeElement)"):
+            if page.evaluate(f"(control => {condition})(document.activeElement)"):
                 return
         raise AssertionError(f"no control with {condition}")
 
-    tab_to("one.ariaLabel == 'Model'")
+    tab_to("control.ariaLabel == 'Model'")
     page.keyboard.type("spaceship")
     until(page, "window.__studio.view.model.reference == 'spaceship'")
-    tab_to("one.title == 'Add an object'")
+    tab_to("control.title == 'Add an object'")
     page.keyboard.press("Enter")
     until(page, "document.querySelector('[role=menuitem]')")
-    tab_to("one.getAttribute('role') == 'menuitem'")
+    tab_to("control.getAttribute('role') == 'menuitem'")
     page.keyboard.press("Enter")
     until(page, "window.__studio.view.ask.floor == -1")
-    tab_to("one.type == 'range' && one.closest('label').innerText.startsWith('results')")
+    tab_to("control.type == 'range' && control.closest('label').innerText.startsWith('results')")
     count = page.evaluate("window.__studio.view.settings.count")
     page.keyboard.press("ArrowRight")
     until(page, f"window.__studio.view.settings.count == {count + 1}")
-    tab_to("one.closest('label')?.innerText.startsWith('seed')")
+    tab_to("control.closest('label')?.innerText.startsWith('seed')")
     page.keyboard.type("1")
-    tab_to("one.classList.contains('primary')")
+    tab_to("control.classList.contains('primary')")
     until(page, "window.__studio.view.settings.seed == 1")
     first = page.evaluate("window.__studio.view.picked?.run ?? null")
     page.keyboard.press("Enter")
     until(page, f"(window.__studio.view.picked?.run ?? null) != {json.dumps(first)}")
     until(page, "!window.__studio.view.searching && window.__studio.view.results.length > 1")
     at_rest(page)
-    tab_to("one.getAttribute('role') == 'option'")
+    tab_to("control.getAttribute('role') == 'option'")
     page.keyboard.press("ArrowRight")
     until(page, "window.__studio.view.picked.number == 1")
     page.keyboard.press("s")
@@ -341,7 +341,7 @@ def test_the_keyboard_alone_is_enough(open_page, served):
     page.keyboard.press("s")
     until(page, "window.__studio.view.stars.length == 0")
     at_rest(page)
-    tab_to("one.classList.contains('call')")
+    tab_to("control.classList.contains('call')")
     page.keyboard.press("Enter")
     until(page, "window.__studio.selection.level")
     page.keyboard.press("h")
@@ -368,13 +368,13 @@ def test_the_five_places_have_names_for_a_screen_reader(open_page, served):
     assert "covered" in option and "outside" in option
 
 
-def test_what_is_typed_stays_while_a_search_tells_its_progress(open_page, served):
+def test_typed_text_stays_while_a_search_reports_its_progress(open_page, served):
     page = open_page(served)
     choose(page, "gnarly-tree", 1)
     effort(page, 3)
     page.locator("button.primary").click()
     until(page, "window.__studio.view.searching?.seconds > 0")
-    seed = page.locator("input[placeholder='another each time']")
+    seed = page.locator("input[placeholder='random']")
     seed.focus()
     page.keyboard.press("Control+a")
     for digit in "4321":

@@ -1,6 +1,6 @@
-"""A part that is dragged in a browser: it goes to the pointer or a line of text says why not; Esc takes it back.
+"""Dragging a part in a browser: it moves to the pointer, or a line of text tells the reason; Esc cancels the drag.
 
-The animation of the manual is recorded on the way, into `out/studio/drag.gif`.
+A test also records the animation of the manual, into `out/studio/drag.gif`.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ from niwaki import studio
 from PIL import Image, ImageDraw
 from studio_page import OUT, at_rest, choose, click_part, grow, picture, timed, until
 
-#: The frames of the animation: size in pixels, colours, and how long each is shown, milliseconds.
+#: The frames of the animation: size in pixels, colours, and duration, milliseconds.
 SIZE, COLORS, STEP = (480, 400), 64, 90
-#: The share of the scene's height that they show.
+#: The share of the scene's height in a frame.
 ZOOM = 0.86
 
 
 @pytest.fixture
 def tree(open_page, served):
-    """A tree that has grown into its target."""
+    """A page with a tree that has grown into its target."""
     page = open_page(served)
     choose(page, "gnarly-tree", 1)
     grow(page)
@@ -31,18 +31,18 @@ def tree(open_page, served):
 
 
 def branch(page):
-    """A branch that is seen well: its address and the point at which it is seen, in pixels of the page."""
-    found = page.evaluate(
-        "window.__studio.shown.parts.map(one => [one, window.__studio.pointOf(one)]).filter(([_, at]) => at)"
+    """Find a well visible branch: its address and a visible point of it, in pixels of the page."""
+    visible = page.evaluate(
+        "window.__studio.shown.parts.map(part => [part, window.__studio.pointOf(part)]).filter(([_, at]) => at)"
     )
-    deep = [(one, at) for one, at in found if one.count("branch") >= 6] or found
+    deep = [(part, at) for part, at in visible if part.count("branch") >= 6] or visible
     address, (x, y) = deep[len(deep) // 2]
     box = page.locator("main.stage").bounding_box()
     return address, box["x"] + x, box["y"] + y
 
 
 def frame(page, pointer=None):
-    """A frame of the animation: what is around the middle of the scene, with the pointer."""
+    """Take a frame of the animation: the middle of the scene, with the pointer."""
     box = page.locator("main.stage").bounding_box()
     height = ZOOM * box["height"]
     width = height * SIZE[0] / SIZE[1]
@@ -71,7 +71,7 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     page.mouse.down()
     with timed("drag"):
         page.mouse.move(x + 9, y - 5, steps=2)
-        until(page, "window.__studio.shown.what == 'moving'")
+        until(page, "window.__studio.shown.role == 'moving'")
     for step in range(1, 15):
         to = (x + 9 + 7 * step, y - 5 - 4 * step)
         page.mouse.move(*to)
@@ -90,11 +90,11 @@ def test_a_branch_goes_to_the_pointer_and_the_rest_is_grown_again(tree):
     frames += [frame(page)] * 16
     assert (np.array(page.evaluate("window.__studio.camera")) == before).all()
     OUT.mkdir(parents=True, exist_ok=True)
-    first, *rest = [one.quantize(COLORS, dither=Image.Dither.NONE) for one in frames]
+    first, *rest = [image.quantize(COLORS, dither=Image.Dither.NONE) for image in frames]
     first.save(OUT / "drag.gif", save_all=True, append_images=rest, duration=STEP, loop=0, optimize=True)
 
 
-def test_escape_takes_a_part_back(tree):
+def test_escape_cancels_a_drag(tree):
     page = tree
     address, x, y = branch(page)
     click_part(page, address)
@@ -103,12 +103,12 @@ def test_escape_takes_a_part_back(tree):
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 40, y, steps=4)
-    until(page, "window.__studio.shown.what == 'moving'")
+    until(page, "window.__studio.shown.role == 'moving'")
     page.keyboard.press("Escape")
     at_rest(page)
     page.mouse.up()
     assert page.evaluate("window.__studio.view.picked") == picked
-    assert page.evaluate("window.__studio.shown.what") == "result"
+    assert page.evaluate("window.__studio.shown.role") == "result"
 
 
 def test_a_change_of_the_file_is_offered_and_written_when_accepted(open_page, served, pile):
@@ -120,7 +120,7 @@ def test_a_change_of_the_file_is_offered_and_written_when_accepted(open_page, se
     grow(page)
     at_rest(page)
     page.keyboard.press("t")
-    address = page.evaluate("window.__studio.shown.parts.find(one => one.includes('i[3]'))")
+    address = page.evaluate("window.__studio.shown.parts.find(part => part.includes('i[3]'))")
     x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
     box = page.locator("main.stage").bounding_box()
     click_part(page, address)
@@ -128,14 +128,14 @@ def test_a_change_of_the_file_is_offered_and_written_when_accepted(open_page, se
     page.mouse.move(box["x"] + x, box["y"] + y)
     page.mouse.down()
     page.mouse.move(box["x"] + x, box["y"] + y - 30, steps=4)
-    until(page, "window.__studio.shown.what == 'moving'")
+    until(page, "window.__studio.shown.role == 'moving'")
     page.mouse.up()
     offer = page.locator(".offer").first
     offer.locator("summary").click()
     assert "height: float = 3.0" in offer.inner_text()
     assert pile.read_text() == text
     picture(page, "offer")
-    offer.get_by_role("button", name="Write it").click()
+    offer.get_by_role("button", name="Write", exact=True).click()
     page.wait_for_timeout(1500)
     assert "height: float = 3." in pile.read_text() and pile.read_text() != text
     pile.write_text(text)

@@ -1,6 +1,6 @@
-"""The five journeys of a designer in a browser: what is seen, and after how long.
+"""Five journeys of a designer in a browser, with their times.
 
-Numbers are asserted, never pixels; pictures go to `out/studio`, to be looked at.
+Tests compare numbers, never pixels; pictures for people go to `out/studio`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def test_fill(open_page, served):
     with timed("first shape"):
         page.locator("button.primary").click()
         until(page, "window.__studio.shown.triangles > 0")
-    assert page.evaluate("window.__studio.shown.what") in ("best", "result")
+    assert page.evaluate("window.__studio.shown.role") in ("best", "result")
     with timed("gallery"):
         until(page, "window.__studio.view.results.length >= 2")
     until(
@@ -78,8 +78,8 @@ def test_shape_by_hand(open_page, served):
     until(page, f"!window.__studio.view.searching && window.__studio.view.picked.run != {first}")
     at_rest(page)
     until(page, "window.__studio.described.key.run == window.__studio.view.picked.run")
-    found = {one["address"]: one["value"] for one in page.evaluate("window.__studio.described.choices")}
-    assert {name: found[name] for name in held} == held
+    choices = {row["address"]: row["value"] for row in page.evaluate("window.__studio.described.choices")}
+    assert {name: choices[name] for name in held} == held
     assert (camera(page) == before).all()
     picture(page, "held")
     page.get_by_role("button", name=f"Free {call}").click()
@@ -151,7 +151,7 @@ def test_finish(open_page, served):
     choose(page, "spaceship", 3)
     grow(page)
     at_rest(page)
-    page.get_by_role("button", name="Keep: starred results stay").first.click()
+    page.get_by_role("button", name="Star this result").first.click()
     until(page, "window.__studio.view.stars.length == 1")
     page.get_by_role("button", name="Export").click()
     with timed("export"), page.expect_download() as download:
@@ -178,37 +178,37 @@ def test_dark_and_keyboard_only(open_page, served):
     picture(page, "dark")
 
 
-def test_two_windows_have_views_of_their_own_and_one_session(open_page, served):
-    one, other = open_page(served), open_page(served)
-    choose(one, "spaceship", 2)
-    grow(one)
-    at_rest(one)
-    count = one.evaluate("window.__studio.view.results.length")
-    until(other, f"window.__studio.view.results.length == {count}")
-    at_rest(other)
-    before = camera(other)
-    one.mouse.move(700, 400)
-    one.mouse.down()
-    one.mouse.move(820, 430, steps=3)
-    one.mouse.up()
-    assert (camera(other) == before).all() and not (camera(one) == before).all()
+def test_two_windows_share_a_session_and_have_separate_views(open_page, served):
+    first, second = open_page(served), open_page(served)
+    choose(first, "spaceship", 2)
+    grow(first)
+    at_rest(first)
+    count = first.evaluate("window.__studio.view.results.length")
+    until(second, f"window.__studio.view.results.length == {count}")
+    at_rest(second)
+    before = camera(second)
+    first.mouse.move(700, 400)
+    first.mouse.down()
+    first.mouse.move(820, 430, steps=3)
+    first.mouse.up()
+    assert (camera(second) == before).all() and not (camera(first) == before).all()
 
 
-def test_no_request_leaves_the_machine_and_the_policy_holds(browser, served):
+def test_no_request_leaves_the_machine_and_the_security_policy_holds(browser, served):
     context = browser.new_context()
     page = context.new_page()
-    seen, said = [], []
-    page.on("request", lambda one: seen.append(one.url))
-    page.on("console", lambda one: said.append(one.text))
+    urls, messages = [], []
+    page.on("request", lambda request: urls.append(request.url))
+    page.on("console", lambda message: messages.append(message.text))
     page.goto(f"{served.url}/open?token={served.link()}")
     page.locator("button.primary").wait_for()
     page.wait_for_timeout(1000)
-    assert seen and all(one.startswith((served.url, "data:", "blob:")) for one in seen)
-    assert not [one for one in said if "Content Security Policy" in one]
+    assert urls and all(url.startswith((served.url, "data:", "blob:")) for url in urls)
+    assert not [text for text in messages if "Content Security Policy" in text]
     context.close()
 
 
-def test_kill_in_a_search_and_all_is_back(open_page, tmp_path):
+def test_a_session_is_restored_after_a_kill_in_a_search(open_page, tmp_path):
     with serving(tmp_path) as served:
         page = open_page(served)
         choose(page, "spaceship", 3)
@@ -220,7 +220,7 @@ def test_kill_in_a_search_and_all_is_back(open_page, tmp_path):
             script.ask("undo")
             script.ask("set", settings={"count": 16, "seed": 1, "effort": 64.0})
         page.locator("button.primary").click()
-        until(page, "window.__studio.shown.what == 'best'")
+        until(page, "window.__studio.shown.role == 'best'")
         served.kill()
     with serving(tmp_path) as served:
         page = open_page(served)

@@ -1,4 +1,4 @@
-"""Drawings are coloured and structures judged in the page as by a script."""
+"""Drawings and structures in the page: colourings, rules, the check of structures."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import json
 from pathlib import Path
 
 import ezdxf
-from niwaki.color.drawing import OWN
+from niwaki.color.drawing import EXAMPLES
 from studio_page import at_rest, choose, contrasts, grow, nameless, picture, until
 
 
 def colored(page):
-    """Wait for the picture and the rules of the picked result."""
+    """Wait for the picture and the rules of the active result."""
     until(page, "window.__studio.easel?.detail == 'fine'")
     until(page, "window.__studio.palette?.key.run == window.__studio.view.picked.run")
 
@@ -28,7 +28,7 @@ def colors(page):
     return page.evaluate("window.__studio.palette.colors")
 
 
-def test_a_pinned_region_keeps_its_colour_the_rest_changes_and_rules_say_how_far(open_page, served):
+def test_a_held_region_keeps_its_colour_and_rules_show_their_misses(open_page, served):
     page = open_page(served)
     choose(page, "drawing:house", 8)
     until(page, "window.__studio.view.model.regions.length > 10")
@@ -46,18 +46,18 @@ def test_a_pinned_region_keeps_its_colour_the_rest_changes_and_rules_say_how_far
     after = colors(page)
     assert after["roof"] == before["roof"]
     assert sum(after[name] != before[name] for name in before) > len(before) / 2
-    # What the page shows of the rules is what the studio has measured.
-    kept = page.evaluate("window.__studio.palette.kept")
-    assert len(kept) > 40 and all(one["holds"] for one in kept)
+    # The page shows the studio's report on the rules.
+    rules = page.evaluate("window.__studio.palette.rules")
+    assert len(rules) > 40 and all(rule["holds"] for rule in rules)
     page.keyboard.press("Escape")
-    page.get_by_text(f"all {len(kept)} hold").wait_for()
-    # A colour against the rules: they say by how much.
+    page.get_by_text(f"all {len(rules)} hold").wait_for()
+    # A colour against the rules has a miss.
     page.get_by_label("Colour of wall", exact=True).fill("#2040ff")
-    until(page, "window.__studio.view.held.some(one => one.part == 'wall')")
+    until(page, "window.__studio.view.held.some(held => held.part == 'wall')")
     until(page, "window.__studio.palette?.colors.wall == '#2040ff'")
-    missed = [one for one in page.evaluate("window.__studio.palette.kept") if not one["holds"]]
-    assert any({"wall", "wall-shade"} == {one["first"], one["second"]} for one in missed)
-    page.get_by_text(f"{len(missed)} of {len(kept)} missed").wait_for()
+    missed = [rule for rule in page.evaluate("window.__studio.palette.rules") if not rule["holds"]]
+    assert any({"wall", "wall-shade"} == {rule["first"], rule["second"]} for rule in missed)
+    page.get_by_text(f"{len(missed)} of {len(rules)} missed").wait_for()
     picture(page, "rules")
     for _ in range(2):
         page.keyboard.press("Control+z")
@@ -69,7 +69,7 @@ def test_a_rule_is_added_by_clicking_regions_and_a_result_is_exported(open_page,
     choose(page, "drawing:robot", 2)
     page.get_by_role("button", name="Lighter", exact=True).click()
     click_region(page, "face")
-    # By its name, as from the keyboard.
+    # The second region is chosen by its name, with the keyboard.
     page.get_by_role("button", name="body", exact=True).press("Enter")
     page.get_by_role("button", name="Add", exact=True).click()
     rules = "window.__studio.view.ask.rules?.rules.at(-1)"
@@ -77,20 +77,20 @@ def test_a_rule_is_added_by_clicking_regions_and_a_result_is_exported(open_page,
     assert page.evaluate(rules)["regions"] == ["face", "body"]
     grow(page)
     colored(page)
-    kept = page.evaluate("window.__studio.palette.kept")
-    assert any((one["first"], one["second"]) == ("face", "body") for one in kept)
+    reports = page.evaluate("window.__studio.palette.rules")
+    assert any((report["first"], report["second"]) == ("face", "body") for report in reports)
     page.get_by_role("button", name="Export").click()
     with page.expect_download() as download:
         page.get_by_role("menuitem", name="SVG").click()
     assert colors(page)["face"] in Path(download.value.path()).read_text()
 
 
-def test_a_drawing_is_dropped(open_page, served):
+def test_an_uploaded_drawing_is_coloured(open_page, served):
     page = open_page(served)
     choose(page, "drawing:bug", 1)
-    page.get_by_label("A drawing to colour").set_input_files(OWN / "rocket.svg")
+    page.get_by_label("A drawing to colour").set_input_files(EXAMPLES / "rocket.svg")
     until(page, "window.__studio.view.model.reference.startsWith('drawing:upload:')")
-    until(page, "window.__studio.view.model.regions.some(one => one.name == 'flame')")
+    until(page, "window.__studio.view.model.regions.some(region => region.name == 'flame')")
     grow(page)
     colored(page)
     page.reload()
@@ -98,7 +98,7 @@ def test_a_drawing_is_dropped(open_page, served):
     colored(page)
 
 
-def test_a_structure_shows_its_forces_what_falls_is_marked_and_boards_are_cut(open_page, served):
+def test_a_structure_shows_forces_and_falling_blocks_and_exports_boards(open_page, served):
     page = open_page(served)
     choose(page, "stack:cut_lean", 2, seed=3)
     grow(page)
@@ -110,20 +110,22 @@ def test_a_structure_shows_its_forces_what_falls_is_marked_and_boards_are_cut(op
     assert page.evaluate("window.__studio.arrows") == 2 * len(judged["arrows"])
     page.get_by_text("Stands", exact=True).wait_for()
     page.get_by_text(f"until the ground is tilted by {judged['tilt']:.1f}°").wait_for()
-    page.get_by_role("button", name="Let go").click()
+    page.get_by_role("button", name="Simulate").click()
     until(page, "window.__studio.judged.stands === true")
     picture(page, "structure")
     with page.expect_download() as download:
         page.get_by_role("group", name="Boards").get_by_role("button", name="DXF").click()
     board = ezdxf.read(io.StringIO(Path(download.value.path()).read_text()))
-    cuts = [one for one in board.modelspace().query("LWPOLYLINE") if one.dxf.layer == "CUT"]
+    cuts = [line for line in board.modelspace().query("LWPOLYLINE") if line.dxf.layer == "CUT"]
     assert len(cuts) == 6
     # A block pushed to the edge of the one below it falls.
-    described = page.evaluate("window.__studio.described.choices")
-    slid = [
-        one for one in described if one["family"] == "uniform" and (one["low"], one["high"]) == (-1.0, 1.0)
+    choices = page.evaluate("window.__studio.described.choices")
+    sliding = [
+        choice
+        for choice in choices
+        if choice["family"] == "uniform" and (choice["low"], choice["high"]) == (-1.0, 1.0)
     ]
-    label = page.locator(f"label[title^='{slid[0]['address']}:']")
+    label = page.locator(f"label[title^='{sliding[0]['address']}:']")
     label.locator("input").fill("1")
     until(page, "window.__studio.judged?.holds === false")
     assert page.evaluate("window.__studio.judged.loose.length") > 0
@@ -145,7 +147,7 @@ def test_colouring_in_the_dark_by_the_keyboard_alone(open_page, served):
     page.keyboard.press("ArrowRight")
     until(page, f"window.__studio.view.picked.number != {first}")
     colored(page)
-    # A region by its name, held, and the rest coloured again.
+    # A region is chosen by its name and held; the rest is coloured again.
     page.get_by_role("button", name="roof", exact=True).press("Enter")
     until(page, "window.__studio.selection.level == 'roof'")
     page.keyboard.press("h")
@@ -176,9 +178,9 @@ def test_structures_in_the_dark_by_the_keyboard_alone(open_page, served):
     page.keyboard.press("ArrowRight")
     until(page, "window.__studio.view.picked.number == 1")
     until(page, judged)
-    page.get_by_role("button", name="Let go").press("Enter")
+    page.get_by_role("button", name="Simulate").press("Enter")
     until(page, "window.__studio.judged.stands === true")
-    # A call by its name; its slider.
+    # A call is chosen by its name, then its slider moves.
     until(page, "window.__studio.described?.key.number == 1")
     page.locator("button.call").last.press("Enter")
     until(page, "window.__studio.selection.level")
@@ -189,7 +191,7 @@ def test_structures_in_the_dark_by_the_keyboard_alone(open_page, served):
     picture(page, "structure-dark")
 
 
-def test_a_call_of_a_structure_is_grown_again_and_it_still_stands(open_page, served):
+def test_a_structure_still_stands_after_a_call_is_grown_again(open_page, served):
     page = open_page(served)
     choose(page, "stack:cut_stack", 1, seed=3)
     grow(page)

@@ -1,4 +1,4 @@
-"""The scene: objects beside the target, the difference to what is wanted, results side by side."""
+"""The scene: objects beside the target, the difference from the target, results side by side."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def add(page, name):
     page.get_by_role("menuitem", name=name).click()
 
 
-def dragged(page, x, y, by_x, by_y):
+def drag(page, x, y, by_x, by_y):
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + by_x, y + by_y, steps=4)
@@ -24,24 +24,24 @@ def dragged(page, x, y, by_x, by_y):
 
 
 def handle(page):
-    """Where the handles of the selected object stand, on the page."""
+    """Return the point of the handles of the selected object, on the page."""
     box = page.locator("main.stage").bounding_box()
     x, y = page.evaluate("window.__studio.handle")
     return box["x"] + x, box["y"] + y
 
 
-def test_objects_stand_in_the_scene_are_moved_by_handles_and_kept_away_from(open_page, served):
+def test_objects_are_moved_by_handles_and_parts_avoid_them(open_page, served):
     page = open_page(served)
     choose(page, "spaceship", 1)
     add(page, "Floor")
     until(page, "window.__studio.view.ask.floor !== null")
     floor = page.evaluate("window.__studio.view.ask.floor")
     add(page, "Ball")
-    until(page, "window.__studio.things.includes('obstacle 0')")
+    until(page, "window.__studio.objects.includes('obstacle 0')")
     first = page.evaluate("window.__studio.view.ask.obstacles[0].move")
     before = camera(page)
-    dragged(page, *handle(page), 90, -60)
-    until(page, f"window.__studio.view.ask.obstacles[0].move.some((one, k) => one != {first}[k])")
+    drag(page, *handle(page), 90, -60)
+    until(page, f"window.__studio.view.ask.obstacles[0].move.some((length, k) => length != {first}[k])")
     moved = page.evaluate("window.__studio.view.ask.obstacles[0].move")
     picture(page, "objects")
     grow(page)
@@ -56,17 +56,17 @@ def test_objects_stand_in_the_scene_are_moved_by_handles_and_kept_away_from(open
         page.keyboard.press("Control+Shift+z")
     until(page, "window.__studio.view.redo == 0")
     assert page.evaluate("window.__studio.view.ask.obstacles[0].move") == moved
-    page.get_by_role("button", name="Take the ball away").click()
-    until(page, "!window.__studio.things.includes('obstacle 0')")
+    page.get_by_role("button", name="Remove the ball").click()
+    until(page, "!window.__studio.objects.includes('obstacle 0')")
 
 
-def test_a_mesh_is_kept_away_from(open_page, served, tmp_path):
+def test_a_mesh_becomes_an_obstacle(open_page, served, tmp_path):
     page = open_page(served)
     choose(page, "spaceship", 1)
     place = tmp_path / "wall.stl"
     trimesh.creation.box((1.0, 4.0, 4.0)).export(place)
-    page.get_by_label("A mesh to keep away from").set_input_files(place)
-    until(page, "window.__studio.things.includes('obstacle 0')")
+    page.get_by_label("A mesh as an obstacle").set_input_files(place)
+    until(page, "window.__studio.objects.includes('obstacle 0')")
     assert page.evaluate("window.__studio.view.ask.target") is None
 
 
@@ -75,37 +75,37 @@ def test_a_shadow_is_drawn_and_grown_into(open_page, served):
     choose(page, "building", 1)
     page.wait_for_timeout(300)
     page.keyboard.press("d")
-    page.get_by_label("What the strokes are").select_option("shadow")
+    page.get_by_label("Meaning of the strokes").select_option("shadow")
     box = page.locator("main.stage").bounding_box()
-    dragged(page, box["x"] + 0.35 * box["width"], box["y"] + 0.66 * box["height"], 190, -30)
+    drag(page, box["x"] + 0.35 * box["width"], box["y"] + 0.66 * box["height"], 190, -30)
     until(page, "window.__studio.view.ask.sketch?.kind == 'shadow'")
-    until(page, "window.__studio.things.includes('light')")
+    until(page, "window.__studio.objects.includes('light')")
     page.get_by_role("button", name="Grow into it").click()
     until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
     at_rest(page)
     picture(page, "shadow")
     page.get_by_role("button", name="Move the light").click()
     before = np.array(page.evaluate("window.__studio.view.ask.light"))
-    dragged(page, *handle(page), 60, 40)
+    drag(page, *handle(page), 60, 40)
     until(page, f"window.__studio.view.ask.light[0] != {before[0]}")
 
 
 def engine_fit(served, key):
-    """Cells that the engine's own score counts: wanted and filled, wanted only, filled only."""
+    """Count cells with the engine's own score: target and scene, target only, scene only."""
     data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
-    one = run_files.replayed(data, key.get("number", 0))
-    call = next((one for one in one.search.score.asks if one.function == "match_volume"), None)
+    sample = run_files.replayed(data, key.get("number", 0))
+    call = next((ask for ask in sample.search.score.asks if ask.function == "match_volume"), None)
     if call is None:
-        view = one.search.score.views[0]
-        wanted, made = view.image, view.mask(one.scene)
-        return int((wanted & made).sum()), int((wanted & ~made).sum()), int((made & ~wanted).sum())
+        view = sample.search.score.views[0]
+        target, scene = view.image, view.mask(sample.scene)
+        return int((target & scene).sum()), int((target & ~scene).sum()), int((scene & ~target).sum())
     sketch = _engine.Sketch([call.spec])
-    for part in one.scene:
+    for part in sample.scene:
         sketch.add(list(part.shapes))
     measures = sketch.measures()
     differ = round((1 - measures["similarity"]) * np.prod(call.grid.dims))
     inside = round((call.grid.filled + measures["filled"] - differ) / 2)
-    assert abs(one.fit.covered - inside / call.grid.filled) < 1e-12
+    assert abs(sample.fit.covered - inside / call.grid.filled) < 1e-12
     return inside, call.grid.filled - inside, round(measures["filled"]) - inside
 
 
@@ -124,7 +124,7 @@ def test_the_difference_to_a_target_has_the_cells_that_the_engine_counts(open_pa
         counts = page.evaluate("window.__studio.counts")
         assert (counts["covered"], counts["missing"], counts["outside"]) == engine_fit(served, key)
         page.locator("[role=option]").nth(1).click()
-        until(page, "window.__studio.differs == '1'")
+        until(page, "window.__studio.differenceOf == '1'")
     page.keyboard.press("x")
     until(page, "!document.querySelector('.legend')")
 
@@ -135,7 +135,7 @@ def test_the_difference_to_a_drawn_silhouette_lies_over_the_view(open_page, serv
     page.wait_for_timeout(300)
     page.keyboard.press("d")
     box = page.locator("main.stage").bounding_box()
-    dragged(page, box["x"] + 0.5 * box["width"], box["y"] + 0.35 * box["height"], 3, 180)
+    drag(page, box["x"] + 0.5 * box["width"], box["y"] + 0.35 * box["height"], 3, 180)
     until(page, "window.__studio.view.ask.sketch")
     page.get_by_role("button", name="Grow into it").click()
     until(page, "!window.__studio.view.searching && window.__studio.view.results.length == 1")
@@ -151,7 +151,7 @@ def test_the_difference_to_a_drawn_silhouette_lies_over_the_view(open_page, serv
 def test_starred_results_stand_side_by_side_seen_by_one_camera(open_page, served):
     page = open_page(served)
     choose(page, "spaceship", 3)
-    page.get_by_role("slider", name="how different").fill("1")
+    page.get_by_role("slider", name="Difference of results").fill("1")
     until(page, "window.__studio.view.settings.strength == 1")
     grow(page)
     at_rest(page)
@@ -161,7 +161,7 @@ def test_starred_results_stand_side_by_side_seen_by_one_camera(open_page, served
     before = camera(page)
     with timed("compare"):
         page.keyboard.press("c")
-        until(page, "window.__studio.compared.filter(one => one > 0).length == 3")
+        until(page, "window.__studio.compared.filter(triangles => triangles > 0).length == 3")
     page.wait_for_timeout(500)
     picture(page, "compare")
     assert page.locator(".side-name").count() == 3
@@ -178,35 +178,35 @@ def test_growth_is_scrubbed_and_played_in_the_order_of_the_run(open_page, served
     choose(page, "building", 1, seed=2)
     grow(page)
     at_rest(page)
-    parts = page.evaluate("window.__studio.described.parts.map(one => one.address)")
+    parts = page.evaluate("window.__studio.described.parts.map(part => part.address)")
     assert len(parts) > 3 and page.evaluate("window.__studio.drawn.length") == len(parts)
-    slider = page.get_by_role("slider", name="parts that are shown")
+    slider = page.get_by_role("slider", name="Visible parts")
     slider.fill("2")
     until(page, "window.__studio.drawn.length == 2")
     assert set(page.evaluate("window.__studio.drawn")) == set(parts[:2])
-    page.get_by_label("order of growth").select_option("depth")
+    page.get_by_label("Order of growth").select_option("depth")
     slider.fill("3")
-    depths = [one.count("/") for one in page.evaluate("window.__studio.drawn")]
-    assert sorted(depths) == sorted(one.count("/") for one in parts)[:3]
+    depths = [part.count("/") for part in page.evaluate("window.__studio.drawn")]
+    assert sorted(depths) == sorted(part.count("/") for part in parts)[:3]
     page.locator("main.stage canvas").first.focus()
     page.keyboard.press("Space")
     until(page, "window.__studio.drawn.length > 3")
     until(page, f"window.__studio.drawn.length == {len(parts)}")
 
 
-def test_growth_goes_part_by_part_where_motion_is_not_wanted(open_page, served):
+def test_growth_goes_part_by_part_with_reduced_motion(open_page, served):
     page = open_page(served, reduced_motion="reduce")
     choose(page, "building", 1, seed=2)
     grow(page)
     at_rest(page)
-    button = page.get_by_role("button", name="One part more")
+    button = page.get_by_role("button", name="Show one more part")
     for count in (1, 2):
         button.click()
         page.wait_for_timeout(200)
         assert page.evaluate("window.__studio.drawn.length") == count
 
 
-def test_a_first_shape_that_is_larger_than_its_target_is_looked_at_once(open_page, served, pile):
+def test_the_camera_moves_once_for_a_first_shape_that_is_larger_than_its_target(open_page, served, pile):
     page = open_page(served)
     choose(page, "spaceship", 1)
     page.select_option("select[aria-label=Model]", str(pile))
@@ -219,7 +219,7 @@ def test_a_first_shape_that_is_larger_than_its_target_is_looked_at_once(open_pag
     at_rest(page)
     second = camera(page)
     assert page.evaluate("window.__studio.seesAll") and not np.allclose(first, second, atol=1e-3)
-    # Once: from then on it is the user's.
+    # The camera moves only once; after that only the user moves it.
     page.get_by_label("height").fill("30")
     page.get_by_label("height").blur()
     until(page, "window.__studio.bounds.high?.[1] > 20")
@@ -240,7 +240,7 @@ def test_arguments_are_written_as_defaults_by_one_button(open_page, served, pile
     page.get_by_text("line 7: 3.0 becomes 4.0").click()
     assert pile.read_text() == text
     try:
-        page.get_by_role("button", name="Write it").click()
+        page.get_by_role("button", name="Write", exact=True).click()
         until(page, "window.__studio.view.model.parameters[0].default == 4")
         assert pile.read_text() == text.replace("3.0", "4.0")
         assert button.count() == 0

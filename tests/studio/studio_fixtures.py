@@ -1,4 +1,4 @@
-"""Fixtures of tests that speak to a studio, by a script or in a browser."""
+"""Fixtures of tests with a studio, by a script or in a browser."""
 
 from __future__ import annotations
 
@@ -19,6 +19,6 @@ def pile(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory, pile: Path) -> Iterator[Served]:
-    """One studio for the tests of a file."""
-    with serving(tmp_path_factory.mktemp("session"), pile) as one:
-        yield one
+    """A studio for the tests of a file."""
+    with serving(tmp_path_factory.mktemp("session"), pile) as studio:
+        yield studio

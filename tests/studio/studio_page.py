@@ -1,6 +1,6 @@
-"""What tests do with the studio's page, and how long it takes.
+"""Actions of tests on the studio's page, and their times.
 
-Times are of a software renderer, and are printed; where `NIWAKI_TIMES` is set (two quiet cores) none may be more than
+Times are those of a software renderer, and are printed. If `NIWAKI_TIMES` is set (two idle cores), no time may exceed
 twice its limit.
 """
 
@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-#: Where pictures and times go.
+#: The folder of pictures and times.
 OUT = Path("out/studio")
 
-#: Screenshots of the manual: written where `NIWAKI_PICTURES` names its folder of pictures.
-KEPT = {
+#: Screenshots of the manual, written if `NIWAKI_PICTURES` names the folder of its pictures.
+MANUAL = {
     "fill": "studio.png",
     "shape": "studio-part.png",
     "objects": "studio-objects.png",
@@ -30,7 +30,7 @@ KEPT = {
     "falls": "studio-structure.png",
 }
 
-#: Seconds, from facts that were measured on people: 0.1 feels direct, 1 keeps the thought.
+#: Seconds, from studies of people: 0.1 feels immediate, 1 does not interrupt a thought.
 LIMITS = {
     "model": 0.3,
     "first shape": 0.3,
@@ -51,32 +51,32 @@ LIMITS = {
 }
 times: dict[str, float] = {}
 
-#: The journeys, and the steps of each that are timed: what a person does, and what is then seen.
+#: The journeys with their timed steps: an action and its visible effect.
 JOURNEYS = {
     "fill": {
         "model": "choose a model: its name and its target",
         "first shape": "Grow: the first shape",
         "gallery": "the gallery, from the first shape on",
-        "difference": "X: where it differs from the target",
+        "difference": "X: the difference from the target",
     },
-    "draw": {"stroke": "let go of the pen: the silhouette is asked for"},
+    "draw": {"stroke": "release the pen: the silhouette is the goal"},
     "shape by hand": {
         "part": "click a part: its name, its choices",
-        "part, large": "the same beside a target of 1.3 million triangles",
+        "part, large": "click a part beside a target of 1.3 million triangles",
         "hold": "hold it",
         "re-roll": "grow it again",
         "undo": "undo",
     },
     "write": {
         "error": "save a file with an error: the message with its line",
-        "mended": "save it mended: the message goes",
+        "mended": "save the corrected file: the message disappears",
     },
     "finish": {"compare": "starred results side by side", "export": "export a GLB"},
 }
 
 
 def as_table() -> str:
-    """The times of the steps as a table of Markdown, with the load of the machine."""
+    """Write the times of the steps as a table of Markdown, with the load of the machine."""
     load = os.getloadavg()[1]
     lines = ["| journey | step | seconds | limit |", "| --- | --- | --- | --- |"]
     for journey, steps in JOURNEYS.items():
@@ -90,19 +90,19 @@ def as_table() -> str:
 
 
 class timed:
-    """The time of a step of a journey."""
+    """A context that measures the time of a step of a journey."""
 
     def __init__(self, name: str) -> None:
         self.name = name
 
     def __enter__(self):
         """Begin."""
-        self.begun = time.perf_counter()
+        self.start = time.perf_counter()
 
     def __exit__(self, kind, *_):
         """End."""
         if kind is None:
-            times[self.name] = time.perf_counter() - self.begun
+            times[self.name] = time.perf_counter() - self.start
 
 
 def until(page, expression):
@@ -111,28 +111,28 @@ def until(page, expression):
 
 
 def picture(page, name):
-    """A screenshot, to be looked at."""
+    """Write a screenshot for people."""
     OUT.mkdir(parents=True, exist_ok=True)
     page.wait_for_timeout(500)
     page.screenshot(path=OUT / f"{name}.png")
-    kept = os.environ.get("NIWAKI_PICTURES")
-    if kept is not None and name in KEPT:
+    folder = os.environ.get("NIWAKI_PICTURES")
+    if folder is not None and name in MANUAL:
         # 128 colours are enough for a page, and take a third of the bytes.
-        place = Path(kept) / KEPT[name]
+        place = Path(folder) / MANUAL[name]
         with Image.open(OUT / f"{name}.png") as full:
             full.convert("RGB").quantize(128, dither=Image.Dither.NONE).save(place, optimize=True)
         assert place.stat().st_size < 100_000
 
 
 def choose(page, reference, count=3, seed=1):
-    """Choose a model, how many results and the seed."""
+    """Choose a model, the number of results and the seed."""
     page.select_option("select[aria-label=Model]", reference)
     until(page, f"window.__studio.view.model.reference == {json.dumps(reference)}")
     until(page, "window.__studio.isGhostShown")
     slider = page.get_by_role("slider", name="results")
     slider.fill(str(count))
-    page.locator("input[placeholder='another each time']").fill(str(seed))
-    page.locator("input[placeholder='another each time']").blur()
+    page.locator("input[placeholder='random']").fill(str(seed))
+    page.locator("input[placeholder='random']").blur()
     until(
         page,
         f"window.__studio.view.settings.count == {count} && window.__studio.view.settings.seed == {seed}",
@@ -152,54 +152,56 @@ def at_rest(page):
 
 
 def click_part(page, address):
-    """Click where a part is seen."""
+    """Click a visible point of a part."""
     box = page.locator("main.stage").bounding_box()
     x, y = page.evaluate("address => window.__studio.pointOf(address)", address)
     page.mouse.click(box["x"] + x, box["y"] + y)
 
 
 def visible(page, word):
-    """The address of a part that is seen, with this word in it."""
-    found = "window.__studio.shown.parts.find(one => one.includes(%s) && window.__studio.pointOf(one))"
-    return page.evaluate(found % json.dumps(word))
+    """Find the address of a visible part with a word in it."""
+    script = "window.__studio.shown.parts.find(part => part.includes(%s) && window.__studio.pointOf(part))"
+    return page.evaluate(script % json.dumps(word))
 
 
 def camera(page):
-    """Where the camera stands."""
+    """Return the matrix of the camera."""
     return np.array(page.evaluate("window.__studio.camera"))
 
 
 def nameless(page):
-    """How many buttons and fields have no name that can be read out."""
-    is_nameless = "one => !(one.title || one.ariaLabel || one.textContent.trim() || one.closest('label'))"
+    """Count the buttons and fields without a name for a screen reader."""
+    is_nameless = (
+        "node => !(node.title || node.ariaLabel || node.textContent.trim() || node.closest('label'))"
+    )
     return page.eval_on_selector_all("button, select, input", f"all => all.filter({is_nameless}).length")
 
 
-#: Texts that are seen whose colour is too near to what is behind them: less than 4.5 to 1 (WCAG 2.2, 1.4.3).
+#: Visible texts with too little contrast to their background: less than 4.5 to 1 (WCAG 2.2, 1.4.3).
 CONTRASTS = """() => {
   const parsed = text => (text.match(/[\\d.]+/g) ?? []).map(Number);
   const light = ([r, g, b]) => [r, g, b].map(v => v / 255)
     .map(v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
     .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
-  const found = [];
-  for (const one of document.querySelectorAll("body *")) {
-    const own = [...one.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
-    const box = one.getBoundingClientRect();
-    if (!own || !box.width || !box.height || one.closest("option, [disabled]")) continue;
-    let behind = one, back = [0, 0, 0, 0];
+  const faint = [];
+  for (const element of document.querySelectorAll("body *")) {
+    const hasText = [...element.childNodes].some(node => node.nodeType === 3 && node.textContent.trim());
+    const box = element.getBoundingClientRect();
+    if (!hasText || !box.width || !box.height || element.closest("option, [disabled]")) continue;
+    let behind = element, back = [0, 0, 0, 0];
     while (behind && (back[3] ?? 1) === 0) {
       back = parsed(getComputedStyle(behind).backgroundColor);
       behind = behind.parentElement;
     }
-    const [a, b] = [light(parsed(getComputedStyle(one).color)), light(back)].sort((x, y) => y - x);
+    const [a, b] = [light(parsed(getComputedStyle(element).color)), light(back)].sort((x, y) => y - x);
     const ratio = (a + 0.05) / (b + 0.05);
-    const name = `${one.tagName}.${one.className} ${one.textContent.trim().slice(0, 20)}`;
-    if (ratio < 4.5) found.push(`${name}: ${ratio.toFixed(2)}`);
+    const name = `${element.tagName}.${element.className} ${element.textContent.trim().slice(0, 20)}`;
+    if (ratio < 4.5) faint.push(`${name}: ${ratio.toFixed(2)}`);
   }
-  return [...new Set(found)];
+  return [...new Set(faint)];
 }"""
 
 
 def contrasts(page):
-    """Texts that are hard to read, each with its contrast."""
+    """List texts with too little contrast, each with its ratio."""
     return page.evaluate(CONTRASTS)

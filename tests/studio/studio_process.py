@@ -1,4 +1,4 @@
-"""A studio that is served, as a user starts it: another process, on a free port of loopback."""
+"""A studio in another process, as a user starts it, on a free port of loopback."""
 
 from __future__ import annotations
 
@@ -42,19 +42,19 @@ class Served:
         )
         assert self.process.stdout is not None
         line = self.process.stdout.readline()
-        found = re.search(r"http://127\.0\.0\.1:(\d+)/open\?token=(\S+)", line)
-        assert found is not None, line
-        self.port, self.token = int(found[1]), found[2]
+        match = re.search(r"http://127\.0\.0\.1:(\d+)/open\?token=(\S+)", line)
+        assert match is not None, line
+        self.port, self.token = int(match[1]), match[2]
         self.url, self.key = (folder / "key").read_text().split()
         os.set_blocking(self.process.stdout.fileno(), False)
 
     def link(self) -> str:
-        """A token that was not used."""
-        found, self.token = self.token or self.next_token(), ""
-        return found
+        """Return an unused token."""
+        token, self.token = self.token or self.next_token(), ""
+        return token
 
     def next_token(self) -> str:
-        """The token that is printed after one was used."""
+        """Wait for the token that the studio prints after a use."""
         assert self.process.stdout is not None
         for _ in range(100):
             line = self.process.stdout.readline()
@@ -64,12 +64,12 @@ class Served:
         raise AssertionError("no other token was printed")
 
     def kill(self) -> None:
-        """As `kill -9` does."""
+        """Kill the process, as `kill -9` does."""
         self.process.kill()
         self.process.wait()
 
     def end(self) -> None:
-        """As Ctrl-C does."""
+        """Stop the process, as Ctrl-C does."""
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
             try:
@@ -82,7 +82,7 @@ class Served:
 
 @contextmanager
 def serving(folder: Path, *models: Path) -> Iterator[Served]:
-    """A studio, ended at the end."""
+    """Serve a studio, and stop it at the end."""
     served = Served(folder, *models)
     try:
         yield served
@@ -91,7 +91,7 @@ def serving(folder: Path, *models: Path) -> Iterator[Served]:
 
 
 def fetch(served: Served, path: str, body: bytes | None = None) -> bytes:
-    """What a studio answers to a request with its key."""
+    """Send a request with the studio's key; return the answer."""
     request = urllib.request.Request(served.url + path, body, {"Authorization": f"Bearer {served.key}"})
     with urllib.request.urlopen(request, timeout=60) as answer:
         return answer.read()

@@ -141,7 +141,7 @@ class Order:
         return GrowValues(
             model=self.model,
             arguments=self.arguments,
-            asked={name: write(value) for name, value in self.asked.items()},
+            options={name: write(value) for name, value in self.asked.items()},
             settings=Settings(count=self.count, effort=self.effort),
             run=0,
             seed=self.seed,

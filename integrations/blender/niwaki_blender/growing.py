@@ -202,7 +202,7 @@ class Growing:
     def _report(self, report: Any, payload: bytes) -> None:
         if isinstance(report, Progressed):
             self.progress = report
-        elif isinstance(report, Shape) and report.what == "best":
+        elif isinstance(report, Shape) and report.role == "best":
             self.best = _mesh(report, payload)
 
 

@@ -1,8 +1,8 @@
-from . import agree as agree
+from . import consistency as consistency
 from . import files as files
 from .drawing import Drawing as Drawing
-from .kept import Kept as Kept
 from .model import coloring as coloring
+from .report import RuleReport as RuleReport
 from .rules import Rules as Rules
 from .search import Coloring as Coloring
 from .search import color as color

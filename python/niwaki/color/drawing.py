@@ -1,8 +1,8 @@
-"""The drawing: regions with names, the share of the picture that each takes, and which are neighbours.
+"""Drawings: regions with names, the share of the picture that each takes, and neighbours.
 
 Regions come from an SVG file (`niwaki.color.svg`) or from an image whose colours are the regions. Two regions are
-neighbours when a pixel of one lies within two pixels, across or diagonally, of a pixel of the other: thin lines between
-areas do not part them. An area is the region's share of all pixels, those of no region counted too.
+neighbours if a pixel of the first lies within two pixels, across or diagonally, of a pixel of the second: thin lines
+between areas do not part them. An area is the region's share of all pixels, including pixels of no region.
 """
 
 from __future__ import annotations
@@ -25,22 +25,22 @@ from niwaki.targets.pixels import load as load_pixels
 
 NEAR = 2  # pixels
 MOST_REGIONS = 256
-OWN = Path(__file__).with_name("drawings")
+EXAMPLES = Path(__file__).with_name("drawings")
 
 
 class Drawing:
-    """Regions of a picture.
+    """A picture divided into regions with names.
 
     Parameters
     ----------
     names
-        One for each region.
+        Names of the regions.
     labels
         The region of each pixel, (height, width) int; -1 for none.
     artwork
-        The SVG that it came from, if any.
+        The SVG that was read, if any.
     place
-        The file that it came from, for messages.
+        The file that was read, for messages.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Drawing:
     pairs : list of (int, int)
         Neighbours, each once, the lower first.
     hidden : tuple of str
-        Regions of which no pixel is seen.
+        Regions without a visible pixel.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Drawing:
 
     @classmethod
     def load(cls, place: str | PathLike[str], size: int = 512) -> Drawing:
-        """A drawing from a file, or one of our own by name: robot, house, bug, rocket.
+        """Load a drawing from a file, or a drawing of the package by name: robot, house, bug, rocket.
 
         Parameters
         ----------
@@ -79,9 +79,9 @@ class Drawing:
         Raises
         ------
         FileError
-            There is no such file, it cannot be read, or it has fewer than two regions.
+            The file does not exist, cannot be read, or has fewer than two regions.
         """
-        path = own(place, ".svg")
+        path = example_or_file(place, ".svg")
         regular(path)
         if path.suffix.lower() == ".svg":
             artwork = Artwork(bytes_of(path, "drawing"), path)
@@ -101,7 +101,7 @@ class Drawing:
         return most - 1 if most > 0 else None
 
     def picture(self, colors: Mapping[str, str], size: int = 512) -> Image.Image:
-        """The drawing in these colours, `#rrggbb` by region; the longer side of an SVG has `size` pixels."""
+        """Draw the picture in these colours, `#rrggbb` by region; the longer side of an SVG has `size` pixels."""
         if self.artwork is not None:
             return raster(self.artwork.painted(colors), size, self.place)
         table = np.zeros((len(self.names) + 1, 4), dtype=np.uint8)
@@ -117,14 +117,14 @@ class Drawing:
         )
 
 
-def own(place: str | PathLike[str], suffix: str) -> Path:
-    """The path of a file, or of one of our own by the name alone."""
-    ours = {one.stem: one for one in OWN.glob(f"*{suffix}")}
-    return Path(place) if os.path.exists(place) else ours.get(str(place), Path(place))
+def example_or_file(place: str | PathLike[str], suffix: str) -> Path:
+    """Find a file by its path, or a file of the package by its name alone."""
+    examples = {path.stem: path for path in EXAMPLES.glob(f"*{suffix}")}
+    return Path(place) if os.path.exists(place) else examples.get(str(place), Path(place))
 
 
 def neighbours(labels: NDArray[np.int64], count: int, near: int = NEAR) -> list[tuple[int, int]]:
-    """Pairs of regions with pixels at most `near` rows and columns apart, the lower first, in order."""
+    """List pairs of regions with pixels at most `near` rows and columns apart, the lower first, in order."""
     height, width = labels.shape
     codes: set[int] = set()
     for dy in range(min(near + 1, height)):
@@ -144,22 +144,22 @@ def _of_image(path: Path) -> tuple[tuple[str, ...], NDArray[np.int64]]:
     code = pixels[..., 0].astype(np.uint32) << 16
     code |= pixels[..., 1].astype(np.uint32) << 8
     code |= pixels[..., 2]
-    seen = pixels[..., 3] >= 128
-    found = np.zeros(1 << 24, dtype=bool)
-    found[code[seen]] = True
-    values = np.flatnonzero(found)
+    opaque = pixels[..., 3] >= 128
+    used = np.zeros(1 << 24, dtype=bool)
+    used[code[opaque]] = True
+    values = np.flatnonzero(used)
     if len(values) < 2:
         raise FileError("drawing-no-regions", path, found=f"{len(values)} opaque colour")
     if len(values) > MOST_REGIONS:
         raise FileError("drawing-too-many", path, count=len(values), most=MOST_REGIONS)
     numbers = np.zeros(1 << 24, dtype=np.int16)
     numbers[values] = np.arange(len(values))
-    labels = np.where(seen, numbers[code], np.int16(-1)).astype(np.int64)
+    labels = np.where(opaque, numbers[code], np.int16(-1)).astype(np.int64)
     return tuple(f"#{value:06x}" for value in values.tolist()), labels
 
 
 def _rgba(values: NDArray[Any]) -> NDArray[np.uint8]:
-    """The channels of an image as red, green, blue and alpha."""
+    """Convert the channels of an image to red, green, blue and alpha."""
     if values.dtype != np.uint8:
         values = np.rint(values.clip(0, 255)).astype(np.uint8)
     if values.ndim == 2:

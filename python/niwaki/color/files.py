@@ -18,16 +18,16 @@ PAPER, INK = (250, 249, 246), (84, 82, 78)
 
 
 def sheet(colorings: Sequence[Coloring], columns: int = 4, size: int = 320) -> Image.Image:
-    """All colourings on one page, numbered.
+    """Draw all colourings on one page, numbered.
 
     Parameters
     ----------
     columns
         Pictures in a row.
     size
-        Pixels of the longer side of each.
+        Pixels of the longer side of each picture.
     """
-    images = [one.image(2 * size).convert("RGBA") for one in colorings]
+    images = [coloring.image(2 * size).convert("RGBA") for coloring in colorings]
     if any(max(image.size) > size for image in images):
         images = [_shrunk(image, size) for image in images]
     width, height = images[0].size
@@ -44,44 +44,44 @@ def sheet(colorings: Sequence[Coloring], columns: int = 4, size: int = 320) -> I
 
 
 def table(colorings: Sequence[Coloring]) -> list[list[str]]:
-    """A row for each rule: its kind, its regions, its goal, and each colouring's residual, CIELAB units."""
+    """Tabulate the rules: kind, regions and goal of each, and its residual in each colouring, CIELAB units."""
     rows = [["rule", "first", "second", "wanted", *(f"{k + 1:02}" for k in range(len(colorings)))]]
-    kept = [one.kept for one in colorings]
-    for k, first in enumerate(kept[0]):
-        misses = [f"{one[k].residual:.2f}" for one in kept]
-        rows.append([first.rule.kind, first.rule.first, first.rule.second, f"{first.wanted:g}", *misses])
+    reports = [coloring.report for coloring in colorings]
+    for k, first in enumerate(reports[0]):
+        misses = [f"{report[k].residual:.2f}" for report in reports]
+        rows.append([first.rule.kind, first.rule.first, first.rule.second, f"{first.goal:g}", *misses])
     return rows
 
 
 def contents(colorings: Sequence[Coloring], size: int = 1024) -> dict[str, Callable[[], bytes]]:
-    """The bytes of the files of colourings, by name: functions that give them. The first of each kind shows most.
+    """Return the files of colourings: functions that write the bytes, by name.
 
-    `sheet.png`; `01.png` and, for a drawing that is an SVG, `01.svg`, and so on; `colors.json`, the colours by file and
-    region; `residuals.csv`, a row for each rule.
+    The files are `sheet.png`; `01.png` and, for an SVG drawing, `01.svg`, and so on; `colors.json` with the colours by
+    file and region; `residuals.csv` with a row for each rule. Of each kind of file, the first shows most.
     """
-    colors = {f"{k + 1:02}": one.colors for k, one in enumerate(colorings)}
-    made: dict[str, Callable[[], bytes]] = {"sheet.png": lambda: _png(sheet(colorings))}
-    for name, one in zip(colors, colorings, strict=True):
-        made[f"{name}.png"] = lambda one=one: _png(one.image(size))  # type: ignore[misc]
-        if (artwork := one.drawing.artwork) is not None:
-            made[f"{name}.svg"] = artwork.painted(one.colors).encode
-    made["colors.json"] = json_text(colors, "the colours").encode
+    colors = {f"{k + 1:02}": coloring.colors for k, coloring in enumerate(colorings)}
+    files: dict[str, Callable[[], bytes]] = {"sheet.png": lambda: _png(sheet(colorings))}
+    for name, coloring in zip(colors, colorings, strict=True):
+        files[f"{name}.png"] = lambda coloring=coloring: _png(coloring.image(size))  # type: ignore[misc]
+        if (artwork := coloring.drawing.artwork) is not None:
+            files[f"{name}.svg"] = artwork.painted(coloring.colors).encode
+    files["colors.json"] = json_text(colors, "the colours").encode
     rows = io.StringIO()
     csv.writer(rows).writerows(table(colorings))
-    made["residuals.csv"] = rows.getvalue().encode
-    return made
+    files["residuals.csv"] = rows.getvalue().encode
+    return files
 
 
 def write(colorings: Sequence[Coloring], folder: str | PathLike[str], size: int = 1024) -> list[Path]:
-    """Write the `contents` to a folder that is there.
+    """Write the `contents` into a folder that exists.
 
     Returns
     -------
     list of Path
-        What was written.
+        The files.
     """
-    made = contents(colorings, size)
-    return [write_whole(Path(folder, name), content()) for name, content in made.items()]
+    files = contents(colorings, size)
+    return [write_whole(Path(folder, name), content()) for name, content in files.items()]
 
 
 def _png(image: Image.Image) -> bytes:

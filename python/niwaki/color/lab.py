@@ -1,7 +1,7 @@
-"""Colours as the coloring model sees them: CIELAB with white D65 and a gamma of 2.2.
+"""CIELAB as the coloring model computes it: white D65 and a gamma of 2.2.
 
-The dissertation's colours have this plain power where sRGB has a straight foot; the difference is below 1 unit of
-lightness except near black.
+The dissertation uses this plain power where sRGB has a straight foot. The difference is below 1 unit of lightness
+except near black.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ KNEE, SLOPE = 216.0 / 24389.0, 24389.0 / 27.0
 
 
 def of_rgb(colors: ArrayLike) -> NDArray[np.float64]:
-    """CIELAB of colours in [0, 1]; (..., 3) to (..., 3) float64."""
+    """Convert colours in [0, 1] to CIELAB; (..., 3) to (..., 3) float64."""
     xyz = np.asarray(colors, dtype=np.float64) ** GAMMA @ np.array(TO_XYZ).T / np.array(WHITE)
     f = np.where(xyz > KNEE, np.cbrt(xyz), (SLOPE * xyz + 16.0) / 116.0)
     x, y, z = f[..., 0], f[..., 1], f[..., 2]
@@ -28,18 +28,18 @@ def of_rgb(colors: ArrayLike) -> NDArray[np.float64]:
 
 
 def of_hex(text: str) -> tuple[float, float, float]:
-    """CIELAB of `#rrggbb`."""
-    found = of_rgb(parts(text))
-    return float(found[0]), float(found[1]), float(found[2])
+    """Convert `#rrggbb` to CIELAB."""
+    light, a, b = of_rgb(parts(text))
+    return float(light), float(a), float(b)
 
 
 def parts(text: str) -> tuple[float, float, float]:
-    """Red, green and blue of `#rrggbb`, in [0, 1]."""
+    """Split `#rrggbb` into red, green and blue, in [0, 1]."""
     code = int(text.removeprefix("#"), 16)
     return (code >> 16) / 255.0, (code >> 8 & 255) / 255.0, (code & 255) / 255.0
 
 
 def hexed(color: ArrayLike) -> str:
-    """`#rrggbb` of a colour in [0, 1], to the nearest byte."""
+    """Write a colour in [0, 1] as `#rrggbb`, to the nearest byte."""
     r, g, b = (int(part) for part in np.floor(255.0 * np.clip(color, 0.0, 1.0) + 0.5))
     return f"#{r:02x}{g:02x}{b:02x}"

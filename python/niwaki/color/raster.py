@@ -1,7 +1,7 @@
 """An SVG as pixels, drawn by resvg.
 
-resvg keeps no limits of time and memory. A drawing of plain shapes is bounded by its size and is drawn at once; one
-with filters, patterns, masks, markers, dashes or pictures is drawn in a process of its own.
+resvg has no limits of time and memory. The size of a drawing of plain shapes bounds its cost, so it is drawn at once. A
+drawing with filters, patterns, masks, markers, dashes or pictures is drawn in a separate process.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ _COSTLY = re.compile(
 
 
 def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image:
-    """An SVG drawn by resvg; its longer side has `size` pixels.
+    """Draw an SVG with resvg; its longer side has `size` pixels.
 
     Raises
     ------
     FileError
-        resvg is not installed, or cannot read it, or needs too much time or memory.
+        resvg is not installed, cannot read the drawing, or needs too much time or memory.
     InputError
-        `bad-setting`: the size is not from 1 to 16,384, or there is no memory for it.
+        `bad-setting`: the size is not from 1 to 16,384, or needs too much memory.
     """
     check_size((size, size))
     optional("resvg_py", "drawing SVG files", "color")
@@ -46,29 +46,29 @@ def raster(text: str, size: int, place: str | Path | None = None) -> Image.Image
             error.place = place
             raise
     else:
-        # The pixels themselves, in a few layers.
+        # The 40 bytes of a pixel are those of a few layers.
         memory = limit("memory") + 40 * size * size
         pixels = read_apart(drawn, data, place, ".svg", memory, size=size)["pixels"]
     return Image.fromarray(pixels, "RGBA")
 
 
 def drawn(data: bytes, size: int) -> dict[str, NDArray[Any]]:
-    """The pixels of an SVG, (rows, columns, 4) uint8: red, green, blue, alpha."""
+    """Draw the pixels of an SVG, (rows, columns, 4) uint8: red, green, blue, alpha."""
     resvg_py = optional("resvg_py", "drawing SVG files", "color")
     text = data.decode()
     with library(None, ".svg"):
-        # Reading the system's fonts takes longer than the rest.
+        # To read the system's fonts takes longer than to draw.
         plain = "<text" not in text
-        found = _open(
+        image = _open(
             resvg_py.svg_to_bytes(svg_string=text, width=size, height=size, skip_system_fonts=plain)
         )
-        if found.height > size:
-            found = _open(resvg_py.svg_to_bytes(svg_string=text, height=size, skip_system_fonts=plain))
-    return {"pixels": np.asarray(found)}
+        if image.height > size:
+            image = _open(resvg_py.svg_to_bytes(svg_string=text, height=size, skip_system_fonts=plain))
+    return {"pixels": np.asarray(image)}
 
 
 def _open(data: bytes) -> Image.Image:
-    # What resvg has drawn is as large as was asked for.
+    # resvg draws the size that `drawn` asked for, so Pillow's limit on pixels does not matter.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         return Image.open(io.BytesIO(bytes(data)), formats=["PNG"]).convert("RGBA")

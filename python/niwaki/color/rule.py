@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-#: Units of CIELAB lightness between neighbours in a `lightness` chain (dissertation appendix B.1), a `lighter` one.
+#: Units of CIELAB lightness between neighbours in a `lightness` chain (dissertation appendix B.1), a `lighter` chain.
 STEP, LEAST = 15.0, 12.0
 
 
@@ -17,9 +17,9 @@ class Rule:
     kind : str
         "lightness", "lighter", "same-chroma", "same-hue" or "muted".
     first, second : str
-        The regions, the lighter one first; no second for "muted".
+        The regions, the lighter region first; `second` is empty for "muted".
     most : float
-        For "muted": how far from grey, CIELAB units.
+        For "muted": the largest distance from grey, CIELAB units.
     """
 
     kind: str

@@ -1,17 +1,17 @@
 """Rules about the regions of a drawing; a small TOML file.
 
-background = "sky"                            # one region; else the one that holds the picture's edge
+background = "sky"                            # without this line: the region at the picture's edge
 lightness = [["wall", "wall-shade", "ink"]]   # each about 15 units of CIELAB lightness above the next
 lighter = [["wall", "roof"]]                  # each at least 12 units above the next
 same-chroma = [["wall", "wall-shade"]]        # shades of one colour: equal a and b
-same-hue = [["roof", "door"]]                 # strong or pale, but of one hue
+same-hue = [["roof", "door"]]                 # one hue, strong or pale
 
-[muted]                                       # how far from grey, most; CIELAB units
-all = 60                                      # what has no number of its own
+[muted]                                       # largest distance from grey, CIELAB units
+all = 60                                      # regions without a number of their own
 sky = 30
 
 [held]
-ink = "#1a1a2e"                               # a colour that is not to change
+ink = "#1a1a2e"                               # a colour that does not change
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from niwaki.color.agree import contradiction
-from niwaki.color.drawing import own
+from niwaki.color.consistency import contradiction
+from niwaki.color.drawing import example_or_file
 from niwaki.color.rule import Rule
 from niwaki.errors import FileError
 from niwaki.errors.settings import shown
@@ -44,20 +44,20 @@ CHAINS = {
 
 @dataclass(frozen=True)
 class Rules:
-    """Rules about the regions of a drawing, by their names.
+    """Rules about the regions of a drawing.
 
     Attributes
     ----------
     lightness, lighter, same_chroma, same_hue : list of list of str
-        Chains of regions; a rule holds between each and the next.
+        Chains of regions; a rule holds between each region and the next.
     muted : dict of str to float
-        How far from grey a region may be, CIELAB units; `all` for those without their own number.
+        The largest distance from grey by region, CIELAB units; `all` for regions without their own number.
     background : str or None
-        The region that the others lie on; None for the one that holds the picture's edge.
+        The region behind all other regions; None for the region at the picture's edge.
     held : dict of str to str
         Colours that do not change, `#rrggbb` by region.
     place : path or None
-        Where they were read from, for messages.
+        The file that was read, for messages.
 
     Examples
     --------
@@ -77,15 +77,15 @@ class Rules:
 
     @classmethod
     def load(cls, place: str | PathLike[str]) -> Rules:
-        """Rules from a TOML file, or those of one of our own drawings by name."""
-        path = own(place, ".toml")
+        """Load rules from a TOML file, or the rules of a drawing of the package by its name."""
+        path = example_or_file(place, ".toml")
         data = toml_of(text_of(path, "rules", ".toml"), path)
         return cls.of(data, path)
 
     @classmethod
     def of(cls, data: dict[str, Any], place: str | Path | None = None) -> Rules:
-        """Rules from the tables of a TOML file."""
-        # The table `held` was `pinned` in the first files.
+        """Read rules from the tables of a TOML file."""
+        # In the first files the table `held` had the name `pinned`.
         data = {
             "held" if key == "pinned" and "held" not in data else key: value for key, value in data.items()
         }
@@ -99,7 +99,7 @@ class Rules:
                 raise FileError(
                     "rules-unclear",
                     place,
-                    reason=f"`{key:.80}` is no rule" + (f"; did you mean `{near[0]}`?" if near else ""),
+                    reason=f"`{key:.80}` is not a rule" + (f"; did you mean `{near[0]}`?" if near else ""),
                 )
             if key in CHAINS and not _is_chains(value):
                 raise FileError(
@@ -116,7 +116,7 @@ class Rules:
                 raise FileError(
                     "rules-unclear",
                     place,
-                    reason=f"`{name:.80}` is muted to {shown(most)}, not to a number from 0 to 200",
+                    reason=f"`{name:.80}` is muted to {shown(most)}, which is not a number from 0 to 200",
                 )
         if not isinstance(held, dict):
             raise FileError("rules-unclear", place, reason="`held` is not a table of colours by region")
@@ -125,13 +125,13 @@ class Rules:
                 raise FileError(
                     "rules-unclear",
                     place,
-                    reason=f"`{name:.80}` is held at {shown(value)}, not to a `#rrggbb`",
+                    reason=f"`{name:.80}` is held at {shown(value)}, which is not a colour `#rrggbb`",
                 )
         chains = {field_: data.get(key, []) for key, field_ in CHAINS.items()}
         return cls(**chains, muted=muted, background=background, held=held, place=place)
 
     def __iter__(self) -> Iterator[Rule]:
-        """The rules one by one: one for each neighbouring pair of each chain, those of single regions last."""
+        """Go through the rules: each neighbouring pair of each chain, then the muted regions."""
         for kind, name in CHAINS.items():
             for chain in getattr(self, name):
                 for first, second in zip(chain, chain[1:], strict=False):
@@ -141,7 +141,7 @@ class Rules:
                 yield Rule("muted", name, most=most)
 
     def toml(self) -> str:
-        """The rules as a file, which `load` reads."""
+        """Write the rules as the text of a file, which `load` reads."""
         lines = [] if self.background is None else [f"background = {_quoted(self.background)}"]
         for key, name in CHAINS.items():
             if chains := getattr(self, name):
@@ -154,7 +154,7 @@ class Rules:
         return "\n".join([*lines, ""])
 
     def on(self, names: Sequence[str]) -> Iterator[Rule]:
-        """The rules on a drawing of these regions: `all` becomes a rule for each region without its own."""
+        """Go through the rules on these regions: `all` becomes a rule for each region without its own number."""
         yield from self
         if "all" in self.muted:
             for name in names:
@@ -162,32 +162,32 @@ class Rules:
                     yield Rule("muted", name, most=self.muted["all"])
 
     def check(self, names: Sequence[str]) -> None:
-        """Refuse rules that name no region of a drawing, and rules that cannot hold together.
+        """Check that the rules name regions of a drawing and can hold together.
 
         Raises
         ------
         FileError
             `rules-no-region` with the name, or `rules-contradict` with the rules.
         """
-        used = [one for rule in self for one in (rule.first, rule.second) if one]
+        used = [name for rule in self for name in (rule.first, rule.second) if name]
         used += [self.background] if self.background is not None else []
         for name in [*used, *self.held]:
             if name not in names:
                 near = get_close_matches(name, names, n=1)
                 reason = f"did you mean `{near[0]}`?" if near else f"it has {', '.join(names)}"
                 raise FileError("rules-no-region", self.place, name=name, reason=reason)
-        found = contradiction(self)
-        if found:
-            raise FileError("rules-contradict", self.place, rules="; ".join(found))
+        conflict = contradiction(self)
+        if conflict:
+            raise FileError("rules-contradict", self.place, rules="; ".join(conflict))
 
 
 def _is_chains(value: Any) -> bool:
     return isinstance(value, list) and all(
-        isinstance(chain, list) and len(chain) >= 2 and all(isinstance(one, str) for one in chain)
+        isinstance(chain, list) and len(chain) >= 2 and all(isinstance(name, str) for name in chain)
         for chain in value
     )
 
 
 def _quoted(value: Any) -> str:
-    """A text, a number or a list of texts in TOML."""
+    """Write a text, a number or a list of texts in TOML."""
     return json.dumps(value, ensure_ascii=False)

@@ -1,8 +1,8 @@
-"""Colourings of a drawing that keep its rules and differ from one another.
+"""Search for colourings of a drawing that keep its rules and differ from one another.
 
-The compatibility model is sampled by many short chains that follow its gradient, each from its own run. Their samples
-are moved uphill until the rules hold. From the better half the colourings are chosen one by one, each as far as
-possible in CIELAB from those already chosen (farthest-point choice, Gonzalez 1985).
+Many short chains that follow the gradient sample the compatibility model, each from its own run. Their samples are
+moved uphill until the rules hold. From the better half, colourings are chosen in turn, each as far as possible in
+CIELAB from the colourings already chosen (farthest-point choice, Gonzalez 1985).
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from niwaki import draw
 from niwaki.color import lab
-from niwaki.color.drawing import OWN, Drawing
-from niwaki.color.kept import SCORED, Kept, kept
+from niwaki.color.drawing import EXAMPLES, Drawing
 from niwaki.color.model import coloring
+from niwaki.color.report import SCORED, RuleReport, report
 from niwaki.color.rules import Rules
 from niwaki.color.settle import settled
 from niwaki.errors import FileError, InputError
@@ -42,11 +42,11 @@ class Coloring:
     Attributes
     ----------
     drawing, rules
-        What was coloured, and how it should be.
+        The drawing and its rules.
     colors : dict of str to str
         `#rrggbb` by region.
     sample : Sample
-        The run of the model, with choices and log score.
+        The run of the model: choices and log score.
     arguments : tuple
         The model's arguments.
     """
@@ -63,40 +63,40 @@ class Coloring:
         return self.sample.log_score
 
     def image(self, size: int = 512) -> Image.Image:
-        """The coloured drawing; the longer side of an SVG has `size` pixels."""
+        """Draw the coloured drawing; the longer side of an SVG has `size` pixels."""
         return self.drawing.picture(self.colors, size)
 
     def _repr_html_(self) -> str:
-        rules = {str(k): one for k, one in enumerate(self.kept, 1)}
+        rules = {str(k): row for k, row in enumerate(self.report, 1)}
         return draw.card.card(
             "Coloring", {"log score": self.log_score, **rules}, draw.picture.png(self.image(360))
         )
 
     @cached_property
     def residuals(self) -> Residuals:
-        """Every soft constraint of the model, worst first."""
+        """Soft constraints of the model, worst first."""
         return residuals(coloring, *self.arguments, choices=self.sample.choices)
 
     @property
-    def kept(self) -> list[Kept]:
-        """How well each rule is kept, in the order of the rules."""
-        return kept(self.rules.on(self.drawing.names), self.residuals)
+    def report(self) -> list[RuleReport]:
+        """Report on each rule, in the order of the rules."""
+        return report(self.rules.on(self.drawing.names), self.residuals)
 
 
 def arguments(drawing: Drawing, rules: Rules, strictness: float = 100.0) -> tuple[Any, ...]:
-    """What `coloring` takes, for these rules on this drawing; refuses rules that do not fit.
+    """Make the arguments of the model `coloring` for these rules on this drawing.
 
     Raises
     ------
     FileError
-        As `Rules.check`.
+        As for `Rules.check`.
     """
     rules.check(drawing.names)
     number = {name: k for k, name in enumerate(drawing.names)}
     by_kind: dict[str, list[tuple[int, float]]] = {kind: [] for kind, _ in SCORED.values()}
     for rule in rules.on(drawing.names):
-        other = rule.most if rule.kind == "muted" else number[rule.second]
-        by_kind[rule.kind].append((number[rule.first], other))
+        partner = rule.most if rule.kind == "muted" else number[rule.second]
+        by_kind[rule.kind].append((number[rule.first], partner))
     background = number[rules.background] if rules.background is not None else drawing.background
     held = [lab.parts(rules.held[name]) if name in rules.held else None for name in drawing.names]
     return (
@@ -113,12 +113,12 @@ def arguments(drawing: Drawing, rules: Rules, strictness: float = 100.0) -> tupl
     )
 
 
-#: Which argument of the model has the colours that do not change.
+#: The number of the model's argument with the colours that do not change.
 HELD = 8
 
 
 def default_method(count: int) -> Method:
-    """How colourings are searched for by default."""
+    """The method that `color` uses by default."""
     return explore(draws=1, chains=3 * count)
 
 
@@ -134,41 +134,41 @@ def color(
     threads: int | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> list[Coloring]:
-    """Color a drawing, several times.
+    """Search for several colourings of a drawing.
 
     Parameters
     ----------
     drawing
-        A `Drawing`, a file, or the name of one of ours: robot, house, bug, rocket.
+        A `Drawing`, a file, or the name of a drawing of the package: robot, house, bug, rocket.
     rules
-        `Rules` or a file; when left out, ours for a drawing of ours, none for others.
+        `Rules` or a file; when left out, the package's rules for a drawing of the package, no rules for others.
     count
-        How many colourings.
+        The number of colourings.
     method
-        A sampler; it gives the colourings to choose among. By default `explore`, three chains for each colouring.
+        The sampler that draws the colourings to choose among. By default `explore`, three chains for each colouring.
     settle
-        Steps uphill from each of them, until the rules are kept as well as they can be nearby (`niwaki.color.settle`);
-        0 for none, where the sampler's own draws are wanted.
+        Steps uphill from each draw, until the rules hold as well as they can nearby (`niwaki.color.settle`); 0 keeps
+        the sampler's own draws.
     strictness
-        What the model's log score is multiplied with: the larger, the stricter.
+        The factor of the model's log score: the larger, the stricter.
     seed, threads, progress
         As for `niwaki.run`.
 
     Returns
     -------
     list of Coloring
-        The best first, then each as different as can be from those before it.
+        The best first, then each as different as possible from all before it.
 
     Raises
     ------
     KeyboardInterrupt
-        Ctrl-C: what is not settled keeps no rule.
+        Ctrl-C: a colouring that has not settled keeps no rule, so no part of the result is returned.
 
     Examples
     --------
     >>> from niwaki import mh
-    >>> one, two = color("bug", count=2, method=mh(steps=400, chains=2, warmup=200, keep=4), seed=1)
-    >>> sorted(one.colors) == sorted(two.colors), one.colors["wing"] != two.colors["wing"]
+    >>> first, second = color("bug", count=2, method=mh(steps=400, chains=2, warmup=200, keep=4), seed=1)
+    >>> sorted(first.colors) == sorted(second.colors), first.colors["wing"] != second.colors["wing"]
     (True, True)
     """
     count = at_least_one("count", count)
@@ -179,26 +179,26 @@ def color(
     if not isinstance(rules, Rules):
         rules = Rules.load(rules)
     real("strictness", strictness, 0, usual="100")
-    given = arguments(drawing, rules, strictness)
+    values = arguments(drawing, rules, strictness)
     if all(name in rules.held for name in drawing.names):
         raise FileError("rules-hold-all", rules.place, count=len(drawing.names))
     result = run(
         coloring,
         method or default_method(count),
-        *given,
+        *values,
         seed=seed,
         threads=threads,
         progress=progress,
     ).to_its_end()
-    drawn = [sample for sample in result if sample.has_ended and np.isfinite(sample.log_score)]
-    pool = [run(coloring, *given, choices=settled(one, settle))[0] for one in drawn] if settle else drawn
+    draws = [sample for sample in result if sample.has_ended and np.isfinite(sample.log_score)]
+    pool = [run(coloring, *values, choices=settled(draw, settle))[0] for draw in draws] if settle else draws
     if len(pool) < count:
         raise InputError(
             "bad-setting",
             name="count",
             found=count,
-            expected=f"no more than the sampler gives, which is {len(pool)}",
-            suggestion="fewer, or give `method` more draws",
+            expected=f"at most {len(pool)}, the number of colourings that the sampler draws",
+            suggestion="ask for fewer, or give `method` more draws",
         )
     rgb = np.array([sample.value for sample in pool], dtype=np.float64)
     scores = np.array([sample.log_score for sample in pool])
@@ -209,33 +209,33 @@ def color(
             rules,
             {name: lab.hexed(rgb[k, i]) for i, name in enumerate(drawing.names)},
             pool[k],
-            given,
+            values,
         )
         for k in chosen
     ]
 
 
 def painted(drawing: Drawing, rules: Rules, colors: Mapping[str, str], strictness: float = 100.0) -> Coloring:
-    """A colouring in colours that are given: nothing is searched for, and its rules are measured.
+    """Measure the rules of a colouring in the given colours, without a search.
 
     Parameters
     ----------
     drawing, rules, strictness
         As for `color`.
     colors
-        `#rrggbb` of every region.
+        The colour of every region, `#rrggbb`.
 
     Examples
     --------
     >>> drawing = Drawing.load("bug")
     >>> grey = painted(drawing, rules_of("bug"), dict.fromkeys(drawing.names, "#808080"))
-    >>> str(grey.kept[0])
+    >>> str(grey.report[0])
     '`background` is 0 units lighter than `leaf`: 15 too little'
     """
-    given = list(arguments(drawing, rules, strictness))
-    given[HELD] = [lab.parts(colors[name]) for name in drawing.names]
-    sample = run(coloring, *given, choices={}).best
-    return Coloring(drawing, rules, dict(colors), sample, tuple(given))
+    values = list(arguments(drawing, rules, strictness))
+    values[HELD] = [lab.parts(colors[name]) for name in drawing.names]
+    sample = run(coloring, *values, choices={}).best
+    return Coloring(drawing, rules, dict(colors), sample, tuple(values))
 
 
 def farthest(
@@ -251,11 +251,11 @@ def farthest(
     labs
         (colourings, regions, 3) CIELAB.
     scores
-        (colourings,) log scores; only the better half is chosen from, more where that is fewer than `count`.
+        (colourings,) log scores. Only the better half is considered, or the best `count` if these are more.
     areas
-        (regions,); a region counts by the root of its area, so that small ones are seen too.
+        (regions,); a region counts by the root of its area, so that small regions matter, too.
     count
-        How many.
+        The number of colourings.
     """
     best = np.argsort(-scores, kind="stable")[: max(count, -(-len(scores) // 2))]
     weights = np.sqrt(np.asarray(areas, dtype=np.float64))
@@ -272,6 +272,6 @@ def farthest(
 
 
 def rules_of(drawing: str | PathLike[str]) -> Rules:
-    """The rules of one of our own drawings, by its name; none for any other."""
-    named = not Path(drawing).exists() and (OWN / f"{drawing}.toml").is_file()
-    return Rules.load(OWN / f"{drawing}.toml") if named else Rules()
+    """Load the rules of a drawing of the package, by its name; no rules for any other drawing."""
+    is_example = not Path(drawing).exists() and (EXAMPLES / f"{drawing}.toml").is_file()
+    return Rules.load(EXAMPLES / f"{drawing}.toml") if is_example else Rules()

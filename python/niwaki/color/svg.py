@@ -1,8 +1,9 @@
 """The regions of an SVG file, and the file with each region painted.
 
-A shape belongs to the region that its own class names, or that of the nearest group around it; where no class does, the
-nearest id. `data-stroke` names another region for the shape's stroke. Shapes without any name keep their colours and
-belong to no region. Each `use` is replaced by what it uses, so that two uses of one shape can have two colours.
+The class of a shape names its region; a shape without a class takes the class of the nearest group around it. Where
+there is no class, the nearest id counts. `data-stroke` names another region for the shape's stroke. Shapes without any
+name keep their colours and belong to no region. Each `use` is replaced by a copy of the shape that it uses, so that two
+uses of one shape can have two colours.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ SHAPES = {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "t
 NO_PAINT = ("none", "transparent")
 GROUPS = {"svg", "g", "a", "switch"}
 
-# For counting pixels: each shape is whole, opaque and in its own flat colour.
+# Styles for counting pixels: each shape is whole, opaque and in a flat colour.
 PLAIN = {
     "opacity": "1",
     "fill-opacity": "1",
@@ -43,7 +44,7 @@ PLAIN = {
 
 @dataclass(frozen=True)
 class Shape:
-    """One painted shape: the regions of its fill and its stroke; None without that paint, empty without a name."""
+    """A painted shape, with the regions of its fill and its stroke: None without that paint, empty without a name."""
 
     element: Element
     fill: str | None
@@ -51,28 +52,28 @@ class Shape:
 
 
 class Artwork:
-    """An SVG file taken apart.
+    """An SVG file, divided into regions.
 
     Attributes
     ----------
     names : tuple of str
-        Its regions, in the order in which they are drawn first.
+        The regions, in the order of their first shapes.
     """
 
     def __init__(self, text: bytes, place: str | Path | None = None) -> None:
         self.place = place
         self._tree = _parsed(text, place)
         self._shapes: list[Shape] = []
-        sheets = ["".join(one.itertext()) for one in self._tree.iter() if tag_of(one) == "style"]
+        sheets = ["".join(element.itertext()) for element in self._tree.iter() if tag_of(element) == "style"]
         try:
             self._styles = Styles.of(sheets, place)
         except SelectorError as error:
             raise FileError(
                 "drawing-unclear",
                 place,
-                reason=f"the style sheet's selector `{error!s:.80}` is more than a tag, classes and ids",
+                reason=f"the style sheet's selector `{error!s:.80}` has more than a tag, classes and ids",
             ) from error
-        self._by_id = {one.get("id"): one for one in self._tree.iter() if one.get("id")}
+        self._by_id = {element.get("id"): element for element in self._tree.iter() if element.get("id")}
         self._copies = self._characters = 0
         self._expand(self._tree, (), 0)
         self._walk(self._tree, dict(INITIAL), "", "")
@@ -80,12 +81,12 @@ class Artwork:
         self.names = tuple(dict.fromkeys(named))
 
     def painted(self, colors: Mapping[str, str], plain: bool = False) -> str:
-        """The file with its regions in these colours.
+        """Write the file with its regions in these colours.
 
         Parameters
         ----------
         colors
-            By region, as CSS writes them: `#a04020`. Regions that are left out keep their own.
+            Colours by region, as CSS writes them: `#a04020`. Other regions keep their colours.
         plain
             Without transparency, filters and soft edges; shapes without a region are black.
         """
@@ -103,29 +104,29 @@ class Artwork:
                 elif plain and region == "":
                     style[key] = "#000000"
             element.set("style", _written(style))
-        for one in root.iter():
-            # A sheet's `!important` would win over what was just painted.
-            if tag_of(one) == "style" and one.text:
-                one.text = one.text.replace("!important", "")
+        for element in root.iter():
+            # A sheet's `!important` would win over the new colours.
+            if tag_of(element) == "style" and element.text:
+                element.text = element.text.replace("!important", "")
         return ElementTree.tostring(root, encoding="unicode")
 
     def labels(self, size: int) -> NDArray[np.int64]:
-        """The region of each pixel, (height, width); -1 for none. The longer side has `size` pixels."""
+        """Number the region of each pixel, (height, width); -1 for none. The longer side has `size` pixels."""
         codes = [(k + 1) * 2654435761 % (1 << 24) for k in range(len(self.names))]
         text = self.painted(
             {name: f"#{code:06x}" for name, code in zip(self.names, codes, strict=True)}, plain=True
         )
         pixels = np.asarray(raster(text, size, self.place).convert("RGBA"), dtype=np.int64)
-        code = (pixels[..., 0] << 16) | (pixels[..., 1] << 8) | pixels[..., 2]
-        found = np.full(code.shape, -1, dtype=np.int64)
-        for k, one in enumerate(codes):
-            found[(code == one) & (pixels[..., 3] >= 128)] = k
+        pixel_codes = (pixels[..., 0] << 16) | (pixels[..., 1] << 8) | pixels[..., 2]
+        labels = np.full(pixel_codes.shape, -1, dtype=np.int64)
+        for k, code in enumerate(codes):
+            labels[(pixel_codes == code) & (pixels[..., 3] >= 128)] = k
         # Soft edges of clips and masks mix two codes: such a pixel goes to a neighbour's region.
-        mixed = (found < 0) & (pixels[..., 3] >= 128) & (code != 0)
-        return _settled(found, mixed)
+        mixed = (labels < 0) & (pixels[..., 3] >= 128) & (pixel_codes != 0)
+        return _settled(labels, mixed)
 
     def _expand(self, element: Element, within: tuple[str, ...], depth: int) -> None:
-        """Replace each `use` below by a group with a copy of what it uses."""
+        """Replace each `use` below the element by a group with a copy of its source."""
         check("depth", depth, self.place)
         for place, child in enumerate(list(element)):
             tag = tag_of(child)
@@ -140,28 +141,28 @@ class Artwork:
                 self._expand(child, within, depth + 1)
 
     def _used(self, use: Element, name: str) -> Element:
-        keep = {k: v for k, v in use.attrib.items() if k.rpartition("}")[2] not in _USE_ONLY}
+        attributes = {k: v for k, v in use.attrib.items() if k.rpartition("}")[2] not in _USE_ONLY}
         shift = f"translate({use.get('x', '0')} {use.get('y', '0')})"
         if shift != "translate(0 0)":
-            keep["transform"] = f"{keep.get('transform', '')} {shift}".strip()
-        group = Element(f"{{{SVG}}}g", keep)
+            attributes["transform"] = f"{attributes.get('transform', '')} {shift}".strip()
+        group = Element(f"{{{SVG}}}g", attributes)
         group.tail = use.tail
         source = self._by_id.get(name)
         if source is None:
             return group
-        for one in source.iter():
+        for element in source.iter():
             self._copies += 1
             if self._copies > limit("elements"):
                 raise beyond(
                     "elements", f"its `use`s create more than {limit('elements'):,} elements", self.place
                 )
-            self._characters += sum(map(len, one.attrib.values())) + len(one.text or "")
+            self._characters += sum(map(len, element.attrib.values())) + len(element.text or "")
             check("characters", self._characters, self.place)
         copy = deepcopy(source)
-        # The definition's id is only a reference; the region is named by the `use`, or by a class.
-        for one in copy.iter():
-            if one is copy or tag_of(one) not in SHAPES | GROUPS | {"use"}:
-                one.attrib.pop("id", None)
+        # The definition's id is only a reference; the `use` or a class names the region.
+        for element in copy.iter():
+            if element is copy or tag_of(element) not in SHAPES | GROUPS | {"use"}:
+                element.attrib.pop("id", None)
         if tag_of(copy) == "symbol":
             copy.tag = f"{{{SVG}}}svg"
             for key in ("width", "height"):
@@ -198,7 +199,7 @@ _USE_ONLY = {"href", "x", "y", "width", "height"}
 def _parsed(text: bytes, place: str | Path | None) -> Element:
     tree = xml_of(text, place)
     root = tree.root
-    # Names of other programs' attributes stay as they were written.
+    # Attributes of other programs keep their prefixes.
     for prefix, space in tree.spaces:
         if prefix and not re.fullmatch(r"ns\d+", prefix):
             ElementTree.register_namespace(prefix, space)
@@ -206,14 +207,14 @@ def _parsed(text: bytes, place: str | Path | None) -> Element:
     if tag_of(root) != "svg":
         reason = f"its outermost element is `{tag_of(root):.80}`, not `svg`"
         raise FileError("file-unreadable", place, suffix=".svg", reason=reason)
-    for one in root.iter():
-        if tag_of(one) in ("image", "feImage"):
-            _check_image(one, place)
+    for element in root.iter():
+        if tag_of(element) in ("image", "feImage"):
+            _check_image(element, place)
     return root
 
 
 def _check_image(element: Element, place: str | Path | None) -> None:
-    """Refuse a picture of another file: a drawing shows what it holds itself."""
+    """Refuse an image from another file: a drawing shows only its own contents."""
     for name in ("href", f"{{{XLINK}}}href"):
         shown = element.get(name, "").strip()
         if shown and not shown.startswith(("data:", "#")):

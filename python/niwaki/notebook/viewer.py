@@ -143,7 +143,7 @@ def _frame(one: Sample | Scene) -> bytes:
         scene, note = one.scene, f"log score {one.log_score:.2f}{fit}, {one.primitives} primitives"
     else:
         scene, note = one, f"{len(one)} parts"
-    header, payload = shapes.shape(scene, "fine", what="result", is_flat=is_flat(scene), note=note)
+    header, payload = shapes.shape(scene, "fine", role="result", is_flat=is_flat(scene), note=note)
     return frame(msgspec.json.encode(header), payload)
 
 
@@ -151,5 +151,5 @@ def _ghost(target: Target) -> bytes:
     bounds = target.bounds
     (x, y, z), (u, v, w) = bounds.tolist()
     pivot = ((x + u) / 2, (y + v) / 2, (z + w) / 2)
-    header, payload = shapes.ghost(target.vertices, target.faces, bounds, pivot, what="ghost")
+    header, payload = shapes.ghost(target.vertices, target.faces, bounds, pivot, role="ghost")
     return frame(msgspec.json.encode(header), payload)

@@ -90,7 +90,7 @@ def _preview(drawing: coloring.Drawing, rules: coloring.Rules) -> None:
     print(f"{len(drawing.names)} regions, {len(drawing.pairs)} pairs of neighbours, {len(list(rules))} rules")
     if drawing.hidden:
         print(f"warning: no pixel shows {', '.join(drawing.hidden)}")
-    slack, forced = coloring.agree.least_slack(rules)
+    slack, forced = coloring.consistency.least_slack(rules)
     if slack > 0.5:
         print(f"warning: the rules contradict each other; some will be {slack:.1f} units off:")
         print("\n".join(f"  {rule}" for rule in forced))
@@ -101,7 +101,7 @@ def _summary(colorings: list[coloring.Coloring], seconds: float, seed: int) -> N
     print(f"{counted(len(colorings), 'colouring')} in {seconds:.1f} s, seed {seed}")
     for k, result in enumerate(colorings):
         line = f"  {k + 1:02}  log score {result.log_score:9.2f}"
-        if result.kept:
-            worst = max(result.kept, key=lambda rule: abs(rule.residual))
+        if result.report:
+            worst = max(result.report, key=lambda rule: abs(rule.residual))
             line += f"  {abs(worst.residual):5.1f} off: {worst.rule}"
         print(line)

@@ -1,13 +1,13 @@
-"""The studio: models, their targets and their results in a page, and everything that the page does for scripts, too.
+"""The studio: a page with models, targets and results, and a client with which scripts do the same.
 
-- `messages/`  the protocol: what can be asked and what is told, one struct each; `types` writes the page's types
+- `messages/`  the protocol: commands and events, one struct each; `types` writes the page's types
 - `frames`     geometry on the wire
-- `document`, `journal`  what a session is about, and its steps on disk; undo moves a head
-- `refused`    what cannot be done, in words
+- `document`, `journal`  the contents of a session, and its steps on disk; undo moves a head
+- `problems`   errors as messages for a window
 - `session/`   commands in, steps and shapes out; a function for each kind of command
-- `window`     what waits to be sent to one window
-- `process`, `worker/`   the processes that import models, search, and read what users send
-- `security`, `server`, `serving`  who may speak; the routes; the loop
+- `window`     the queue of messages to one window
+- `process`, `worker/`   the processes that import models, search, and read uploads
+- `security`, `server`, `serving`  access, routes, the loop
 - `client`     `connect`, for scripts
 
 The page's sources are in `studio/page` of the repository; `make studio-page` bundles them into `page/` here.

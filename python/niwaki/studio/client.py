@@ -1,4 +1,4 @@
-"""A script's way to the studio: every message that the page sends, and every answer that it gets.
+"""A client of the studio for scripts: it sends the messages of the page and reads the same answers.
 
 with niwaki.studio.connect("http://127.0.0.1:8000", key) as studio:
     studio.ask("model", reference="spaceship")
@@ -20,22 +20,22 @@ from websockets.sync.client import ClientConnection
 from websockets.sync.client import connect as dial
 
 from niwaki.errors import NiwakiError
-from niwaki.studio.frames import opened
+from niwaki.studio.frames import unpack
 from niwaki.studio.messages import PROTOCOL, Command, Difference, Picture, Regions, Shape
 
-#: Events whose bytes come with them; they answer no command.
+#: Events with a payload of bytes; they do not answer a command.
 FRAMES = ("shape", "picture", "regions")
 
 
 class StudioError(NiwakiError):
-    """A command was refused, or its work failed; with the text that the page shows."""
+    """A command that the studio refused or that failed, with the text that the page shows."""
 
     def __init__(self, code: str, text: str) -> None:
         super().__init__(code)
         self.code, self.text = code, text
 
     def render(self) -> str:
-        """The text."""
+        """Return the text."""
         return self.text
 
 
@@ -45,15 +45,15 @@ class Studio:
     Attributes
     ----------
     view : dict
-        What every window shows, up to date with the last message that was read.
+        The state that every window shows, as of the last message that was read.
     shapes : list of (Shape, bytes)
-        The shapes that have come.
+        The shapes received so far.
     differences : list of (Difference, bytes)
-        The differences to what is wanted that have come.
+        The differences from targets received so far.
     pictures : list of (Picture or Regions, bytes)
-        The pictures of drawings that have come, and their regions.
+        The pictures of drawings and the regions received so far.
     events : list of dict
-        Every event that has come.
+        All events received so far.
     """
 
     def __init__(self, url: str, key: str) -> None:
@@ -72,30 +72,30 @@ class Studio:
         self.ask("hello", protocol=PROTOCOL)
 
     def send(self, kind: str | Command, **fields: Any) -> int:
-        """Send a command, by its kind and its fields, and return its number."""
+        """Send a command by its kind and its fields; return its number."""
         number = next(self._ids)
         data = msgspec.to_builtins(kind) if isinstance(kind, Command) else {"kind": kind, **fields}
         self._socket.send(json.dumps({**msgspec.to_builtins(data), "id": number}))
         return number
 
     def ask(self, kind: str | Command, timeout: float = 60.0, **fields: Any) -> dict[str, Any]:
-        """Send a command, and wait until its work is done.
+        """Send a command and wait until it is done.
 
         Returns
         -------
         dict
-            The last answer that was more than `done`, or that.
+            The last answer other than `done`; `done` if there is no other.
 
         Raises
         ------
         StudioError
-            It was refused or failed.
+            The studio refused the command, or it failed.
         """
         return self.wait(self.send(kind, **fields), timeout)
 
     def wait(self, number: int, timeout: float = 60.0) -> dict[str, Any]:
         """Read messages until a command is done."""
-        found: dict[str, Any] = {}
+        answer: dict[str, Any] = {}
         end = time.monotonic() + timeout
         while True:
             event = self.read(end - time.monotonic())
@@ -104,9 +104,9 @@ class Studio:
             if event["kind"] == "error":
                 raise StudioError(event["problem"]["code"], event["problem"]["text"])
             if event["kind"] != "done":
-                found = event
+                answer = event
             if event["kind"] in ("done", "state"):
-                return found or event
+                return answer or event
 
     def read(self, timeout: float = 60.0) -> dict[str, Any]:
         """Read one message.
@@ -114,19 +114,19 @@ class Studio:
         Raises
         ------
         TimeoutError
-            None came.
+            No message arrived in time.
         """
         data = self._socket.recv(max(timeout, 0.0))
         if isinstance(data, bytes):
-            header, payload = opened(data)
-            told = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions)
-            if isinstance(told, Shape):
-                self.shapes.append((told, bytes(payload)))
-            elif isinstance(told, Difference):
-                self.differences.append((told, bytes(payload)))
+            header, payload = unpack(data)
+            message = msgspec.json.decode(header, type=Shape | Difference | Picture | Regions)
+            if isinstance(message, Shape):
+                self.shapes.append((message, bytes(payload)))
+            elif isinstance(message, Difference):
+                self.differences.append((message, bytes(payload)))
             else:
-                self.pictures.append((told, bytes(payload)))
-            event: dict[str, Any] = msgspec.to_builtins(told)
+                self.pictures.append((message, bytes(payload)))
+            event: dict[str, Any] = msgspec.to_builtins(message)
         else:
             event = json.loads(data)
         if event["kind"] == "state":
@@ -141,7 +141,7 @@ class Studio:
         self._open.close()
 
     def __enter__(self) -> Self:
-        """Itself."""
+        """Return the connection."""
         return self
 
     def __exit__(
@@ -157,8 +157,8 @@ def connect(url: str, key: str) -> Studio:
     Parameters
     ----------
     url
-        Where it is: `http://127.0.0.1:PORT`.
+        The address of the studio: `http://127.0.0.1:PORT`.
     key
-        Its key; the file `key` in the session's folder has both.
+        The studio's key; the file `key` in the session's folder has both.
     """
     return Studio(url, key)

@@ -1,7 +1,7 @@
-"""What a session is about, apart from how it is shown: the part of the state that undo takes back.
+"""The document of a session: the part of its state that undo restores.
 
-A document is the fold of its changes: each step of the journal replaces some of its fields. So undo moves a head, and
-two documents are the same if their hashes are.
+Each step of the journal replaces some fields of the document, so undo only moves a head. Two documents are equal if
+their hashes are equal.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ from niwaki.studio.messages import Ask, HeldPart, Key, Outcome, Settings
 
 
 class Document(Struct, kw_only=True):
-    """A session's model, what is asked of it, its results, and what the user has marked.
+    """The document of a session: the model, the goals, the results, and the user's marks.
 
     Attributes
     ----------
     model
-        A reference.
+        The reference of the model.
     arguments
-        Of the model, by name.
+        Arguments of the model, by name.
     results
         The gallery, in its order.
     picked
-        The result that is shown and worked on.
+        The active result.
     held
-        Held parts, with the values that hold them.
+        Held parts, with the values of their choices.
     stars
-        Marked results; they stay in the gallery when others come.
+        Starred results; a new search keeps them in the gallery.
     """
 
     model: str | None = None
@@ -44,14 +44,14 @@ class Document(Struct, kw_only=True):
     stars: list[Key] = []
 
     def changed(self, changes: dict[str, Any]) -> Document:
-        """The document with other values of some fields, given as plain data."""
+        """Return the document with other values of some fields, given as plain data."""
         return msgspec.convert({**msgspec.to_builtins(self), **changes}, Document)
 
     @property
     def hash(self) -> str:
-        """SHA-256 of all of it, in hexadecimal."""
+        """SHA-256 of the document, in hexadecimal."""
         return hashlib.sha256(msgspec.json.encode(self, order="deterministic")).hexdigest()
 
     def starred(self) -> list[Outcome]:
-        """The marked results, in the order of the gallery."""
-        return [one for one in self.results if one.key in self.stars]
+        """Return the starred results, in the order of the gallery."""
+        return [outcome for outcome in self.results if outcome.key in self.stars]

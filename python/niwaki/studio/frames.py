@@ -16,18 +16,18 @@ LONGEST = 1 << 30
 
 
 def frame(header: bytes, payload: bytes = b"") -> bytes:
-    """One frame."""
+    """Pack a frame."""
     padded = header + b" " * (-len(header) % 4)
     return HEAD.pack(len(padded)) + padded + payload
 
 
-def opened(data: bytes) -> tuple[bytes, memoryview]:
-    """The header and the payload of a frame.
+def unpack(data: bytes) -> tuple[bytes, memoryview]:
+    """Unpack the header and the payload of a frame.
 
     Raises
     ------
     ValueError
-        The frame is shorter than it says.
+        The frame is shorter than its header announces.
     """
     if len(data) < HEAD.size:
         raise ValueError("the frame has no header")

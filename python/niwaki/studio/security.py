@@ -1,11 +1,12 @@
-"""Who may speak to the studio: this machine, by the token that was printed, from the studio's own page.
+"""Access to the studio: only from this machine, with the printed token, from the studio's own page.
 
-- The socket is bound to loopback. `Host` must name it with our port, so a name that is rebound to 127.0.0.1 is refused.
-- `Origin`, where it is sent, must be ours; `null` is not. `Sec-Fetch-Site`, where it is sent, must be `same-origin`, or
+- The socket is bound to loopback. `Host` must name it with the studio's port, so a name that is rebound to 127.0.0.1 is
+  refused.
+- `Origin`, if present, must be the studio; `null` is refused. `Sec-Fetch-Site`, if present, must be `same-origin` or
   `none` (typed by the user): other pages cannot even load a picture from here. A browser's socket must have an origin.
-- `/open?token=` serves once and sets a cookie that scripts of the page cannot read. Browsers send cookies to every port
+- `/open?token=` works once and sets a cookie that scripts of the page cannot read. Browsers send cookies to every port
   of a host, so the cookie's name has the port and a random part: no other server on this machine knows it, and
-  two studios do not overwrite each other's.
+  two studios do not overwrite each other's cookies.
 - Scripts send the key as `Authorization: Bearer`.
 """
 
@@ -31,19 +32,19 @@ HEADERS = {
     "Cache-Control": "no-store",
 }
 
-#: What each path takes; any other path takes GET.
+#: Methods by path; all other paths accept GET and HEAD.
 METHODS = {"/upload": ("POST",)}
 
 
 class Guard:
-    """The application behind a check of every request.
+    """A check of every request in front of the application.
 
     Attributes
     ----------
     token : str
-        What `/open` takes next; another one after each use.
+        The token that `/open` accepts next; a new token after each use.
     key : str
-        What scripts send.
+        The key that scripts send.
     """
 
     def __init__(self, app: ASGIApp, port: int) -> None:
@@ -55,7 +56,7 @@ class Guard:
         self.key = secrets.token_urlsafe(32)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer, or pass a request on."""
+        """Answer a request, or pass it on."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
@@ -67,49 +68,51 @@ class Guard:
                     headers[name] = value
             await send(message)
 
-        refused = self._refused(scope)
-        if refused is None and scope["type"] == "http" and scope["path"] == "/open":
-            refused = self._opened(scope)
-        if refused is None and not self._is_known(Headers(scope=scope)):
-            refused = PlainTextResponse("open the link that `niwaki studio` has printed\n", 403)
-        if refused is None:
+        answer = self._rejection(scope)
+        if answer is None and scope["type"] == "http" and scope["path"] == "/open":
+            answer = self._redeem(scope)
+        if answer is None and not self._is_known(Headers(scope=scope)):
+            answer = PlainTextResponse("open the link that `niwaki studio` has printed\n", 403)
+        if answer is None:
             await self._app(scope, receive, guarded)
         elif scope["type"] == "websocket":
-            # Before it is accepted: the handshake is answered with 403.
+            # The socket is not accepted yet, so the handshake is answered with 403.
             await send({"type": "websocket.close", "code": 1008})
         else:
-            if refused.status_code >= 400:
-                # Who is not known does not stay.
-                refused.headers["Connection"] = "close"
-            await refused(scope, receive, guarded)
+            if answer.status_code >= 400:
+                # A client without access does not keep its connection.
+                answer.headers["Connection"] = "close"
+            await answer(scope, receive, guarded)
 
-    def _refused(self, scope: Scope) -> Response | None:
-        """Why a request is refused, whoever sends it."""
+    def _rejection(self, scope: Scope) -> Response | None:
+        """Answer a request that no client may send; None for other requests."""
         headers = Headers(scope=scope)
         hosts = headers.getlist("host")
         if len(hosts) != 1 or hosts[0].lower() not in self._hosts:
-            return PlainTextResponse("this address is not the studio's\n", 421)
+            return PlainTextResponse("this is not the address of the studio\n", 421)
         origins = headers.getlist("origin")
         if origins and origins != [f"http://{hosts[0].lower()}"]:
-            return PlainTextResponse("another page asked\n", 403)
+            return PlainTextResponse("the request comes from another page\n", 403)
         site = headers.get("sec-fetch-site", "none")
         if site not in ("same-origin", "none"):
-            return PlainTextResponse("another page asked\n", 403)
+            return PlainTextResponse("the request comes from another page\n", 403)
         if scope["type"] == "websocket":
             is_script = "authorization" in headers
-            return None if origins or is_script else PlainTextResponse("a socket without an origin\n", 403)
+            return None if origins or is_script else PlainTextResponse("the socket has no origin\n", 403)
         allowed = METHODS.get(scope["path"], ("GET", "HEAD"))
         if scope["method"] not in allowed:
-            return PlainTextResponse("not here\n", 405, {"Allow": ", ".join(allowed)})
+            return PlainTextResponse(
+                "this path does not accept this method\n", 405, {"Allow": ", ".join(allowed)}
+            )
         return None
 
-    def _opened(self, scope: Scope) -> Response:
-        """The answer to a token: once a cookie, then nothing."""
+    def _redeem(self, scope: Scope) -> Response:
+        """Answer a token: with a cookie for its first use, with an error after that."""
         query = scope["query_string"].decode("latin-1")
-        given = query.removeprefix("token=") if query.startswith("token=") else ""
-        if scope["method"] != "GET" or not _same(given, self.token):
+        token = query.removeprefix("token=") if query.startswith("token=") else ""
+        if scope["method"] != "GET" or not _equal(token, self.token):
             return PlainTextResponse(
-                "this link was used, or is another one's; the terminal shows the next one\n", 403
+                "this link has been used or belongs to another studio; the terminal shows a new link\n", 403
             )
         self.token = secrets.token_urlsafe(24)
         answer = RedirectResponse("/", 303)
@@ -119,14 +122,14 @@ class Guard:
     def _is_known(self, headers: Headers) -> bool:
         bearer = headers.get("authorization", "")
         if bearer:
-            return _same(bearer.removeprefix("Bearer "), self.key) and bearer.startswith("Bearer ")
+            return _equal(bearer.removeprefix("Bearer "), self.key) and bearer.startswith("Bearer ")
         try:
             jar = SimpleCookie(headers.get("cookie", ""))
         except CookieError:
             return False
-        return self._cookie_name in jar and _same(jar[self._cookie_name].value, self._cookie)
+        return self._cookie_name in jar and _equal(jar[self._cookie_name].value, self._cookie)
 
 
-def _same(given: str, known: str) -> bool:
-    """Whether two secrets are the same, in a time that does not depend on where they differ."""
-    return secrets.compare_digest(given.encode("utf-8", "replace"), known.encode())
+def _equal(candidate: str, secret: str) -> bool:
+    """Whether two secrets are equal; the time does not depend on where they differ."""
+    return secrets.compare_digest(candidate.encode("utf-8", "replace"), secret.encode())

@@ -1,10 +1,10 @@
-"""The server: the page's files, the socket, uploads and exported files. It never imports a model.
+"""The server of the studio: the page's files, the socket, uploads and exported files. It never imports a model.
 
 GET  /            the page (and /app.js, /view.js, /app.css)
 GET  /open        the link that the terminal shows (`niwaki.studio.security`)
 GET  /socket      a websocket: JSON both ways, geometry as frames
-POST /upload      a mesh or a drawing; `?name=ship.obj` says its format
-GET  /file/HASH   what was exported
+POST /upload      a mesh or a drawing; its format is the suffix of `?name=ship.obj`
+GET  /file/HASH   an exported file
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from niwaki.errors import NiwakiError
 from niwaki.errors.files import PART
 from niwaki.studio.messages import AnyCommand, Failed, Problem
-from niwaki.studio.refused import problem
+from niwaki.studio.problems import problem
 from niwaki.studio.security import Guard
 from niwaki.studio.session import Session, obey
 from niwaki.studio.window import Window
 
-#: The page's files: no other path is read.
+#: The page's files; no other file is served.
 PAGE = {"/": "index.html"} | {f"/{name}": name for name in ("app.js", "view.js", "app.css", "inter.woff2")}
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -43,11 +43,11 @@ TYPES = {
     ".woff2": "font/woff2",
 }
 
-#: Bytes of a command; of a mesh that is sent, and how many seconds may pass while it comes.
+#: Bytes of a command; bytes of an upload, and the seconds that it may take to arrive.
 COMMAND, UPLOAD, PATIENCE = 1 << 20, 64 << 20, 60.0
-#: Seconds in which a mesh has to be read.
+#: Seconds that reading an upload may take.
 READING = 60.0
-#: Meshes and drawings that are taken and read at one time.
+#: Uploads that are received and read at one time.
 READERS = 2
 #: Windows and scripts at one time.
 WINDOWS = 32
@@ -58,7 +58,7 @@ _decode = msgspec.json.Decoder(AnyCommand).decode
 
 
 def application(session: Session, port: int) -> Guard:
-    """The application, guarded."""
+    """Make the application, with a guard in front of it."""
 
     async def page(request: Request) -> Response:
         name = PAGE[request.url.path]
@@ -68,11 +68,11 @@ def application(session: Session, port: int) -> Guard:
     async def file(request: Request) -> Response:
         name = request.path_params["hash"]
         folder = session.journal.folder / "files" / name
-        known = re.fullmatch("[0-9a-f]{64}", name) and folder.is_dir()
-        # A part of a file that a full disk has stopped is none.
+        is_stored = re.fullmatch("[0-9a-f]{64}", name) and folder.is_dir()
+        # A partial file, left by a full disk, does not count.
         place = (
-            next((one for one in folder.iterdir() if not one.name.startswith(PART[0])), None)
-            if known
+            next((path for path in folder.iterdir() if not path.name.startswith(PART[0])), None)
+            if is_stored
             else None
         )
         if place is None:
@@ -87,11 +87,11 @@ def application(session: Session, port: int) -> Guard:
         declared = request.headers.get("content-length", "0")
         if not declared.isdecimal() or len(declared) > 20 or int(declared) > UPLOAD:
             return _too_large()
-        # Those that come meanwhile wait, and their bytes with them.
+        # Further uploads wait before their bytes are received.
         async with readers:
-            return await taken(request, suffix)
+            return await receive(request, suffix)
 
-    async def taken(request: Request, suffix: str) -> Response:
+    async def receive(request: Request, suffix: str) -> Response:
         body = bytearray()
         try:
             async with asyncio.timeout(PATIENCE):
@@ -100,9 +100,9 @@ def application(session: Session, port: int) -> Guard:
                     if len(body) > UPLOAD:
                         return _too_large()
         except TimeoutError:
-            return _refused(408, "too-slow", f"it did not arrive within {PATIENCE:.0f} s")
+            return _refused(408, "too-slow", f"the upload did not arrive within {PATIENCE:.0f} s")
         except ClientDisconnect:
-            return _refused(400, "cut-short", "it was cut short")
+            return _refused(400, "cut-short", "the upload was cut short")
         return await _read(bytes(body), suffix, session.journal.folder / "uploads")
 
     readers = asyncio.Semaphore(READERS)
@@ -118,13 +118,13 @@ def application(session: Session, port: int) -> Guard:
 
 
 async def _failed(request: Request, error: Exception) -> Response:
-    """The answer to a request whose work failed, such as by a full disk."""
-    told = problem(error)
-    return _refused(507 if isinstance(error, OSError | NiwakiError) else 500, told.code, told.text)
+    """Answer a request that failed, for example because the disk is full."""
+    failure = problem(error)
+    return _refused(507 if isinstance(error, OSError | NiwakiError) else 500, failure.code, failure.text)
 
 
 def _socket(session: Session) -> Any:
-    """The end of a socket."""
+    """Make the function that serves a socket."""
 
     async def socket(connection: WebSocket) -> None:
         if len(session.windows) >= WINDOWS:
@@ -141,20 +141,20 @@ def _socket(session: Session) -> Any:
             await asyncio.wait(work, return_when=asyncio.FIRST_COMPLETED)
         finally:
             session.windows.discard(window)
-            for one in work:
-                one.cancel()
+            for task in work:
+                task.cancel()
             await asyncio.gather(*work, return_exceptions=True)
 
     return socket
 
 
 async def _receive(connection: WebSocket, window: Window, session: Session) -> None:
-    """Carry out what comes, until the end or a message that is none."""
+    """Carry out commands until the socket ends or sends a binary message."""
     while True:
         try:
             text = await connection.receive_text()
         except (WebSocketDisconnect, KeyError, RuntimeError):
-            # The end, or a binary message.
+            # The socket has ended, or the message is binary.
             return
         try:
             if len(text) > COMMAND:
@@ -175,20 +175,20 @@ async def _send(connection: WebSocket, window: Window) -> None:
 
 
 def _id_of(text: str) -> int:
-    """The number of a message that is refused, where it has one."""
+    """Read the number of an invalid message; 0 without a number."""
     try:
-        found = json.loads(text[:COMMAND])
-        return found["id"] if isinstance(found["id"], int) and not isinstance(found["id"], bool) else 0
+        number = json.loads(text[:COMMAND])["id"]
+        return number if isinstance(number, int) and not isinstance(number, bool) else 0
     except (ValueError, KeyError, TypeError, RecursionError):
         return 0
 
 
 async def _read(body: bytes, suffix: str, folder: Path) -> Response:
-    """Read a mesh or a drawing in a process of its own, and keep what it has read."""
+    """Read a mesh or a drawing in a separate process, and store the result."""
     name = hashlib.sha256(body).hexdigest()
     with tempfile.TemporaryDirectory(dir=folder) as place:
-        kept = ".stl" if suffix in MESHES else suffix
-        source, sink = Path(place) / f"sent{suffix}", Path(place) / f"read{kept}"
+        stored = ".stl" if suffix in MESHES else suffix
+        source, sink = Path(place) / f"sent{suffix}", Path(place) / f"read{stored}"
         await asyncio.to_thread(source.write_bytes, body)
         command = (sys.executable, "-m", "niwaki.studio.worker.uploads", str(source), str(sink))
         pipe = asyncio.subprocess.PIPE
@@ -197,26 +197,28 @@ async def _read(body: bytes, suffix: str, folder: Path) -> Response:
         )
         try:
             async with asyncio.timeout(READING):
-                said, _ = await reader.communicate()
+                output, _ = await reader.communicate()
         except TimeoutError:
-            return _refused(422, "too-slow", f"it could not be read within {READING:.0f} s")
+            return _refused(422, "too-slow", f"reading the upload took more than {READING:.0f} s")
         finally:
             if reader.returncode is None:
                 reader.kill()
                 await reader.wait()
-        if reader.returncode != 0 or not said.strip():
+        if reader.returncode != 0 or not output.strip():
             return _refused(
-                422, "mesh-too-large", "it could not be read within the memory that a mesh may take"
+                422, "mesh-too-large", "reading the upload needs more memory than an upload may use"
             )
-        found = json.loads(said.splitlines()[-1])
-        if "error" in found:
-            return _refused(422, found.get("code", "file-unreadable"), found["error"])
-        # What was asked for last: what is beside it is there when it is.
-        for one in sorted(Path(place).glob("read.*"), key=lambda one: one == sink):
-            one.rename(folder / one.name.replace("read.", f"{name}.", 1))
-    # A mesh is a target's source; a drawing is chosen as models are.
-    sent = {"source": f"upload:{name}"} if kept == ".stl" else {"reference": f"drawing:upload:{name}{kept}"}
-    return JSONResponse({**sent, **found})
+        report = json.loads(output.splitlines()[-1])
+        if "error" in report:
+            return _refused(422, report.get("code", "file-unreadable"), report["error"])
+        # The main file comes last: when it is there, the files beside it are there, too.
+        for path in sorted(Path(place).glob("read.*"), key=lambda path: path == sink):
+            path.rename(folder / path.name.replace("read.", f"{name}.", 1))
+    # A mesh is the source of a target; a drawing has a reference, as a model has.
+    address = (
+        {"source": f"upload:{name}"} if stored == ".stl" else {"reference": f"drawing:upload:{name}{stored}"}
+    )
+    return JSONResponse({**address, **report})
 
 
 def _refused(status: int, code: str, text: str) -> Response:
@@ -224,4 +226,4 @@ def _refused(status: int, code: str, text: str) -> Response:
 
 
 def _too_large() -> Response:
-    return _refused(413, "mesh-too-large", f"a mesh that is sent has at most {UPLOAD >> 20} MB")
+    return _refused(413, "mesh-too-large", f"an upload may have at most {UPLOAD >> 20} MB")

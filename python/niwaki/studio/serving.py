@@ -1,4 +1,4 @@
-"""Serving a session on loopback until it is stopped."""
+"""The loop that serves a session on loopback until it is stopped."""
 
 from __future__ import annotations
 
@@ -29,23 +29,24 @@ try:
 except ImportError:
     resource = None
 
-#: Connections at one time, and seconds in which each has to ask something.
+#: Connections at one time, and seconds in which each has to send its first request.
 CONNECTIONS, FIRST_WORD = 256, 15.0
-#: Bytes of a socket that wait for its other end, beside one message; seconds to read the rest after its end.
+#: Unread bytes of a socket, beside one message; seconds to read the rest after its end.
 UNREAD, GRACE = 1 << 20, 5.0
 
 
 class Patient(H11Protocol):
-    """A connection that is closed when it asks nothing for long.
+    """A connection that closes if no request arrives for long.
 
-    Where there are too many, that goes which has been silent for longest: whoever asks at once is answered.
+    If there are too many connections, the connection that has been silent longest is closed: a client that sends its
+    request at once gets an answer.
     """
 
-    #: Those that have asked nothing, in the order in which they came; some have meanwhile asked.
+    #: Connections without a request so far, in the order of arrival; some may have sent a request since.
     _silent: ClassVar[dict[Patient, None]] = {}
 
     def connection_made(self, transport: Any) -> None:
-        """Count it, and wait for its first request."""
+        """Count the connection, and wait for its first request."""
         super().connection_made(transport)
         self._silent[self] = None
         self._patience = self.loop.call_later(FIRST_WORD, self._lose_patience)
@@ -58,7 +59,7 @@ class Patient(H11Protocol):
 
     @property
     def _is_silent(self) -> bool:
-        """Whether it has asked nothing so far."""
+        """Whether no request has arrived so far."""
         return getattr(self, "cycle", None) is None and not self.transport.is_closing()
 
     def _lose_patience(self) -> None:
@@ -66,47 +67,47 @@ class Patient(H11Protocol):
             self.transport.close()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Wait no more."""
+        """Stop waiting for a request."""
         self._patience.cancel()
         self._silent.pop(self, None)
         super().connection_lost(exc)
 
     def handle_websocket_upgrade(self, event: Any) -> None:
-        """A socket may be silent."""
+        """Stop waiting: a socket may be silent."""
         self._patience.cancel()
         self._silent.pop(self, None)
         super().handle_websocket_upgrade(event)
 
 
 class Reading(WebSocketsSansIOProtocol):
-    """A socket that ends, with what it should still be sent, when its other end does not read."""
+    """A socket that closes, unsent messages included, if its other end does not read."""
 
     def handle_ping(self) -> None:
-        """Answer; answers that nobody reads are not kept."""
+        """Answer a ping; close the socket if too many answers are unread."""
         super().handle_ping()
         if self.transport.get_write_buffer_size() > UNREAD:
             self.transport.abort()
 
     def keepalive_timeout(self) -> None:
-        """It has not answered for long."""
+        """Close a socket that has not answered for long."""
         super().keepalive_timeout()
         self.transport.abort()
 
     async def run_asgi(self) -> None:
-        """Serve it; what it has not read a while after that is dropped."""
+        """Serve the socket; drop unread messages a while after its end."""
         await super().run_asgi()
         self.loop.call_later(GRACE, self.transport.abort)
 
 
 def listening(port: int) -> socket.socket:
-    """A socket on loopback; port 0 takes a free one."""
+    """Open a socket on loopback; port 0 takes a free port."""
     # asyncio sends small messages at once (TCP_NODELAY) only where the protocol is named.
-    found = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        found.bind(("127.0.0.1", port))
+        listener.bind(("127.0.0.1", port))
     except (OSError, OverflowError) as error:
-        found.close()
+        listener.close()
         raise InputError(
             "bad-setting",
             name="--port",
@@ -114,9 +115,9 @@ def listening(port: int) -> socket.socket:
             expected=f"a free port ({error.strerror})"
             if isinstance(error, OSError)
             else "a port from 0 to 65535",
-            suggestion="another port, or leave it out",
+            suggestion="another port, or leave out `--port`",
         ) from error
-    return found
+    return listener
 
 
 def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, trust: bool = False) -> None:
@@ -127,26 +128,26 @@ def serve(models: list[str], folder: Path, port: int = 0, browser: bool = True, 
     models
         References of models in files: `file.py`, `file.py:function`.
     folder
-        Where the session is stored; one that is there goes on.
+        The folder of the session; a session that is there resumes.
     port
-        0 for a free one.
+        The port; 0 for a free port.
     browser
         Whether to open the page.
     trust
-        Whether files that stored runs name may be run for their host functions, where they have not changed.
+        Whether unchanged files that stored runs name may be run for their host functions.
 
     Raises
     ------
     FileError
-        `folder-in-use`: another studio has this session.
+        `folder-in-use`: another studio uses this session.
     """
     _allow_files()
     with contextlib.suppress(KeyboardInterrupt), held_folder(folder):
-        asyncio.run(_serve([_whole(one) for one in models], folder, port, browser, trust))
+        asyncio.run(_serve([_absolute(reference) for reference in models], folder, port, browser, trust))
 
 
 def _allow_files() -> None:
-    """Let this process have as many connections as it takes; Windows has no such limit."""
+    """Raise the limit of open files, so that all connections fit; Windows has no such limit."""
     if resource is None:
         return
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -154,8 +155,8 @@ def _allow_files() -> None:
         resource.setrlimit(resource.RLIMIT_NOFILE, (max(soft, min(hard, 4096)), hard))
 
 
-def _whole(reference: str) -> str:
-    """A reference with the whole path of its file."""
+def _absolute(reference: str) -> str:
+    """Return a reference with the absolute path of its file."""
     place, colon, name = reference.rpartition(":")
     if not place.endswith(".py"):
         place, colon, name = reference, "", ""
@@ -166,8 +167,8 @@ def _whole(reference: str) -> str:
 
 async def _serve(models: list[str], folder: Path, port: int, browser: bool, trust: bool) -> None:
     session = Session(folder, models, trust)
-    door = listening(port)
-    port = door.getsockname()[1]
+    listener = listening(port)
+    port = listener.getsockname()[1]
     guard = application(session, port)
     config = uvicorn.Config(
         guard,
@@ -189,7 +190,7 @@ async def _serve(models: list[str], folder: Path, port: int, browser: bool, trus
     beginning = asyncio.create_task(begin(session))
     telling = asyncio.create_task(_tell(guard, port, browser))
     try:
-        await server.serve(sockets=[door])
+        await server.serve(sockets=[listener])
     finally:
         for task in (watching, beginning, telling):
             task.cancel()
@@ -197,7 +198,7 @@ async def _serve(models: list[str], folder: Path, port: int, browser: bool, trus
 
 
 async def _tell(guard: Guard, port: int, browser: bool) -> None:
-    """Print the link, and the next one whenever it was used."""
+    """Print the link, and a new link after each use."""
     shown = ""
     while True:
         if guard.token != shown:
@@ -215,12 +216,12 @@ def _headless() -> bool:
 
 
 async def _watch(session: Session, models: list[str]) -> None:
-    """Tell the session of model files that change: their folders are watched, as editors save by renaming."""
-    paths = {Path(one.rpartition(":")[0] or one) for one in models}
+    """Reload model files that change. Their folders are watched, because editors save by renaming."""
+    paths = {Path(reference.rpartition(":")[0] or reference) for reference in models}
     if not paths:
         return
     async for changes in awatch(*{path.parent for path in paths}, debounce=100, step=20, recursive=False):
         changed = {Path(place) for _, place in changes} & paths
         if changed:
-            # Beside this: a file that still loads is left for its newest state.
+            # As a task of its own: if the file changes while it loads, its newest state is loaded instead.
             session.start(reload(session, changed))

@@ -1,4 +1,4 @@
-"""The page's types, written from the messages: `python -m niwaki.studio.types FILE` writes them as TypeScript."""
+"""Types of the page: `python -m niwaki.studio.types FILE` writes the messages as TypeScript."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from msgspec import inspect as look
 
 from niwaki.studio import messages
 
-HEADER = "// Written from python/niwaki/studio/messages by `make studio-page`; change it there.\n"
+HEADER = "// Written by `make studio-page` from python/niwaki/studio/messages: change these files instead.\n"
 
 
 def typescript() -> str:
-    """Every message as an interface, and the unions of commands and of events."""
+    """Write every message as an interface, and the unions of commands and of events."""
     commands = get_args(messages.AnyCommand)
-    told = vars(messages.events) | vars(messages.modes)
-    events = [one for one in told.values() if _is_event(one)]
+    members = vars(messages.events) | vars(messages.modes)
+    events = [member for member in members.values() if _is_event(member)]
     known: dict[str, look.StructType] = {}
     for kind in (*commands, *events, messages.View):
         _collect(look.type_info(kind), known)
@@ -27,8 +27,8 @@ def typescript() -> str:
     return "\n".join([HEADER, f"export const PROTOCOL = {messages.PROTOCOL};\n", *blocks])
 
 
-def _is_event(one: Any) -> bool:
-    return isinstance(one, type) and issubclass(one, messages.Event) and one is not messages.Event
+def _is_event(member: Any) -> bool:
+    return isinstance(member, type) and issubclass(member, messages.Event) and member is not messages.Event
 
 
 def _union(name: str, kinds: Any) -> str:
@@ -36,7 +36,7 @@ def _union(name: str, kinds: Any) -> str:
 
 
 def _collect(kind: look.Type, known: dict[str, look.StructType]) -> None:
-    """The structs that a type names, those that it needs first."""
+    """Collect the structs that a type names, after the structs that they need."""
     if isinstance(kind, look.StructType):
         if kind.cls.__name__ in known:
             return
@@ -44,8 +44,8 @@ def _collect(kind: look.Type, known: dict[str, look.StructType]) -> None:
             _collect(field.type, known)
         known[kind.cls.__name__] = kind
     elif isinstance(kind, look.UnionType):
-        for one in kind.types:
-            _collect(one, known)
+        for member in kind.types:
+            _collect(member, known)
     elif isinstance(kind, look.ListType):
         _collect(kind.item_type, known)
 
@@ -69,13 +69,13 @@ def _type(kind: look.Type) -> str:
         case look.StructType():
             return kind.cls.__name__
         case look.UnionType():
-            given = [one for one in kind.types if not isinstance(one, look.CustomType)]
-            return " | ".join(dict.fromkeys(_type(one) for one in given))
+            members = [member for member in kind.types if not isinstance(member, look.CustomType)]
+            return " | ".join(dict.fromkeys(_type(member) for member in members))
         case look.ListType():
             inner = _type(kind.item_type)
             return f"({inner})[]" if "|" in inner else f"{inner}[]"
         case look.TupleType():
-            return f"[{', '.join(_type(one) for one in kind.item_types)}]"
+            return f"[{', '.join(_type(member) for member in kind.item_types)}]"
         case look.DictType():
             return f"Record<string, {_type(kind.value_type)}>"
         case look.LiteralType():

@@ -1,7 +1,7 @@
-"""One open window or script: what waits to be sent to it.
+"""The queue of messages to one window or script.
 
-Every message is sent in order, except the shapes and the progress of what is still moving: of those only the newest is
-kept, so that a slow window never lags behind.
+Messages are sent in order. Of shapes that move and of progress only the newest is kept, so that a slow window does not
+lag behind.
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ import msgspec
 
 from niwaki.studio.messages import Event, Picture, Regions, Shape
 
-#: A window that has so many messages, or more than one and so many bytes, waiting is closed.
+#: Messages, and bytes of more than one message, that may wait; with more, the window is closed.
 WAITING, ROOM = 4_000, 64 << 20
 
 
 class Window:
-    """The messages that wait for one window.
+    """The queue of messages to one window.
 
     Attributes
     ----------
     overrun : asyncio.Event
-        Set when too much waits: the window does not read. Nothing is kept for it any more.
+        Set when too much waits because the window does not read; its messages are then dropped.
     """
 
     def __init__(self) -> None:
@@ -37,7 +37,7 @@ class Window:
         self.put(msgspec.json.encode(event).decode())
 
     def put(self, data: str | bytes, newest: str = "") -> None:
-        """Send data; where `newest` names a kind, it takes the place of data of that kind that still waits."""
+        """Send data. If `newest` names a kind, the data replaces waiting data of that kind."""
         if self.overrun.is_set():
             return
         self._count += 1
@@ -51,7 +51,7 @@ class Window:
         self._some.set()
 
     async def waiting(self) -> AsyncIterator[str | bytes]:
-        """What is to be sent, as it comes, for as long as the window reads it."""
+        """Go through the data to send, for as long as the window reads."""
         while not self.overrun.is_set():
             await self._some.wait()
             self._some.clear()
@@ -62,7 +62,7 @@ class Window:
 
 
 def newest(header: Shape | Picture | Regions) -> str:
-    """The kind of a shape of which only the newest counts; empty for those that all count."""
-    if header.what == "obstacle":
+    """Return the kind of a shape of which only the newest counts; empty if all of them count."""
+    if header.role == "obstacle":
         return f"obstacle {header.number}"
-    return header.what if header.what in ("best", "moving", "ghost") else ""
+    return header.role if header.role in ("best", "moving", "ghost") else ""

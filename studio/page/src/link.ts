@@ -1,26 +1,26 @@
-// The socket: commands out, events and frames in. The page has no other way to the studio, but for uploads and files.
+// The socket: commands out, events and frames in. Only uploads and exported files take another way.
 
 import type { Command, Difference, Event, Picture, Regions, Shape } from "./messages";
 import { PROTOCOL } from "./messages";
 
 type Sent = Command extends infer C ? (C extends { id?: number } ? Omit<C, "id"> : never) : never;
 export type Answer = Event | undefined;
-/** The headers of frames: what comes with bytes. */
+/** Headers of frames, that is of messages with bytes. */
 export type Frame = Shape | Difference | Picture | Regions;
 
 export interface Link {
-  /** Sends a command; the promise ends with its last answer, or fails with its problem. */
+  /** Sends a command; the promise gives its last answer, or fails with its problem. */
   send(command: Sent): Promise<Answer>;
 }
 
-interface Waiting {
+interface Request {
   resolve(answer: Answer): void;
   reject(problem: Error): void;
   last?: Event;
 }
 
-/** A problem that the studio has told. */
-export class Refused extends Error {
+/** A command that the studio refused or that failed. */
+export class CommandError extends Error {
   constructor(
     readonly code: string,
     text: string,
@@ -34,7 +34,7 @@ export function connect(
   onFrame: (header: Frame, payload: ArrayBuffer) => void,
   onState: (isOpen: boolean) => void,
 ): Link {
-  const waiting = new Map<number, Waiting>();
+  const waiting = new Map<number, Request>();
   let socket: WebSocket;
   let ids = 0;
 
@@ -42,7 +42,7 @@ export function connect(
     const id = ++ids;
     return new Promise((resolve, reject) => {
       if (socket.readyState !== WebSocket.OPEN) {
-        reject(new Refused("closed", "the studio does not answer; is it still running?"));
+        reject(new CommandError("closed", "The studio does not answer. Is it still running?"));
         return;
       }
       waiting.set(id, { resolve, reject });
@@ -50,17 +50,17 @@ export function connect(
     });
   };
 
-  const answered = (event: Event) => {
-    const one = waiting.get(event.id);
-    if (one === undefined) return;
+  const answer = (event: Event) => {
+    const request = waiting.get(event.id);
+    if (request === undefined) return;
     if (event.kind === "error") {
       waiting.delete(event.id);
-      one.reject(new Refused(event.problem?.code ?? "", event.problem?.text ?? ""));
+      request.reject(new CommandError(event.problem?.code ?? "", event.problem?.text ?? ""));
     } else if (event.kind === "done" || event.kind === "state") {
       waiting.delete(event.id);
-      one.resolve(one.last ?? event);
+      request.resolve(request.last ?? event);
     } else {
-      one.last = event;
+      request.last = event;
     }
   };
 
@@ -75,7 +75,7 @@ export function connect(
       if (typeof data === "string") {
         const event = JSON.parse(data) as Event;
         onEvent(event);
-        answered(event);
+        answer(event);
       } else {
         const length = new DataView(data).getUint32(0, true);
         const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Frame;
@@ -84,7 +84,7 @@ export function connect(
     };
     socket.onclose = () => {
       onState(false);
-      for (const one of waiting.values()) one.reject(new Refused("closed", "the connection was lost"));
+      for (const request of waiting.values()) request.reject(new CommandError("closed", "The connection to the studio was lost."));
       waiting.clear();
       setTimeout(open, 700);
     };

@@ -1,4 +1,4 @@
-// Niwaki's studio: the page.
+// The page of Niwaki's studio.
 
 import { render } from "preact";
 import { useEffect, useState } from "preact/hooks";
@@ -19,8 +19,8 @@ import { later, warm } from "./view";
 function App() {
   const [isDropping, setDropping] = useState(false);
   useEffect(() => {
-    addEventListener("keydown", pressed);
-    return () => removeEventListener("keydown", pressed);
+    addEventListener("keydown", onKey);
+    return () => removeEventListener("keydown", onKey);
   }, []);
   const isColoring = store.kind.value === "coloring";
   return (
@@ -35,7 +35,7 @@ function App() {
         event.preventDefault();
         setDropping(false);
         const file = event.dataTransfer?.files[0];
-        if (file) void store.uploaded(file);
+        if (file) void store.upload(file);
       }}
     >
       <Bar onFit={() => stage.fit()} />
@@ -48,7 +48,7 @@ function App() {
   );
 }
 
-function pressed(event: KeyboardEvent): void {
+function onKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
   const isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range";
   const isCommand = event.ctrlKey || event.metaKey;
@@ -65,7 +65,7 @@ function pressed(event: KeyboardEvent): void {
     else if (store.compared.value.length > 0) store.compared.value = [];
     else if (store.tool.value === "draw") store.tool.value = "look";
     else {
-      store.thing.value = null;
+      store.activeObject.value = null;
       store.select(null);
     }
     return;
@@ -90,7 +90,7 @@ function pressed(event: KeyboardEvent): void {
 render(<App />, document.body);
 later(warm);
 
-// What tests look at: numbers, never pixels.
+// Numbers for tests, which never compare pixels.
 Object.assign(window, {
   __studio: {
     get view() {
@@ -112,15 +112,15 @@ Object.assign(window, {
       return stage.frames;
     },
     get drag() {
-      return { left: drag.left, reason: store.quiet.value };
+      return { left: drag.left, reason: store.dragNote.value };
     },
-    get things() {
-      return stage.things.names;
+    get objects() {
+      return stage.objects.names;
     },
     get counts() {
       return store.difference.value === null ? null : store.counts.value;
     },
-    get differs() {
+    get differenceOf() {
       return `${store.difference.value?.header.key?.number ?? ""}`;
     },
     get compared() {
@@ -136,10 +136,10 @@ Object.assign(window, {
     },
     get isGhostShown() {
       if (store.kind.value === "coloring") return plan.value !== null;
-      return stage.things.source("target") === (store.target.value?.source ?? null);
+      return stage.objects.source("target") === (store.target.value?.source ?? null);
     },
     get ghost() {
-      return stage.things.triangles("target");
+      return stage.objects.triangles("target");
     },
     get handle() {
       return stage.handlePoint();
@@ -163,10 +163,10 @@ Object.assign(window, {
     get easel() {
       return easel.value === null ? null : { name: easel.value.name, detail: easel.value.detail };
     },
-    /** Where a region is seen, in CSS pixels of the middle. */
+    /** A point of a region, in CSS pixels of the middle. */
     regionPoint: (name: string) => {
-      const found = placeOf(name);
-      return found === null ? null : [frame.at[0] + found[0] * frame.at[2], frame.at[1] + found[1] * frame.at[3]];
+      const place = placeOf(name);
+      return place === null ? null : [frame.at[0] + place[0] * frame.at[2], frame.at[1] + place[1] * frame.at[3]];
     },
     pointOf: (address: string) => stage.pointOf(address),
     hold: (name: string) => store.holdOrFree(name),

@@ -1,22 +1,22 @@
-// Written from python/niwaki/studio/messages by `make studio-page`; change it there.
+// Written by `make studio-page` from python/niwaki/studio/messages: change these files instead.
 
 export const PROTOCOL = 1;
 
-/** The first message: the whole state is the answer. */
+/** Begin a connection; the answer is the whole state. */
 export interface Hello {
   kind: "hello";
   protocol: number;
   id?: number;
 }
 
-/** Take a model: a name of the gallery, or a reference of a file that was named at the start. */
+/** Choose a model: a name of the gallery, or a reference to a file that was named at the start. */
 export interface ChooseModel {
   kind: "model";
   reference: string;
   id?: number;
 }
 
-/** A solid in the scene, to fill or to avoid: where it comes from, and how it is placed. */
+/** A solid to fill or to avoid: its source and its placement. */
 export interface TargetAsk {
   source: string;
   move?: [number, number, number];
@@ -24,7 +24,7 @@ export interface TargetAsk {
   turn?: number;
 }
 
-/** A line of a pen: points as shares of the picture's height from its upper left corner, and the pen's width. */
+/** A pen stroke: points and width as shares of the picture's height, from its upper left corner. */
 export interface Stroke {
   points: [number, number][];
   width?: number;
@@ -38,7 +38,7 @@ export interface Eye {
   fov: number;
 }
 
-/** A silhouette or a shadow drawn by hand, over the view of a camera. */
+/** A drawing by hand over the view of a camera: a silhouette or a shadow. */
 export interface Sketch {
   strokes: Stroke[];
   aspect: number;
@@ -46,21 +46,21 @@ export interface Sketch {
   kind?: "shadow" | "silhouette";
 }
 
-/** A rule about regions of a drawing: those of `niwaki.color.Rules`. */
+/** A rule about regions of a drawing, as in `niwaki.color.Rules`. */
 export interface RuleAsk {
   kind: "lighter" | "lightness" | "muted" | "same-chroma" | "same-hue";
   regions: string[];
   most?: number;
 }
 
-/** Rules of a drawing. */
+/** The rules of a drawing. */
 export interface RulesAsk {
   rules?: RuleAsk[];
   background?: string | null;
   weight?: number;
 }
 
-/** Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target. */
+/** New values of some fields of `Ask`; a target replaces a sketch, and a sketch replaces a target. */
 export interface AskChange {
   target?: TargetAsk | null;
   sketch?: Sketch | null;
@@ -70,14 +70,14 @@ export interface AskChange {
   rules?: RulesAsk | null;
 }
 
-/** Say what the scene should be like; what is left out stays. */
+/** Change the goals of the search; other goals stay. */
 export interface SetAsk {
   kind: "ask";
   ask: AskChange;
   id?: number;
 }
 
-/** Other values of some fields of `Settings`. */
+/** New values of some fields of `Settings`. */
 export interface SettingsChange {
   count?: number;
   seed?: number | null;
@@ -85,7 +85,7 @@ export interface SettingsChange {
   strength?: number;
 }
 
-/** Set arguments by name, or settings; what is left out stays. */
+/** Set arguments by name, or settings; other values stay. */
 export interface Set {
   kind: "set";
   arguments?: Record<string, any> | null;
@@ -93,19 +93,19 @@ export interface Set {
   id?: number;
 }
 
-/** Search; what is held stays. A search that runs is stopped first, and nothing of it is kept. */
+/** Start a search; held parts stay. A running search is stopped first and its results are dropped. */
 export interface Run {
   kind: "run";
   id?: number;
 }
 
-/** Stop the search; what it has found becomes results. */
+/** Stop the search and keep its results so far. */
 export interface Stop {
   kind: "stop";
   id?: number;
 }
 
-/** Hold parts of the picked result in what follows. */
+/** Hold parts of the active result in further searches. */
 export interface HoldParts {
   kind: "hold";
   parts: string[];
@@ -113,14 +113,14 @@ export interface HoldParts {
   id?: number;
 }
 
-/** Hold them no more; all, where none is named. */
+/** Free held parts; all parts if none is named. */
 export interface FreeParts {
   kind: "free";
   parts?: string[];
   id?: number;
 }
 
-/** Grow a part of the picked result again, in place; `count` times, by seeds that follow one another. */
+/** Grow a part of the active result again, in place; `count` times, with consecutive seeds. */
 export interface Reroll {
   kind: "reroll";
   part: string;
@@ -129,7 +129,7 @@ export interface Reroll {
   id?: number;
 }
 
-/** Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result. */
+/** Set a choice of the active result. During the move only the shape is shown; the end adds a result. */
 export interface Choose {
   kind: "choose";
   address: string;
@@ -138,7 +138,7 @@ export interface Choose {
   id?: number;
 }
 
-/** Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result. */
+/** Drag a part of the active result to a point. During the move only the shape is shown; the end adds a result. */
 export interface Drag {
   kind: "drag";
   part: string;
@@ -150,33 +150,33 @@ export interface Drag {
   id?: number;
 }
 
-/** Ask for the change of the model's file that makes the arguments, as they are set, its defaults. */
+/** Request a change of the model's file that makes the present arguments its defaults. */
 export interface Propose {
   kind: "propose";
   id?: number;
 }
 
-/** Write a change of the model's file that was offered last; the difference is the one that was shown. */
+/** Write one of the last offered changes of the model's file, named by its difference. */
 export interface Rewrite {
   kind: "rewrite";
   difference: string;
   id?: number;
 }
 
-/** One result: the number of its run, and its place there. */
+/** The key of a result: the number of its run, and its place in the run. */
 export interface Key {
   run: number;
   number?: number;
 }
 
-/** Ask for the choices of a result, with places in the source. */
+/** Request the choices of a result, with their places in the source. */
 export interface Describe {
   kind: "describe";
   key: Key;
   id?: number;
 }
 
-/** Ask for the shape of a result. */
+/** Request the shape of a result. */
 export interface Show {
   kind: "show";
   key: Key;
@@ -184,21 +184,21 @@ export interface Show {
   id?: number;
 }
 
-/** Ask where a result differs from what is wanted. */
+/** Request the difference between a result and its target. */
 export interface ShowDifference {
   kind: "difference";
   key: Key;
   id?: number;
 }
 
-/** Go on with this result. */
+/** Make a result the active result. */
 export interface Pick {
   kind: "pick";
   key: Key;
   id?: number;
 }
 
-/** Mark a result, or take the mark away. */
+/** Star a result, or remove its star. */
 export interface Star {
   kind: "star";
   key: Key;
@@ -206,7 +206,7 @@ export interface Star {
   id?: number;
 }
 
-/** Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls. */
+/** Request a check of whether a structure of blocks stands: its forces and, on request, a simulated fall. */
 export interface Judge {
   kind: "judge";
   key: Key;
@@ -214,19 +214,19 @@ export interface Judge {
   id?: number;
 }
 
-/** Take the last step back. */
+/** Undo the last step. */
 export interface Undo {
   kind: "undo";
   id?: number;
 }
 
-/** Take the step again that was taken back. */
+/** Redo the last undone step. */
 export interface Redo {
   kind: "redo";
   id?: number;
 }
 
-/** Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats. */
+/** Write a result as a file, or as a recipe (`json`), which `niwaki replay` repeats. */
 export interface Export {
   kind: "export";
   key: Key;
@@ -237,21 +237,21 @@ export interface Export {
   id?: number;
 }
 
-/** A parameter of a model; `default` only where it is a number, a text or a truth value. */
+/** A parameter of a model; `default` is present only for numbers, texts and truth values. */
 export interface Parameter {
   name: string;
   default: any;
   is_required: boolean;
 }
 
-/** A region of a drawing: its share of the picture, and the colour that it has there. */
+/** A region of a drawing: its share of the picture, and its colour in the file. */
 export interface RegionInfo {
   name: string;
   share: number;
   color: string;
 }
 
-/** What can be chosen: a model, or a drawing to colour. */
+/** An entry of the list of models: a model, or a drawing to colour. */
 export interface ModelInfo {
   reference: string;
   title: string;
@@ -264,7 +264,7 @@ export interface ModelInfo {
   rules: RulesAsk | null;
 }
 
-/** What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked. */
+/** The goals of a search. Without a target and a sketch, a model of the gallery has its usual goals. */
 export interface Ask {
   target?: TargetAsk | null;
   sketch?: Sketch | null;
@@ -274,7 +274,7 @@ export interface Ask {
   rules?: RulesAsk | null;
 }
 
-/** How to search. */
+/** The settings of a search. */
 export interface Settings {
   count?: number;
   seed?: number | null;
@@ -282,7 +282,7 @@ export interface Settings {
   strength?: number;
 }
 
-/** The numbers of a result, as the gallery shows them; scores in nats. */
+/** A result in the gallery: its key and its numbers; scores in nats. */
 export interface Outcome {
   key: Key;
   log_score: number | null;
@@ -296,13 +296,13 @@ export interface Outcome {
   note: string;
 }
 
-/** A held part: its pattern, and the values of the choices that hold it. */
+/** A held part: its pattern, and the values of its held choices. */
 export interface HeldPart {
   part: string;
   choices: Record<string, any>;
 }
 
-/** A place in a model's file, counted from 1; the end is excluded. */
+/** A place in a model's file; lines and columns count from 1, and the end is excluded. */
 export interface Place {
   path: string;
   line: number;
@@ -318,7 +318,7 @@ export interface Problem {
   place: Place | null;
 }
 
-/** The search that is running. */
+/** The progress of the running search. */
 export interface Searching {
   run: number;
   done: number;
@@ -326,7 +326,7 @@ export interface Searching {
   seconds: number;
 }
 
-/** All that every window shows; a patch has some of its fields. */
+/** The state that every window shows; a patch has some of its fields. */
 export interface View {
   model: ModelInfo | null;
   arguments: Record<string, any>;
@@ -356,7 +356,7 @@ export interface State {
   view: View | null;
 }
 
-/** What has changed since the revision before. */
+/** The changes since the revision before. */
 export interface Patch {
   kind: "patch";
   id: number;
@@ -364,7 +364,7 @@ export interface Patch {
   changes: Record<string, any>;
 }
 
-/** A choice of a result: its value, and the range of a slider where it has one. */
+/** A choice of a result: its value, and the range of its slider if it has a slider. */
 export interface ChoiceInfo {
   address: string;
   family: string;
@@ -381,7 +381,7 @@ export interface PartInfo {
   place: Place | null;
 }
 
-/** The choices and parts of a result, in the order in which its run makes them. */
+/** The choices and parts of a result, in the order of its run. */
 export interface Described {
   kind: "described";
   id: number;
@@ -394,7 +394,7 @@ export interface Described {
 export interface Shape {
   kind: "shape";
   id: number;
-  what: "best" | "ghost" | "moving" | "obstacle" | "result";
+  role: "best" | "ghost" | "moving" | "obstacle" | "result";
   number: number;
   key: Key | null;
   detail: "fine" | "light";
@@ -411,21 +411,21 @@ export interface Shape {
   left: number;
 }
 
-/** A choice before and after a drag; None where the run has no such choice. */
+/** A choice before and after a drag; None if the run has no such choice. */
 export interface Shifted {
   address: string;
   before: any;
   after: any;
 }
 
-/** A change of the model's file: one that explains a drag, or arguments as defaults. */
+/** An offered change of the model's file: numbers that explain a drag, or arguments as defaults. */
 export interface Offer {
-  says: string;
+  label: string;
   difference: string;
   is_instead: boolean;
 }
 
-/** The end of a drag: what has changed in the first answer; or why the part is not there. */
+/** The end of a drag: the changes of the first answer, or the reason why the part is not at the pointer. */
 export interface Dragged {
   kind: "dragged";
   id: number;
@@ -436,7 +436,7 @@ export interface Dragged {
   offers: Offer[];
 }
 
-/** A change of the model's file that was asked for. */
+/** The answer to `propose`: offered changes of the model's file. */
 export interface Offered {
   kind: "offered";
   id: number;
@@ -454,7 +454,7 @@ export interface Difference {
   is_picture: boolean;
 }
 
-/** A command has done its work. */
+/** A command is done. */
 export interface Done {
   kind: "done";
   id: number;
@@ -469,7 +469,7 @@ export interface File {
   name: string;
 }
 
-/** A command was refused, or its work failed. */
+/** A command was refused or failed. */
 export interface Failed {
   kind: "error";
   id: number;
@@ -477,7 +477,7 @@ export interface Failed {
 }
 
 /** How well a colouring keeps a rule, in words and in units. */
-export interface KeptRule {
+export interface RuleResult {
   kind: string;
   first: string;
   second: string;
@@ -486,20 +486,20 @@ export interface KeptRule {
   residual: number;
 }
 
-/** The colours of a result by region, and its rules. */
+/** The colours of a result by region, and how well it keeps the rules. */
 export interface Palette {
   kind: "palette";
   id: number;
   key: Key | null;
   colors: Record<string, string>;
-  kept: KeptRule[];
+  rules: RuleResult[];
 }
 
 /** The header of a frame with a PNG: a drawing in the colours of a result. */
 export interface Picture {
   kind: "picture";
   id: number;
-  what: "moving" | "result";
+  role: "moving" | "result";
   key: Key | null;
   detail: "fine" | "light";
 }
@@ -508,18 +508,18 @@ export interface Picture {
 export interface Regions {
   kind: "regions";
   id: number;
-  what: "ghost";
+  role: "ghost";
   width: number;
   height: number;
 }
 
-/** A force in the scene: where it acts, and its size and direction in mean weights of a block. */
+/** A force in the scene: its point, and its size and direction in mean weights of a block. */
 export interface Arrow {
   at: [number, number, number];
   force: [number, number, number];
 }
 
-/** Whether a structure stands. */
+/** The check of a structure: whether it stands. */
 export interface Judged {
   kind: "judged";
   id: number;

@@ -1,7 +1,7 @@
-// What the page knows: the session's view as the studio tells it, and this window's own selection.
+// The state of the page: the session's view, which the studio sends, and the selection of this window.
 
 import { computed, effect, signal, untracked } from "@preact/signals";
-import { connect, Refused } from "./link";
+import { CommandError, connect } from "./link";
 import type { Frame } from "./link";
 import type { AskChange, Described, Difference, Event, Export, Eye, Judged, Key, Offer, Outcome, Palette, Picture, Regions, SettingsChange, Shape, TargetAsk, View } from "./messages";
 import type { Mode, Order } from "./view";
@@ -9,93 +9,93 @@ import type { Mode, Order } from "./view";
 export const view = signal<View | null>(null);
 export const isOpen = signal(false);
 export const described = signal<Described | null>(null);
-/** Of the picked result: the colours of a drawing with its rules, and whether a structure stands. */
+/** The colours and rules of the active result of a drawing; the check of an active structure. */
 export const palette = signal<Palette | null>(null);
 export const judged = signal<Judged | null>(null);
 /** Whether the forces that hold a structure are shown. */
 export const showForces = signal(true);
-/** The board that pieces are cut of: width, height, and what the saw takes, millimetres. */
+/** The board for cutting: width, height, and the width of the saw cut, millimetres. */
 export const board = signal<[number, number, number]>([600, 400, 0.2]);
-/** The call or iteration that is selected; "" for the whole model, null for nothing. */
+/** The selected call or iteration; "" for the whole model, null without a selection. */
 export const level = signal<string | null>(null);
-/** The primitive that was clicked. */
+/** The clicked primitive. */
 export const part = signal<string | null>(null);
 export const hovered = signal<string | null>(null);
 export const notices = signal<{ id: number; text: string; isError: boolean }[]>([]);
-/** A line of text at the foot of the scene: why a part that is dragged is not at the pointer. */
-export const quiet = signal("");
-/** Changes of the model's file that were offered last. */
+/** A line of text at the foot of the scene: the reason why a dragged part is not at the pointer. */
+export const dragNote = signal("");
+/** The last offered changes of the model's file. */
 export const offers = signal<Offer[]>([]);
 /** Whether the last drag has changed choices. */
 export const hasDragged = signal(false);
 export const tool = signal<"look" | "place" | "draw">("look");
 export const showGhost = signal(true);
-/** The object of the scene that has handles, and what they do. */
-export const thing = signal<{ name: string; mode: Mode } | null>(null);
-/** The results that stand side by side; one stage where there are none. */
+/** The object of the scene with handles, and the mode of its handles. */
+export const activeObject = signal<{ name: string; mode: Mode } | null>(null);
+/** The results side by side; empty for a single stage. */
 export const compared = signal<Key[]>([]);
 export function compare(): void {
-  const stars = (view.value?.results ?? []).filter((one) => isStarred(one.key)).map((one) => one.key);
+  const stars = (view.value?.results ?? []).map(({ key }) => key).filter(isStarred);
   if (compared.value.length > 0) compared.value = [];
   else if (stars.length < 2) note("Star two to four results to compare them.");
   else compared.value = stars.slice(0, 4);
 }
-/** How many parts of the picked result are shown, and in which order; all of them, where there is no count. */
+/** The number of parts of the active result to show, and their order; null for all parts. */
 export const growth = signal<{ count: number | null; order: Order }>({ count: null, order: "emitted" });
-/** Whether the difference to what is wanted is shown; where the picked result differs. */
+/** Whether the difference from the target is shown, and the difference of the active result. */
 export const showDifference = signal(false);
 export const difference = signal<{ header: Difference; marks: Uint8Array } | null>(null);
-/** How many cells or pixels are wanted and filled, wanted only, filled only. */
+/** Cells or pixels of target and scene, of the target only, of the scene only. */
 export const counts = computed(() => {
-  const found = [0, 0, 0, 0];
-  for (const mark of difference.value?.marks ?? []) found[mark]++;
-  return { covered: found[1], missing: found[2], outside: found[3] };
+  const numbers = [0, 0, 0, 0];
+  for (const mark of difference.value?.marks ?? []) numbers[mark]++;
+  return { covered: numbers[1], missing: numbers[2], outside: numbers[3] };
 });
-/** The camera, for what depends on it. */
+/** The present camera. */
 export const eye = signal<Eye | null>(null);
-/** Of the pen, in heights of the view. */
+/** Width of the pen, as a share of the view's height. */
 export const penWidth = signal(0.06);
-/** How different variants of a part are: 0 like it, 1 least like it. */
+/** Difference of the variants of a part: 0 for similar, 1 for the least similar. */
 export const strength = signal(0.5);
 export const sketchKind = signal<"silhouette" | "shadow">("silhouette");
 export const theme = signal<"light" | "dark">(
   matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
 );
 
-/** Whether the model makes scenes or structures, or a drawing is coloured. */
+/** The kind of the model: scenes, structures, or a drawing to colour. */
 export const kind = computed(() => view.value?.model?.kind ?? "scene");
 export const isSearching = computed(() => view.value?.searching != null);
 export const picked = computed(() => view.value?.picked ?? null);
-/** Whether parts are held, of those that wait for an answer. */
-const asked = signal<ReadonlyMap<string, { isHeld: boolean }>>(new Map());
+/** Parts whose hold or release waits for an answer. */
+const pending = signal<ReadonlyMap<string, { isHeld: boolean }>>(new Map());
 let held: ReadonlySet<string> = new Set();
-/** The parts that are held: as the studio tells, and at once as they are asked for. Equal sets are the same one. */
+/** The held parts: those of the studio, with pending changes applied. Equal sets are the same object. */
 export const heldParts = computed(() => {
-  const found = new Set((view.value?.held ?? []).map((one) => one.part));
-  for (const [part, { isHeld }] of asked.value) {
-    if (isHeld) found.add(part);
-    else found.delete(part);
+  const parts = new Set((view.value?.held ?? []).map(({ part }) => part));
+  for (const [part, { isHeld }] of pending.value) {
+    if (isHeld) parts.add(part);
+    else parts.delete(part);
   }
-  if (found.size !== held.size || [...found].some((part) => !held.has(part))) held = found;
+  if (parts.size !== held.size || [...parts].some((part) => !held.has(part))) held = parts;
   return held;
 });
 
 export const sameKey = (a: Key | null | undefined, b: Key | null | undefined): boolean =>
   a != null && b != null && a.run === b.run && (a.number ?? 0) === (b.number ?? 0);
 export const nameOf = (key: Key): string => `${key.run}.${key.number ?? 0}`;
-export const isStarred = (key: Key): boolean => (view.value?.stars ?? []).some((one) => sameKey(one, key));
+export const isStarred = (key: Key): boolean => (view.value?.stars ?? []).some((star) => sameKey(star, key));
 
-// ---- shapes: who wants to know
+// ---- listeners to frames
 
 type Listener<F> = (header: F, payload: ArrayBuffer) => void;
-const listeners: Listener<Shape>[] = [];
-export const onShape = (listener: Listener<Shape>): void => void listeners.push(listener);
-const drawers: Listener<Picture | Regions>[] = [];
-export const onPicture = (listener: Listener<Picture | Regions>): void => void drawers.push(listener);
-function framed(header: Frame, payload: ArrayBuffer): void {
+const shapeListeners: Listener<Shape>[] = [];
+export const onShape = (listener: Listener<Shape>): void => void shapeListeners.push(listener);
+const pictureListeners: Listener<Picture | Regions>[] = [];
+export const onPicture = (listener: Listener<Picture | Regions>): void => void pictureListeners.push(listener);
+function onFrame(header: Frame, payload: ArrayBuffer): void {
   if (header.kind === "difference") difference.value = { header, marks: new Uint8Array(payload) };
-  else if (header.kind === "shape") listeners.forEach((one) => one(header, payload));
-  else drawers.forEach((one) => one(header, payload));
+  else if (header.kind === "shape") shapeListeners.forEach((listener) => listener(header, payload));
+  else pictureListeners.forEach((listener) => listener(header, payload));
 }
 
 // ---- notices
@@ -107,15 +107,15 @@ export function note(text: string, isError = false): void {
   if (!isError) setTimeout(() => dismiss(id), 4000);
 }
 export const dismiss = (id: number): void => {
-  notices.value = notices.value.filter((one) => one.id !== id);
+  notices.value = notices.value.filter((notice) => notice.id !== id);
 };
 
 // ---- the link
 
-function heard(event: Event): void {
+function onEvent(event: Event): void {
   if (event.kind === "state") {
     view.value = event.view as View;
-    if (view.value.interrupted) note("The last search was cut off when the studio ended. Grow starts it again.");
+    if (view.value.interrupted) note("The last search was interrupted when the studio ended. Press Grow to start it again.");
   } else if (event.kind === "patch" && view.value !== null) {
     view.value = { ...view.value, ...event.changes };
   } else if (event.kind === "described") {
@@ -129,27 +129,27 @@ function heard(event: Event): void {
   }
 }
 
-const link = connect(heard, framed, (open) => (isOpen.value = open));
+const link = connect(onEvent, onFrame, (open) => (isOpen.value = open));
 
-/** Commands that held parts do not change: the others wait until what is shown as held is. */
-const UNHELD = new Set<string>(["show", "describe", "judge", "difference", "export", "stop"]);
+/** Commands that do not depend on held parts; all others wait for pending holds. */
+const INDEPENDENT = new Set<string>(["show", "describe", "judge", "difference", "export", "stop"]);
 let holding: Promise<unknown> = Promise.resolve();
 
-/** Sends a command, and shows why it was refused. */
+/** Sends a command, and shows the message of a failure. */
 export async function tell(command: Parameters<typeof link.send>[0]): Promise<Event | undefined> {
-  if (!UNHELD.has(command.kind) && asked.peek().size > 0) await holding;
+  if (!INDEPENDENT.has(command.kind) && pending.peek().size > 0) await holding;
   try {
     return await link.send(command);
   } catch (problem) {
-    if (problem instanceof Refused) note(problem.message, true);
+    if (problem instanceof CommandError) note(problem.message, true);
     return undefined;
   }
 }
 
-// ---- what buttons and keys do
+// ---- actions of buttons and keys
 
-export const best = computed<Outcome | null>(
-  () => view.value?.results.find((one) => sameKey(one.key, view.value?.picked)) ?? null,
+export const active = computed<Outcome | null>(
+  () => view.value?.results.find(({ key }) => sameKey(key, view.value?.picked)) ?? null,
 );
 
 export function run(): void {
@@ -164,15 +164,15 @@ export function ask(change: AskChange): void {
 export function set(settings: SettingsChange): void {
   void tell({ kind: "set", settings });
 }
-/** The target as it is asked, or the model's usual one. */
+/** The user's target, or the model's usual target. */
 export const target = computed<TargetAsk | null>(() => {
   const now = view.value;
   if (now === null || now.ask.sketch != null) return null;
   return now.ask.target ?? (now.model?.target ? { source: now.model.target } : null);
 });
-/** The source of the target that is on the stage, or null where there is none; undefined until the first has come. */
+/** The source of the target on the stage; null without a target, undefined until the first target arrives. */
 export const shownTarget = signal<string | null | undefined>(undefined);
-/** Calls `place` when the target that is asked for is on the stage, so that an object is placed beside the scene that is seen. */
+/** Calls `place` when the present target is on the stage, so that a new object is placed beside the visible scene. */
 export function whenTargetIsShown(place: () => void): void {
   let isPlaced = false;
   effect(() => {
@@ -184,59 +184,59 @@ export function whenTargetIsShown(place: () => void): void {
 export function avoid(solid: TargetAsk): void {
   const obstacles = view.value?.ask.obstacles ?? [];
   ask({ obstacles: [...obstacles, solid] });
-  thing.value = { name: `obstacle ${obstacles.length}`, mode: "translate" };
+  activeObject.value = { name: `obstacle ${obstacles.length}`, mode: "translate" };
 }
 export function select(address: string | null): void {
   part.value = address;
   level.value = address === null ? null : address.split("/").slice(0, -1).join("/");
 }
-/** Holds a part or frees it: shown at once, and taken back if the studio refuses it. */
+/** Holds a part or frees it. The page shows it at once, and reverts it if the command fails. */
 export function holdOrFree(name: string): void {
-  const one = { isHeld: !heldParts.value.has(name) };
-  const answer = tell({ kind: one.isHeld ? "hold" : "free", parts: [name] });
-  asked.value = new Map(asked.value).set(name, one);
+  const change = { isHeld: !heldParts.value.has(name) };
+  const answer = tell({ kind: change.isHeld ? "hold" : "free", parts: [name] });
+  pending.value = new Map(pending.value).set(name, change);
   holding = answer.then(() => {
-    if (asked.value.get(name) === one) asked.value = new Map([...asked.value].filter(([part]) => part !== name));
+    if (pending.value.get(name) === change) pending.value = new Map([...pending.value].filter(([part]) => part !== name));
   });
 }
-/** Asks for the change of the model's file that makes the arguments its defaults. */
+/** Requests a change of the model's file that makes the arguments its defaults. */
 export async function propose(): Promise<void> {
-  const found = await tell({ kind: "propose" });
-  if (found?.kind !== "offered") return;
-  offers.value = found.offers;
-  if (found.offers.length === 0) note("Its file does not write these defaults as numbers or texts.");
+  const answer = await tell({ kind: "propose" });
+  if (answer?.kind !== "offered") return;
+  offers.value = answer.offers;
+  if (answer.offers.length === 0) note("The defaults cannot be changed: the model's file does not write them as numbers or texts.");
 }
 export function reroll(name: string, count: number): void {
   void tell({ kind: "reroll", part: name, count, strength: count > 1 ? strength.value : null });
 }
-export async function exported(format: Export["format"]): Promise<void> {
+export async function download(format: Export["format"]): Promise<void> {
   if (picked.value === null) return;
   const [width, height, kerf] = board.value;
-  const found = await tell({ kind: "export", key: picked.value, format, board: [width, height], kerf });
-  if (found?.kind !== "file") return;
+  const file = await tell({ kind: "export", key: picked.value, format, board: [width, height], kerf });
+  if (file?.kind !== "file") return;
   const anchor = document.createElement("a");
-  anchor.href = `/file/${found.hash}`;
-  anchor.download = found.name;
+  anchor.href = `/file/${file.hash}`;
+  anchor.download = file.name;
   anchor.click();
-  note(`${found.name} is written`);
+  note(`Exported ${file.name}`);
 }
-/** Bytes of a mesh, as the studio takes them. */
+/** The largest upload that the studio accepts, bytes. */
 const UPLOAD = 64 * 2 ** 20;
-/** Sends a mesh, to grow into it or to keep away from it; or a drawing, to colour it. */
-export async function uploaded(file: File, isObstacle = false): Promise<void> {
+/** Uploads a mesh as a target or an obstacle, or a drawing to colour. */
+export async function upload(file: File, isObstacle = false): Promise<void> {
   if (file.size > UPLOAD) {
-    note(`${file.name} has ${Math.round(file.size / 2 ** 20)} MB; a file that is sent has at most ${UPLOAD / 2 ** 20} MB.`, true);
+    note(`${file.name} has ${Math.round(file.size / 2 ** 20)} MB. An upload may have at most ${UPLOAD / 2 ** 20} MB.`, true);
     return;
   }
   note(`Reading ${file.name}`);
   const answer = await fetch(`/upload?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
-  const found = await answer.json();
+  const report = await answer.json();
   if (!answer.ok) {
-    note(`${file.name}: ${found.text}`, true);
+    note(`${file.name}: ${report.text}`, true);
     return;
   }
-  for (const one of found.notes as string[]) note(`${file.name}: ${one}`);
-  if (found.reference) void tell({ kind: "model", reference: found.reference });
-  else if (isObstacle) avoid({ source: found.source });
-  else ask({ target: { source: found.source } });
+  for (const text of report.notes as string[]) note(`${file.name}: ${text}`);
+  if (report.reference) void tell({ kind: "model", reference: report.reference });
+  else if (isObstacle) avoid({ source: report.source });
+  else ask({ target: { source: report.source } });
 }

@@ -1,5 +1,5 @@
-// The studio's stage: a script of its own, with all of three.js. The studio's page imports it; by itself it shows results in
-// a notebook (an anywidget) or in a page that is one file.
+// The stage of the studio, a separate script with all of three.js. The studio's page imports it. Alone, it shows results in
+// a notebook (an anywidget) or in a page of one file.
 
 import type { Shape } from "./messages";
 import { Stage } from "./stage/stage";
@@ -7,7 +7,7 @@ import { Stage } from "./stage/stage";
 export { KINDS, pixels } from "./stage/cells";
 export type { Order } from "./stage/growth";
 export { isBelow } from "./stage/meshes";
-export { kindOf, MODES, type Mode, numberOf } from "./stage/things";
+export { kindOf, MODES, type Mode, numberOf } from "./stage/objects";
 export { HEIGHT, later, thumbnail, warm, WIDTH } from "./stage/thumbs";
 export { Vector3 } from "three";
 export { Stage };
@@ -31,19 +31,19 @@ const STYLE = `
 .niwaki-view output { margin-left: 8px; }
 `;
 
-/** A frame: see python/niwaki/studio/frames.py. */
-function opened(view: DataView): Picture {
+/** Unpacks a frame: see python/niwaki/studio/frames.py. */
+function unpackFrame(view: DataView): Picture {
   const bytes = view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength) as ArrayBuffer;
   const length = new DataView(bytes).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length))) as Shape;
   return { header, payload: bytes.slice(4 + length) };
 }
 
-/** Show pictures in an element; the function that it returns takes them away. */
+/** Shows pictures in an element; returns a function that removes them. */
 function show(element: HTMLElement, frames: DataView[]): () => void {
-  const pictures = frames.map(opened);
-  const ghost = pictures.find(({ header }) => header.what === "ghost");
-  const results = pictures.filter(({ header }) => header.what !== "ghost");
+  const pictures = frames.map(unpackFrame);
+  const ghost = pictures.find(({ header }) => header.role === "ghost");
+  const results = pictures.filter(({ header }) => header.role !== "ghost");
   element.innerHTML = `<style>${STYLE}</style><div class="niwaki-view"><canvas tabindex="0"></canvas><div class="bar"></div></div>`;
   const canvas = element.querySelector("canvas")!;
   const bar = element.querySelector<HTMLElement>(".bar")!;
@@ -54,29 +54,29 @@ function show(element: HTMLElement, frames: DataView[]): () => void {
     const { header, payload } = results[number];
     stage.show(header, payload);
     text.value = header.note;
-    bar.querySelectorAll("button[data-number]").forEach((one, k) => one.setAttribute("aria-pressed", `${k === number}`));
+    bar.querySelectorAll("button[data-number]").forEach((button, k) => button.setAttribute("aria-pressed", `${k === number}`));
   };
-  const button = (label: string, title: string, press: (one: HTMLButtonElement) => void) => {
-    const one = document.createElement("button");
-    one.textContent = label;
-    one.title = title;
-    one.onclick = () => press(one);
-    bar.append(one);
-    return one;
+  const button = (label: string, title: string, press: (element: HTMLButtonElement) => void) => {
+    const element = document.createElement("button");
+    element.textContent = label;
+    element.title = title;
+    element.onclick = () => press(element);
+    bar.append(element);
+    return element;
   };
   if (results.length > 1) {
     results.forEach(({ header }, k) => (button(`${k + 1}`, header.note, () => show(k)).dataset.number = `${k}`));
   }
   if (ghost !== undefined) {
     stage.setSolid("target", ghost.header, ghost.payload, { source: "" });
-    const turn = button("Target", "Show the target, or hide it", (one) => {
-      const isShown = one.getAttribute("aria-pressed") !== "true";
-      one.setAttribute("aria-pressed", `${isShown}`);
+    const turn = button("Target", "Show or hide the target", (element) => {
+      const isShown = element.getAttribute("aria-pressed") !== "true";
+      element.setAttribute("aria-pressed", `${isShown}`);
       stage.setGhostVisible(isShown);
     });
     turn.setAttribute("aria-pressed", "true");
   }
-  button("Fit", "Look at everything", () => stage.fit());
+  button("Fit", "Fit the scene into the view", () => stage.fit());
   bar.append(text);
 
   // A click names a part; a drag turns the scene.
@@ -100,11 +100,11 @@ function show(element: HTMLElement, frames: DataView[]): () => void {
   };
 }
 
-/** The frames of a page that is one file: text of base64 for each, deflated. */
+/** Decodes the frames of a page of one file: base64 of deflated bytes for each. */
 function decoded(texts: string[]): Promise<DataView[]> {
   return Promise.all(
     texts.map(async (text) => {
-      const packed = new Blob([Uint8Array.from(atob(text), (one) => one.charCodeAt(0))]);
+      const packed = new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]);
       const stream = packed.stream().pipeThrough(new DecompressionStream("deflate"));
       return new DataView(await new Response(stream).arrayBuffer());
     }),

@@ -1,4 +1,4 @@
-"""The compatibility model's scores agree with known ones: colours, single terms, whole colourings, gradients."""
+"""The compatibility model agrees with reference scores: colours, single terms, whole colourings, gradients."""
 
 from __future__ import annotations
 
@@ -87,19 +87,19 @@ def test_the_lightness_of_half_grey() -> None:
 
 @pytest.mark.parametrize("name", GOLDEN)
 def test_rules_score_as_in_the_dissertation_code(name: str) -> None:
-    """Eight digits are known; areas and neighbours of its drawings are not, so only the rules are compared."""
+    """The reference has eight digits of the rules' scores; it lacks the drawings' areas and neighbours."""
     count, (lightness, chroma), expected_lightness, expected_chroma = GOLDEN[name]
-    pinned, nothing = colors_of(count), [0.0] * count
-    only = [
-        run_python(coloring, nothing, [], rules[0], [], rules[1], [], [], 0, pinned, 1.0, seed=1).log_score
+    pinned, no_areas = colors_of(count), [0.0] * count
+    scores = [
+        run_python(coloring, no_areas, [], rules[0], [], rules[1], [], [], 0, pinned, 1.0, seed=1).log_score
         for rules in ((pairs(lightness), []), ([], pairs(chroma)))
     ]
-    assert only[0] == pytest.approx(expected_lightness, rel=5e-8)
-    assert only[1] == pytest.approx(expected_chroma, rel=5e-8)
+    assert scores[0] == pytest.approx(expected_lightness, rel=5e-8)
+    assert scores[1] == pytest.approx(expected_chroma, rel=5e-8)
 
 
 def ring_score(rgb, weight):
-    """Six regions in a ring, computed by NumPy on whole arrays."""
+    """Score six regions in a ring with NumPy."""
     colors = lab.of_rgb(rgb)
     light, chroma = colors[:, 0], np.hypot(colors[:, 1], colors[:, 2])
     saturation = sum(
@@ -114,8 +114,8 @@ def ring_score(rgb, weight):
         apart += log_normal_density(abs(light[i] - light[j]) / 100, touches, 0.4)
     relation = log_normal_density((light[1] - light[2]) / 100, 0.15, 0.05)
     relation += log_normal_density((light[2] - light[4]) / 100, 0.15, 0.05)
-    same = log_normal_density(np.linalg.norm(colors[1, 1:] - colors[2, 1:]) / 282.9, 0.0, 5 / 282.9)
-    return weight * (saturation + apart / 6 + relation + same)
+    equal_chroma = log_normal_density(np.linalg.norm(colors[1, 1:] - colors[2, 1:]) / 282.9, 0.0, 5 / 282.9)
+    return weight * (saturation + apart / 6 + relation + equal_chroma)
 
 
 @pytest.mark.parametrize("weight", [1.0, 100.0])
@@ -139,7 +139,7 @@ def test_engine_and_plain_run_agree() -> None:
 
 
 def test_equal_and_black_colours_have_finite_scores_and_slopes() -> None:
-    """Square roots at 0: two greys that are equal, and black."""
+    """Two equal greys, and black, put square roots at 0."""
     arguments = ([0.5, 0.5], [(0, 1)], [], [], [(0, 1)], [(0, 1)], [(0, 10.0)], 0, [None, None], 100.0)
     sample = run(coloring, mh(steps=2, keep=1), *arguments, seed=1)[-1]
     density = log_density(sample)
@@ -148,14 +148,14 @@ def test_equal_and_black_colours_have_finite_scores_and_slopes() -> None:
         assert np.isfinite(value) and np.isfinite(gradient).all()
 
 
-# ---- the benches' colouring: another scale, sRGB's straight foot, sums instead of means
+# ---- the colouring of the benches: another scale, sRGB's straight foot, sums instead of means
 
 BENCH = Path(__file__).parents[3] / "benches" / "hmc"
 
 
 @model
 def bench_coloring(areas, edges, chroma, light):
-    """The density of benches/hmc, less constants of the normal densities."""
+    """The density of benches/hmc, without the constants of the normal densities."""
     labs = [bench_color() for _ in areas]
     for i in range(len(areas)):
         l, a, b = labs[i]  # noqa: E741
@@ -193,7 +193,7 @@ def unscaled(x, mean, sd):
     return softeq(x, mean, sd) + math.log(sd) + 0.5 * math.log(2.0 * math.pi)
 
 
-def test_the_benches_colouring_as_a_model_has_the_reference_values_and_gradients() -> None:
+def test_the_colouring_of_the_benches_has_the_reference_values_and_gradients() -> None:
     words = (BENCH / "coloring.txt").read_text().split()
     n, *counts = map(int, words[:4])
     areas, rest = [float(word) for word in words[4 : 4 + n]], [int(word) for word in words[4 + n :]]
@@ -208,9 +208,9 @@ def test_the_benches_colouring_as_a_model_has_the_reference_values_and_gradients
         if name != "coloring":
             continue
         x, gradient = np.array(numbers, dtype=float).reshape(2, int(dim))
-        found, slope = density.value_and_gradient(x)
-        # Terms of the engine's log densities are kept on a grid; a thousand of them stay within 1e-9.
-        assert found == pytest.approx(float(value), abs=1e-9)
+        score, slope = density.value_and_gradient(x)
+        # The engine rounds terms of log densities to a grid; a thousand terms stay within 1e-9.
+        assert score == pytest.approx(float(value), abs=1e-9)
         assert slope == pytest.approx(gradient, abs=1e-9 * np.abs(gradient).max())
         compared += 1
     assert compared == 3

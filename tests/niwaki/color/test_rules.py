@@ -1,4 +1,4 @@
-"""Rules are read as written, refused by name where they are wrong, and shown where they contradict one another."""
+"""Rules are read as written; wrong rules give an error with their names, contradictory rules a list."""
 
 from __future__ import annotations
 
@@ -7,28 +7,28 @@ import tomllib
 import numpy as np
 import pytest
 from niwaki.color import Rules, lab
-from niwaki.color.agree import contradiction, least_slack
-from niwaki.color.drawing import OWN
+from niwaki.color.consistency import contradiction, least_slack
+from niwaki.color.drawing import EXAMPLES
 from niwaki.errors import FileError
 
 
-def refused(place, text: str) -> FileError:
+def error_of(place, text: str) -> FileError:
     path = place / "rules.toml"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(FileError) as found:
+    with pytest.raises(FileError) as caught:
         Rules.load(path).check(["wall", "roof", "ink", "sky"])
-    return found.value
+    return caught.value
 
 
 def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
     rules = Rules.of({"lightness": [["a", "b", "c"]], "same-hue": [["a", "c"]], "muted": {"all": 50, "b": 9}})
-    assert [(one.kind, one.first, one.second) for one in rules] == [
+    assert [(rule.kind, rule.first, rule.second) for rule in rules] == [
         ("lightness", "a", "b"),
         ("lightness", "b", "c"),
         ("same-hue", "a", "c"),
         ("muted", "b", ""),
     ]
-    assert [(one.first, one.most) for one in rules.on("abc") if one.kind == "muted"] == [
+    assert [(rule.first, rule.most) for rule in rules.on("abc") if rule.kind == "muted"] == [
         ("b", 9),
         ("a", 50),
         ("c", 50),
@@ -44,7 +44,7 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
         ('lightnes = [["wall", "roof"]]', "rules-unclear", "did you mean `lightness`"),
         ('lightness = ["wall", "roof"]', "rules-unclear", "chains"),
         ('lightness = [["wall"]]', "rules-unclear", "chains"),
-        ("[held]\nwall = 'red'", "rules-unclear", "not to a `#rrggbb`"),
+        ("[held]\nwall = 'red'", "rules-unclear", "not a colour `#rrggbb`"),
         ("[muted]\nwall = true", "rules-unclear", "from 0 to 200"),
         ("muted = 3", "rules-unclear", "table"),
         ("background = 3", "rules-unclear", "one region"),
@@ -52,14 +52,14 @@ def test_a_chain_is_a_rule_for_each_neighbouring_pair() -> None:
     ],
 )
 def test_rules_that_cannot_be_used_give_an_error(tmp_path, text: str, code: str, message: str) -> None:
-    error = refused(tmp_path, text)
+    error = error_of(tmp_path, text)
     assert error.code == code and message in str(error)
 
 
 @pytest.mark.parametrize(
-    ("text", "shown", "spared"),
+    ("text", "listed", "absent"),
     [
-        # a circle of three, and a rule that has nothing to do with it
+        # a circle of three rules, and an unrelated rule
         (
             'lightness = [["wall", "roof", "ink", "wall"], ["sky", "roof"]]',
             ["`wall` is 15", "`roof` is 15", "`ink` is 15"],
@@ -67,7 +67,7 @@ def test_rules_that_cannot_be_used_give_an_error(tmp_path, text: str, code: str,
         ),
         ('lighter = [["wall", "roof"], ["roof", "wall"]]', ["`wall` is at least", "`roof` is at least"], []),
         ('lightness = [["wall", "wall"]]', ["`wall` is 15 units lighter than `wall`"], []),
-        # a held black region that is to be lighter than another
+        # a held black region, and a rule that makes it lighter than another region
         (
             'lightness = [["ink", "wall"]]\n[held]\nink = "#000000"',
             ["`ink` is 15", "`ink` is held at #000000", "`wall` is no darker than black"],
@@ -91,14 +91,14 @@ def test_rules_that_cannot_be_used_give_an_error(tmp_path, text: str, code: str,
         ),
     ],
 )
-def test_a_contradiction_shows_its_rules_and_no_others(tmp_path, text, shown, spared) -> None:
-    error = refused(tmp_path, text)
+def test_a_contradiction_lists_only_its_own_rules(tmp_path, text, listed, absent) -> None:
+    error = error_of(tmp_path, text)
     assert error.code == "rules-contradict"
-    assert all(one in str(error) for one in shown) and not any(one in str(error) for one in spared)
+    assert all(words in str(error) for words in listed) and not any(words in str(error) for words in absent)
 
 
-def test_the_least_slack_of_two_paths_of_unequal_length() -> None:
-    """From sky to line in three steps and in four: 3 (15 + s) = 4 (15 - s), so s = 15 / 7."""
+def test_two_paths_of_unequal_length_need_slack() -> None:
+    """Three steps and four steps lead from sky to line: 3 (15 + s) = 4 (15 - s), so s = 15 / 7."""
     rules = Rules(lightness=[["sky", "a", "b", "line"], ["sky", "c", "d", "e", "line"]])
     slack, forced = least_slack(rules)
     assert slack == pytest.approx(15 / 7, abs=1e-6)
@@ -125,17 +125,17 @@ def test_the_least_slack_agrees_with_a_linear_program() -> None:
         assert least_slack(rules)[0] == pytest.approx(best.fun, abs=1e-6)
 
 
-def test_our_own_rules_can_all_hold() -> None:
-    for place in OWN.glob("*.toml"):
+def test_the_packages_rules_can_all_hold() -> None:
+    for place in EXAMPLES.glob("*.toml"):
         assert least_slack(Rules.load(place)) == (0.0, [])
 
 
-def test_rules_as_a_file_are_the_rules_again() -> None:
-    for place in OWN.glob("*.toml"):
+def test_rules_survive_a_file() -> None:
+    for place in EXAMPLES.glob("*.toml"):
         rules = Rules.load(place)
         assert Rules.of(tomllib.loads(rules.toml()), place) == rules
     chains = [['a "b"', "grün", "\\\n"]]
     odd = Rules.of({"lighter": chains, "muted": {"all": 7.5}, "held": {"a.b": "#00ff00"}})
-    # As files of the first format have it.
+    # The first format has `pinned`.
     assert Rules.of({"lighter": chains, "muted": {"all": 7.5}, "pinned": {"a.b": "#00ff00"}}) == odd
     assert Rules.of(tomllib.loads(odd.toml())) == odd

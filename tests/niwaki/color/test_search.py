@@ -1,4 +1,4 @@
-"""Colourings keep rules and held colours, differ, are the same for a seed, and are written to files."""
+"""Colourings keep rules and held colours, differ, depend only on the seed, and are written to files."""
 
 from __future__ import annotations
 
@@ -40,35 +40,35 @@ def small(tmp_path):
 
 def test_pinned_colours_stay_and_rules_are_kept(small, tmp_path) -> None:
     rules = Rules.load(tmp_path / "rules.toml")
-    found = color(small, rules, 3, method=mh(steps=4000, chains=4, warmup=2000, keep=4), seed=1)
-    assert len({one.colors["sky"] for one in found}) == 3
-    for one in found:
-        assert one.colors["wall"] == "#e8d9b0"
-        kinds = [kept.rule.kind for kept in one.kept]
+    colorings = color(small, rules, 3, method=mh(steps=4000, chains=4, warmup=2000, keep=4), seed=1)
+    assert len({coloring.colors["sky"] for coloring in colorings}) == 3
+    for coloring in colorings:
+        assert coloring.colors["wall"] == "#e8d9b0"
+        kinds = [row.rule.kind for row in coloring.report]
         assert kinds == ["lightness", "lighter", "same-chroma", "same-hue", "muted", "muted", "muted"]
-        labs = {name: lab.of_hex(code) for name, code in one.colors.items()}
-        relation, lighter, chroma, hue, sky, *_ = one.kept
+        labs = {name: lab.of_hex(code) for name, code in coloring.colors.items()}
+        relation, lighter, chroma, hue, sky, *_ = coloring.report
         # Bytes round colours by about half a unit.
-        assert relation.found == pytest.approx(labs["wall"][0] - labs["roof"][0], abs=0.6)
-        assert relation.residual == pytest.approx(relation.found - 15.0, abs=1e-9)
-        assert lighter.found == pytest.approx(labs["sky"][0] - labs["door"][0], abs=0.6)
+        assert relation.value == pytest.approx(labs["wall"][0] - labs["roof"][0], abs=0.6)
+        assert relation.residual == pytest.approx(relation.value - 15.0, abs=1e-9)
+        assert lighter.value == pytest.approx(labs["sky"][0] - labs["door"][0], abs=0.6)
         distance = np.hypot(labs["roof"][1] - labs["door"][1], labs["roof"][2] - labs["door"][2])
-        assert chroma.found == pytest.approx(distance, abs=1.2)
-        assert sky.rule.first == "sky" and sky.wanted == pytest.approx(20.0)
-        assert sky.found == pytest.approx(np.hypot(*labs["sky"][1:]), abs=0.6)
-        # The width of 5 acts like 0.5: six of those.
+        assert chroma.value == pytest.approx(distance, abs=1.2)
+        assert sky.rule.first == "sky" and sky.goal == pytest.approx(20.0)
+        assert sky.value == pytest.approx(np.hypot(*labs["sky"][1:]), abs=0.6)
+        # The width of 5 acts like 0.5; the limit is six such widths.
         assert abs(relation.residual) < 3.0 and chroma.residual < 3.0
 
 
-def test_a_seed_decides(small) -> None:
+def test_the_seed_determines_the_colours(small) -> None:
     first, again, other = (
-        [one.colors for one in color(small, count=2, method=QUICK, seed=seed)] for seed in (1, 1, 2)
+        [coloring.colors for coloring in color(small, count=2, method=QUICK, seed=seed)] for seed in (1, 1, 2)
     )
     assert first == again != other
 
 
-def test_the_farthest_of_the_better_half() -> None:
-    """On a line, at 0 (best), 1, 2, 10 and, worst, 99: 10 is farther than 2, and 99 is not good enough."""
+def test_the_choice_is_farthest_in_the_better_half() -> None:
+    """Points on a line at 0 (best), 1, 2, 10 and 99 (worst): 10 is farther than 2, and 99 is not good enough."""
     labs = np.zeros((8, 1, 3))
     labs[:, 0, 0] = [0, 1, 2, 10, 99, 98, 97, 96]
     scores = np.array([8, 7, 6, 5, 4, 3, 2, 1.0])
@@ -76,7 +76,7 @@ def test_the_farthest_of_the_better_half() -> None:
     assert farthest(labs, scores, [1.0], 5)[:2] == [0, 4]
 
 
-def test_more_colourings_than_the_sampler_gives(small) -> None:
+def test_a_count_above_the_samplers_draws_gives_an_error(small) -> None:
     with pytest.raises(InputError, match="count"):
         color(small, count=500, method=QUICK, seed=1)
 
@@ -114,25 +114,28 @@ def test_the_command_writes_the_files_that_it_names(small, tmp_path) -> None:
     assert rows[1][:4] == ["lightness", "wall", "roof", "15"]
 
 
-def test_moving_uphill_keeps_rules_better_and_pinned_colours_as_they_are(small, tmp_path) -> None:
+def test_ascent_keeps_rules_better_and_pinned_colours_unchanged(small, tmp_path) -> None:
     rules = Rules.load(tmp_path / "rules.toml")
     left, moved = (color(small, rules, 3, method=QUICK, settle=steps, seed=1) for steps in (0, 200))
-    assert min(one.log_score for one in moved) > max(one.log_score for one in left)
-    worst = [max(abs(kept.residual) for one in found for kept in one.kept) for found in (left, moved)]
+    assert min(coloring.log_score for coloring in moved) > max(coloring.log_score for coloring in left)
+    worst = [
+        max(abs(row.residual) for coloring in colorings for row in coloring.report)
+        for colorings in (left, moved)
+    ]
     assert worst[1] < 0.2 * worst[0]
-    assert {one.colors["wall"] for one in moved} == {"#e8d9b0"}
+    assert {coloring.colors["wall"] for coloring in moved} == {"#e8d9b0"}
 
 
 @pytest.mark.parametrize("name", ["robot", "house", "bug", "rocket"])
-def test_twelve_colourings_of_our_drawings_keep_the_rules_and_differ(name: str) -> None:
-    found = color(name, count=12, seed=2)
-    for one in found:
-        for kept in one.kept:
-            # Three of the widths that rules act with: 0.5 CIELAB units, and 3 degrees of hue.
-            limit = 9.0 if kept.rule.kind == "same-hue" else 1.5
-            assert abs(kept.residual) < limit, kept
-    labs = np.array([[lab.of_hex(code) for code in one.colors.values()] for one in found])
-    weights = np.sqrt(found[0].drawing.areas)
+def test_twelve_colourings_of_the_packages_drawings_keep_the_rules_and_differ(name: str) -> None:
+    colorings = color(name, count=12, seed=2)
+    for coloring in colorings:
+        for row in coloring.report:
+            # The limits are three effective widths: 0.5 CIELAB units, and 3 degrees of hue.
+            limit = 9.0 if row.rule.kind == "same-hue" else 1.5
+            assert abs(row.residual) < limit, row
+    labs = np.array([[lab.of_hex(code) for code in coloring.colors.values()] for coloring in colorings])
+    weights = np.sqrt(colorings[0].drawing.areas)
     for k in range(12):
         for j in range(k):
             # 10 units are a visible difference.

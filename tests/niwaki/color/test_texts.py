@@ -1,4 +1,4 @@
-"""The messages about drawings and rules that cannot be used are as reviewed; each message comes from a real mistake."""
+"""Messages about unusable drawings and rules are as reviewed; each message comes from a real mistake."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_messages_about_drawings_are_as_reviewed(tmp_path, golden) -> None:
     for name, (svg, rules) in MISTAKES.items():
         (tmp_path / "drawing.svg").write_text(svg, encoding="utf-8")
         (tmp_path / "rules.toml").write_text(rules, encoding="utf-8")
-        with pytest.raises(FileError) as found:
+        with pytest.raises(FileError) as caught:
             color(Drawing.load(tmp_path / "drawing.svg"), Rules.load(tmp_path / "rules.toml"), 1, seed=1)
-        texts.append(f"## {name}\n\n{found.value}".replace(str(tmp_path), "FOLDER"))
+        texts.append(f"## {name}\n\n{caught.value}".replace(str(tmp_path), "FOLDER"))
     golden(GOLDEN, "\n\n".join(texts) + "\n")

@@ -21,7 +21,7 @@ from niwaki.gallery import entries
 from niwaki.gallery.coin import coin
 from niwaki.gallery.spaceship import spaceship
 from niwaki.notebook.viewer import stage
-from niwaki.studio.frames import opened
+from niwaki.studio.frames import unpack
 
 
 @pytest.fixture(scope="module")
@@ -79,8 +79,8 @@ def test_gallery_entries_are_tables(name):
 
 def test_a_view_holds_the_meshes_and_the_target(ships):
     view = nw.view(ships, most=2)
-    headers = [json.loads(opened(one)[0]) for one in view.frames]
-    assert [one["what"] for one in headers] == ["ghost", "result", "result"]
+    headers = [json.loads(unpack(one)[0]) for one in view.frames]
+    assert [header["role"] for header in headers] == ["ghost", "result", "result"]
     best = max(ships, key=lambda one: one.log_score)
     assert headers[1]["parts"] == [part.address for part in best.scene.parts]
     assert np.allclose([headers[1]["low"], headers[1]["high"]], best.scene.bounds, atol=0.05)

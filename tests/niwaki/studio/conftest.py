@@ -1,4 +1,4 @@
-"""One studio for the tests of a file, and a script that speaks to it."""
+"""Fixtures: a studio for the tests of a file, and a script that is connected to it."""
 
 from collections.abc import Iterator
 
@@ -11,8 +11,8 @@ __all__ = ["connected", "pile", "served"]
 
 @pytest.fixture
 def connected(served: Served) -> Iterator[object]:
-    """A script's connection."""
-    # The extra `studio` may be missing, where these tests are skipped.
+    """A connection of a script."""
+    # Without the extra `studio` these tests are skipped.
     studio = pytest.importorskip("niwaki.studio")
-    with studio.connect(served.url, served.key) as one:
-        yield one
+    with studio.connect(served.url, served.key) as connection:
+        yield connection

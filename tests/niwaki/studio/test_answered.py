@@ -1,4 +1,4 @@
-"""Every command is answered, whatever fails; who does not read or does not ask keeps nobody out."""
+"""Every command gets an answer, also after failures; silent clients and slow readers do not block other clients."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ def command(kind: type, number: int) -> Any:
     return msgspec.json.decode(json.dumps(fields), type=m.AnyCommand)
 
 
-def events(one: Window) -> list[dict]:
-    return [json.loads(data) for data in one._waiting.values() if isinstance(data, str)]
+def events(window_: Window) -> list[dict]:
+    return [json.loads(data) for data in window_._waiting.values() if isinstance(data, str)]
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def events(one: Window) -> list[dict]:
 )
 @pytest.mark.parametrize("is_late", [False, True], ids=["at-once", "late"])
 def test_a_command_that_fails_is_answered_with_why(tmp_path, monkeypatch, error, is_late):
-    """Each kind of command, failing at once or beside others."""
+    """Try each kind of command; it fails at once or as a task."""
 
     def at_once(*_: Any) -> None:
         raise error
@@ -60,48 +60,50 @@ def test_a_command_that_fails_is_answered_with_why(tmp_path, monkeypatch, error,
         await asyncio.sleep(0)
         raise error
 
-    async def lived() -> None:
-        session, one = Session(tmp_path, []), Window()
+    async def work() -> None:
+        session, client = Session(tmp_path, []), Window()
         session.ready.set()
         fails = late if is_late else at_once
         monkeypatch.setattr(dispatch, "COMMANDS", dict.fromkeys(dispatch.COMMANDS, fails))
         for number, kind in enumerate(COMMANDS, 1):
-            await obey(session, one, command(kind, number))
+            await obey(session, client, command(kind, number))
         await asyncio.gather(*session._tasks)
-        told = {event["id"]: event for event in events(one)}
-        assert set(told) == set(range(1, len(COMMANDS) + 1))
+        answers = {event["id"]: event for event in events(client)}
+        assert set(answers) == set(range(1, len(COMMANDS) + 1))
         for number, kind in enumerate(COMMANDS, 1):
-            assert told[number]["kind"] == ("state" if kind is m.Hello else "error")
-            assert kind is m.Hello or told[number]["problem"]["text"]
+            assert answers[number]["kind"] == ("state" if kind is m.Hello else "error")
+            assert kind is m.Hello or answers[number]["problem"]["text"]
         await session.end()
 
-    asyncio.run(lived())
+    asyncio.run(work())
 
 
 def test_work_beside_commands_that_fails_is_told_to_every_window(tmp_path, monkeypatch):
     async def fails(*_: Any) -> None:
         raise OSError(28, "No space left on device", "x")
 
-    async def lived() -> None:
+    async def work() -> None:
         session, windows = Session(tmp_path, []), [Window(), Window()]
         session.ready.set()
-        for one in windows:
-            await obey(session, one, m.Hello(protocol=m.PROTOCOL, id=1))
+        for each in windows:
+            await obey(session, each, m.Hello(protocol=m.PROTOCOL, id=1))
         session.start(fails())
         await asyncio.gather(*session._tasks)
-        for one in windows:
-            told = events(one)[-1]
-            assert (told["kind"], told["id"]) == ("error", 0) and "No space left" in told["problem"]["text"]
+        for each in windows:
+            event = events(each)[-1]
+            assert (event["kind"], event["id"]) == ("error", 0) and "No space left" in event["problem"][
+                "text"
+            ]
         await session.end()
 
-    asyncio.run(lived())
+    asyncio.run(work())
 
 
 def test_a_worker_that_says_what_is_no_report_is_named(tmp_path):
-    """Its process is ended: what it says next belongs to no other job."""
+    """The process is ended, so that its further reports reach no other job."""
     from niwaki.studio.process import Worker
 
-    async def lived() -> None:
+    async def work() -> None:
         worker = Worker()
         try:
             assert (await worker.do(m.ListModels(files=[]))).models
@@ -118,7 +120,7 @@ def test_a_worker_that_says_what_is_no_report_is_named(tmp_path):
         finally:
             await worker.kill()
 
-    asyncio.run(lived())
+    asyncio.run(work())
 
 
 # ---- over the wire
@@ -152,7 +154,7 @@ def test_a_strange_command_is_answered(served, connected, fields):
         if event.get("id") == number and event["kind"] in ("error", "done"):
             break
     assert event["kind"] == "done" or event["problem"]["text"]
-    # The session goes on, for this window and for a new one.
+    # The session still works, for this window and for a new window.
     connected.ask("set", settings={"count": 3})
     with studio.connect(served.url, served.key) as other:
         assert other.view["settings"]["count"] == 3
@@ -160,22 +162,22 @@ def test_a_strange_command_is_answered(served, connected, fields):
 
 
 def test_half_sent_requests_keep_nobody_out(served, connected):
-    """As many as are kept, and more, without a key: a request that is whole is answered at once."""
+    """With more silent connections than the limit, a complete request still gets an answer at once."""
     silent = []
     try:
         for _ in range(serving.CONNECTIONS + 40):
-            one = socket.create_connection(("127.0.0.1", served.port), 5)
-            one.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.")
-            silent.append(one)
+            link = socket.create_connection(("127.0.0.1", served.port), 5)
+            link.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.")
+            silent.append(link)
         for _ in range(3):
             assert fetch(served, "/").startswith(b"<!doctype html>")
             with studio.connect(served.url, served.key) as other:
                 assert other.view
-        # A window that was open stays.
+        # The open window stays connected.
         connected.ask("set", settings={"count": 4})
     finally:
-        for one in silent:
-            one.close()
+        for link in silent:
+            link.close()
 
 
 @pytest.mark.parametrize("request_of", [b"GET / HTTP/1.1\r\nHost: %s\r\n\r\n", b"PUT / HTTP/1.1\r\nHost: %s\r\n\r\n",
@@ -191,21 +193,21 @@ def test_who_is_not_known_does_not_stay(served, request_of):
 
 
 def test_messages_that_nobody_reads_are_bounded():
-    """A window that does not read is closed, and nothing is kept for it."""
+    """A window that does not read is closed, and its messages are dropped."""
     tracemalloc.start()
     try:
         for text, most in (("x" * 100_000, window.ROOM + (8 << 20)), ("x", 8 << 20)):
-            one = Window()
+            client = Window()
             before = tracemalloc.get_traced_memory()[0]
             for number in range(60_000):
-                one.put(text + str(number))
-            assert one.overrun.is_set() and not one._waiting
+                client.put(text + str(number))
+            assert client.overrun.is_set() and not client._waiting
             assert tracemalloc.get_traced_memory()[1] - before < most
             tracemalloc.reset_peak()
-        # One message that is larger than that is sent.
-        one = Window()
-        one.put("x" * (window.ROOM + 1))
-        assert not one.overrun.is_set()
+        # A single message above this limit is sent.
+        client = Window()
+        client.put("x" * (window.ROOM + 1))
+        assert not client.overrun.is_set()
     finally:
         tracemalloc.stop()
 
@@ -228,7 +230,7 @@ def test_a_script_that_never_reads_takes_bounded_memory_and_ends(served, fields)
             link.socket.settimeout(10)
             for number in range(60_000):
                 link.send(json.dumps({**fields, "id": number}))
-            # What was said before it was closed may still be read.
+            # Messages from before the end can still be read.
             while True:
                 link.recv(10)
     assert memory(place) - before < 160 << 20
@@ -236,31 +238,31 @@ def test_a_script_that_never_reads_takes_bounded_memory_and_ends(served, fields)
 
 
 def memory(place: Path) -> int:
-    """The most that a process has had, bytes."""
+    """Read the largest memory of a process so far, bytes."""
     row = next(line for line in place.read_text().splitlines() if line.startswith("VmHWM"))
     return int(row.split()[1]) << 10
 
 
 def test_more_commands_than_can_wait_are_refused(tmp_path):
-    async def lived() -> None:
-        session, one = Session(tmp_path, []), Window()
+    async def work() -> None:
+        session, client = Session(tmp_path, []), Window()
         session.ready.set()
         for number in range(4_100):
-            await obey(session, one, m.Propose(id=number))
+            await obey(session, client, m.Propose(id=number))
             if number % 100 == 0:
-                # As a window that reads.
-                told = events(one)
-                one._waiting.clear()
-                assert all(event["kind"] == "error" for event in told)
+                # Empty the queue, as a window that reads does.
+                answers = events(client)
+                client._waiting.clear()
+                assert all(event["kind"] == "error" for event in answers)
         assert len(session._tasks) <= 4_000
-        assert events(one)[-1]["problem"]["code"] == "busy"
+        assert events(client)[-1]["problem"]["code"] == "busy"
         await session.end()
 
-    asyncio.run(lived())
+    asyncio.run(work())
 
 
 async def upload(guard: Any, send: Any) -> None:
-    """A request with a mesh of one byte."""
+    """Send a request with a mesh of one byte."""
     scope = {
         "type": "http", "http_version": "1.1", "method": "POST", "path": "/upload", "raw_path": b"/upload",
         "query_string": b"name=a.stl",
@@ -274,7 +276,7 @@ async def upload(guard: Any, send: Any) -> None:
 
 
 def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
-    """Twelve at once: no more than the limit are taken and read, and each is answered."""
+    """Of twelve uploads at once, only as many as the limit are read at a time, and each gets an answer."""
     most = [0, 0]
 
     async def read(*_: Any) -> Any:
@@ -287,11 +289,11 @@ def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
     monkeypatch.setattr(server, "_read", read)
     answered: list[int] = []
 
-    async def asked() -> None:
+    async def work() -> None:
         session = Session(tmp_path, [])
         guard = server.application(session, 1234)
 
-        async def one() -> None:
+        async def send_upload() -> None:
             async def send(message: dict) -> None:
                 if message["type"] == "http.response.start":
                     answered.append(message["status"])
@@ -299,10 +301,10 @@ def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
             await upload(guard, send)
 
         async with asyncio.timeout(30):
-            await asyncio.gather(*(one() for _ in range(12)))
+            await asyncio.gather(*(send_upload() for _ in range(12)))
         await session.end()
 
-    asyncio.run(asked())
+    asyncio.run(work())
     assert answered == [200] * 12 and most == [0, server.READERS]
 
 
@@ -311,17 +313,17 @@ def test_an_upload_on_a_full_disk_says_so(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(server.tempfile, "TemporaryDirectory", full)
-    said: list[dict] = []
+    messages: list[dict] = []
 
-    async def asked() -> None:
+    async def work() -> None:
         session = Session(tmp_path, [])
         guard = server.application(session, 1234)
 
         async def send(message: dict) -> None:
-            said.append(message)
+            messages.append(message)
 
         await upload(guard, send)
         await session.end()
 
-    asyncio.run(asked())
-    assert said[0]["status"] == 507 and "No space left" in json.loads(said[1]["body"])["text"]
+    asyncio.run(work())
+    assert messages[0]["status"] == 507 and "No space left" in json.loads(messages[1]["body"])["text"]

@@ -1,4 +1,4 @@
-"""The committed page is what its sources give: compared where node and the page's packages are found."""
+"""The committed page equals a build of its sources; compared if node and the page's packages are installed."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ def test_the_page_is_built_from_its_sources(tmp_path):
     if shutil.which("node") is None or not (SOURCES / "node_modules" / "esbuild").is_dir():
         pytest.skip("no node, or its packages are not installed: `make studio-page` installs them")
     subprocess.run(["node", "build.mjs", str(tmp_path)], cwd=SOURCES, check=True, capture_output=True)
-    names = sorted(one.name for one in BUILT.iterdir())
-    assert names == sorted(one.name for one in tmp_path.iterdir())
+    names = sorted(path.name for path in BUILT.iterdir())
+    assert names == sorted(path.name for path in tmp_path.iterdir())
     for name in names:
         assert (tmp_path / name).read_bytes() == (BUILT / name).read_bytes(), (
             f"{name}: run `make studio-page`"

@@ -1,4 +1,4 @@
-"""A session on a disk that fails, that is full, or whose files were damaged or exchanged for links."""
+"""A session on a failing or full disk, with damaged files, or with links in place of files."""
 
 from __future__ import annotations
 
@@ -35,16 +35,16 @@ QUICK, LONG = 200, 3_000
 MEMORY = 64 << 20
 
 
-def opened(folder: Path) -> tuple[str, int, int, int | None]:
-    """What a session on the disk is, opened once more."""
+def stored_state(folder: Path) -> tuple[str, int, int, int | None]:
+    """Open a session on the disk again and return its state."""
     journal = Journal(folder)
     try:
-        return seen(journal)
+        return state_of(journal)
     finally:
         journal.close()
 
 
-def seen(journal: Journal) -> tuple[str, int, int, int | None]:
+def state_of(journal: Journal) -> tuple[str, int, int, int | None]:
     return journal.document().hash, journal.undoable, journal.redoable, journal.running
 
 
@@ -56,30 +56,30 @@ def events(window: Window) -> list[dict]:
 
 
 def test_what_was_shown_is_on_a_disk_that_fails_at_any_call(tmp_path):
-    """Each fault at each call of a session's life: a step that was refused is not there, all others are."""
+    """Try each fault at each call of a session: a step that failed is absent, all other steps are present."""
     calls = lost = 0
     work = [
-        lambda one: one.step("model", {"model": "a"}),
-        lambda one: one.step("model", {"model": "b" * 5_000}),
-        lambda one: one.undo(),
-        lambda one: one.run(),
-        lambda one: one.redo(),
-        lambda one: one.ended(),
-        lambda one: one.step("model", {"model": "c"}),
+        lambda journal: journal.step("model", {"model": "a"}),
+        lambda journal: journal.step("model", {"model": "b" * 5_000}),
+        lambda journal: journal.undo(),
+        lambda journal: journal.run(),
+        lambda journal: journal.redo(),
+        lambda journal: journal.end_run(),
+        lambda journal: journal.step("model", {"model": "c"}),
     ]
     shown: dict[Path, object] = {}
 
     def live(folder: Path) -> None:
-        # The studio does not begin, or refuses some commands and goes on.
+        # The studio does not start, or some commands fail and it continues.
         journal = Journal(folder)
         try:
-            for one in work:
-                before = seen(journal)
+            for action in work:
+                before = state_of(journal)
                 try:
-                    one(journal)
+                    action(journal)
                 except FileError:
-                    assert seen(journal) == before
-            shown[folder] = seen(journal)
+                    assert state_of(journal) == before
+            shown[folder] = state_of(journal)
         finally:
             journal.close()
 
@@ -90,9 +90,9 @@ def test_what_was_shown_is_on_a_disk_that_fails_at_any_call(tmp_path):
             (trial.folder / "journal.jsonl").read_bytes().splitlines() if trial.folder in shown else ()
         ):
             json.loads(line)
-        found = opened(trial.folder)
-        lost += found != shown.get(trial.folder, found)
-        assert found == shown.get(trial.folder, found), trial
+        stored = stored_state(trial.folder)
+        lost += stored != shown.get(trial.folder, stored)
+        assert stored == shown.get(trial.folder, stored), trial
     assert calls > 100 and lost == 0
 
 
@@ -120,7 +120,7 @@ def test_a_line_that_could_not_be_cut_back_is_cut_before_the_next_one(tmp_path, 
 
 
 def test_a_step_on_a_full_disk_is_refused_with_a_message_and_the_session_goes_on(tmp_path):
-    async def lived() -> None:
+    async def work() -> None:
         session, window = Session(tmp_path, []), Window()
         session.ready.set()
         await obey(session, window, m.Hello(protocol=m.PROTOCOL, id=1))
@@ -131,15 +131,15 @@ def test_a_step_on_a_full_disk_is_refused_with_a_message_and_the_session_goes_on
             for k in range(3):
                 await obey(session, window, m.Set(settings=m.SettingsChange(count=2 + k), id=2 + k))
             await obey(session, window, m.Run(id=7))
-        refused = {one["id"]: one["problem"] for one in events(window) if one["kind"] == "error"}
-        assert set(refused) == {2, 3, 4, 7}
-        assert "No space left on device" in refused[2]["text"] and refused[2]["code"] == "file-unwritable"
+        problems = {event["id"]: event["problem"] for event in events(window) if event["kind"] == "error"}
+        assert set(problems) == {2, 3, 4, 7}
+        assert "No space left on device" in problems[2]["text"] and problems[2]["code"] == "file-unwritable"
         assert session.document.settings.count == 8 and session.searching is None
         await obey(session, window, m.Set(settings=m.SettingsChange(count=3), id=9))
         assert events(window)[-1] == {"kind": "done", "id": 9, "interrupted": False}
         await session.end()
 
-    asyncio.run(lived())
+    asyncio.run(work())
     journal = Journal(tmp_path)
     assert journal.document().settings.count == 3 and journal.undoable == 1
     journal.close()
@@ -149,28 +149,28 @@ def test_a_step_on_a_full_disk_is_refused_with_a_message_and_the_session_goes_on
 
 
 def damaged(name: str, chance: random.Random) -> bytes:
-    """A file of a session with one thing changed: of a journal one line, or the text of all."""
+    """Change a file of a session: a line of a journal, or the text of another file."""
     data = (STORED / name).read_bytes()
     if name != "journal.jsonl":
         return mutated(json.loads(data), chance)[1]
     lines = data.splitlines()
     at = chance.randrange(len(lines))
-    what = chance.choice(["line", "line", "line", "field", "twice", "gone", "swap", "bytes"])
-    if what == "line":
+    change = chance.choice(["line", "line", "line", "field", "twice", "gone", "swap", "bytes"])
+    if change == "line":
         lines[at] = mutated(json.loads(lines[at]), chance)[1]
-    elif what == "field":
-        one = json.loads(lines[at])
-        one[chance.choice(list(one))] = chance.choice([*HOSTILE, 3, 5, 8, 9])
-        lines[at] = json.dumps(one).encode()
-    elif what == "twice":
+    elif change == "field":
+        step = json.loads(lines[at])
+        step[chance.choice(list(step))] = chance.choice([*HOSTILE, 3, 5, 8, 9])
+        lines[at] = json.dumps(step).encode()
+    elif change == "twice":
         lines.insert(at, lines[at])
-    elif what == "gone":
+    elif change == "gone":
         del lines[at]
-    elif what == "swap":
+    elif change == "swap":
         other = chance.randrange(len(lines))
         lines[at], lines[other] = lines[other], lines[at]
     whole = bytearray(b"\n".join(lines) + b"\n")
-    if what == "bytes":
+    if change == "bytes":
         for _ in range(chance.randint(1, 3)):
             whole[chance.randrange(len(whole))] = chance.randrange(256)
         whole = whole[: chance.randint(0, len(whole))] if chance.random() < 0.3 else whole
@@ -179,22 +179,22 @@ def damaged(name: str, chance: random.Random) -> bytes:
 
 def try_damage(folder: Path, name: str, count: int, seed: int) -> dict[str, int]:
     """Open damaged sessions; each opens with a document that can be shown and stored, or gives a message."""
-    chance, found = random.Random(seed), {"opened": 0, "in part": 0, "message": 0}
+    chance, outcomes = random.Random(seed), {"opened": 0, "in part": 0, "message": 0}
     shutil.copytree(STORED, folder)
     tracemalloc.start()
     try:
         for _ in range(count):
-            for one in ("journal.jsonl", "session.json"):
-                (folder / one).write_bytes((STORED / one).read_bytes())
+            for file in ("journal.jsonl", "session.json"):
+                (folder / file).write_bytes((STORED / file).read_bytes())
             text = damaged(name, chance)
             (folder / name).write_bytes(text)
             try:
                 journal = Journal(folder)
             except NiwakiError as error:
                 assert str(error).startswith("error["), text
-                found["message"] += 1
+                outcomes["message"] += 1
                 continue
-            found["in part" if journal.loss else "opened"] += 1
+            outcomes["in part" if journal.loss else "opened"] += 1
             try:
                 journal.document()
                 while journal.undo():
@@ -204,18 +204,18 @@ def try_damage(folder: Path, name: str, count: int, seed: int) -> dict[str, int]
                 journal.step("model", {"model": "z"})
             finally:
                 journal.close()
-            assert opened(folder) is not None
+            assert stored_state(folder) is not None
             (folder / "journal.damaged").unlink(missing_ok=True)
         assert tracemalloc.get_traced_memory()[1] < MEMORY
     finally:
         tracemalloc.stop()
-    return found
+    return outcomes
 
 
 @pytest.mark.parametrize("name", ["journal.jsonl", "session.json"])
 def test_a_damaged_session_opens_with_what_is_whole_or_gives_a_message(tmp_path, name):
-    found = try_damage(tmp_path / "session", name, QUICK, 41)
-    assert found["message"] and found["opened"]
+    outcomes = try_damage(tmp_path / "session", name, QUICK, 41)
+    assert outcomes["message"] and outcomes["opened"]
 
 
 @pytest.mark.soak
@@ -228,9 +228,9 @@ def test_many_damaged_sessions(tmp_path, name):
 @pytest.mark.parametrize(
     ("line", "reason"),
     [
-        ('{"head":5}', "line 2: at `$.head` there is 5, expected a step that was done"),
+        ('{"head":5}', "line 2: at `$.head` there is 5, expected an earlier step"),
         ('{"head":-1}', "line 2"),
-        ('{"step":2,"parent":2,"name":"a","changes":{}}', "expected step 2 after one that was done"),
+        ('{"step":2,"parent":2,"name":"a","changes":{}}', "expected step 2 after an earlier step"),
         ('{"step":1,"parent":2,"name":"a","changes":{}}', "expected step 2"),
         ('{"step":2,"parent":1,"name":"a","changes":5}', "line 2: at `$.changes`"),
         ('{"step":2,"parent":1,"name":"a","changes":{"results":3}}', "line 2: at `$.changes.results`"),
@@ -259,18 +259,18 @@ def test_a_wrong_line_is_named_or_left_out_where_it_is_the_last(tmp_path, line, 
     place = tmp_path / "journal.jsonl"
     first = place.read_bytes()
     place.write_bytes(first + line.encode() + b'\n{"running":1}\n')
-    with pytest.raises(InputError, match="bad-session") as found:
+    with pytest.raises(InputError, match="bad-session") as caught:
         Journal(tmp_path)
-    assert reason in str(found.value) and "remove line 2 and all after it" in str(found.value)
+    assert reason in str(caught.value) and "remove line 2 and all after it" in str(caught.value)
     assert place.read_bytes() == first + line.encode() + b'\n{"running":1}\n'
-    # As the last line.
+    # The wrong line is now the last line.
     place.write_bytes(first + line.encode() + b"\n")
     again = Journal(tmp_path)
     assert again.document().model == "a" and "damaged" in again.loss
     again.step("model", {"model": "b"})
     again.close()
     assert (tmp_path / "journal.damaged").read_bytes() == first + line.encode() + b"\n"
-    assert opened(tmp_path)[1] == 2
+    assert stored_state(tmp_path)[1] == 2
 
 
 @pytest.mark.parametrize(
@@ -281,7 +281,7 @@ def test_a_wrong_line_is_named_or_left_out_where_it_is_the_last(tmp_path, line, 
         ("{", "it is not JSON"),
         ('{"format": 1}', r"at `\$.session`"),
         ('{"format": 1, "session": 5}', r"at `\$.session` there is 5"),
-        ('{"format": 2, "session": "a"}', "it has format 2, this version reads 1"),
+        ('{"format": 2, "session": "a"}', "it has format 2, this version of Niwaki reads format 1"),
         ('{"session": "a"}', "it has format None"),
         ("x" * 2_000_000, "file-limit"),
     ],
@@ -299,13 +299,13 @@ def test_a_window_is_told_which_step_was_left_out(tmp_path):
         file.write(b'{"step":9,"parent":8,"na\x00\x00\x00\n')
     session, window = Session(tmp_path / "stored", []), Window()
     session.welcome(window, 1)
-    (said,) = (one for one in events(window) if one["kind"] == "error")
-    assert said["problem"]["code"] == "step-lost" and "journal.damaged" in said["problem"]["text"]
+    (event,) = (event for event in events(window) if event["kind"] == "error")
+    assert event["problem"]["code"] == "step-lost" and "journal.damaged" in event["problem"]["text"]
     session.journal.close()
 
 
 def test_what_cannot_be_stored_is_refused_before_the_disk(tmp_path):
-    async def lived() -> None:
+    async def work() -> None:
         session, window = Session(tmp_path, []), Window()
         session.ready.set()
         deep: list = []
@@ -315,20 +315,20 @@ def test_what_cannot_be_stored_is_refused_before_the_disk(tmp_path):
             await obey(session, window, m.Set(arguments=arguments, id=number))
         await obey(session, window, m.Set(arguments={"a": 10**30}, id=3))
         await session.end()
-        told = events(window)
-        assert [one["problem"]["code"] for one in told if one["kind"] == "error"] == [
+        answers = events(window)
+        assert [event["problem"]["code"] for event in answers if event["kind"] == "error"] == [
             "not-stored",
             "too-many",
         ]
-        assert told[-1]["kind"] == "done"
+        assert answers[-1]["kind"] == "done"
 
-    asyncio.run(lived())
+    asyncio.run(work())
     journal = Journal(tmp_path)
     assert journal.undoable == 1 and journal.document().arguments == {"a": 10**30}
     journal.close()
 
 
-# ---- who else has the files
+# ---- links and other names
 
 
 @UNIX
@@ -358,12 +358,12 @@ def test_a_journal_that_has_another_name_is_copied_first(tmp_path):
     other = Journal(tmp_path / "two")
     other.step("model", {"model": "b"})
     other.close()
-    assert opened(tmp_path / "one")[1] == 1 and opened(tmp_path / "two")[1] == 2
+    assert stored_state(tmp_path / "one")[1] == 1 and stored_state(tmp_path / "two")[1] == 2
 
 
 @UNIX
 def test_the_key_is_a_file_of_its_own_for_the_user_alone(tmp_path):
-    """Neither an old mode nor a link of the name stays."""
+    """An old mode and a link of the name are replaced."""
     target = tmp_path / "mine.txt"
     target.write_text("mine\n")
     for prepare in (
@@ -375,8 +375,8 @@ def test_the_key_is_a_file_of_its_own_for_the_user_alone(tmp_path):
         folder.mkdir()
         prepare(folder / "key")
         with serving(folder):
-            found = (folder / "key").lstat()
-            assert stat.S_ISREG(found.st_mode) and stat.S_IMODE(found.st_mode) == 0o600
+            status = (folder / "key").lstat()
+            assert stat.S_ISREG(status.st_mode) and stat.S_IMODE(status.st_mode) == 0o600
         assert target.read_text() == "mine\n"
         shutil.rmtree(folder)
 

@@ -1,4 +1,4 @@
-"""A part that is dragged through the studio: it is shown as it moves; at the end there is a result or a reason."""
+"""Dragging a part through the studio: shapes during the move, a result or a reason at the end."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from niwaki import studio
 
 @pytest.fixture
 def ship(connected):
-    """One spaceship, with its choices and the boxes of its parts."""
+    """A connection with one spaceship as the result."""
     connected.ask("model", reference="spaceship")
     connected.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
     connected.ask("free")
@@ -25,7 +25,7 @@ def described(connected):
 
 
 def middles(connected):
-    """The middle of each part of the shape that was shown last."""
+    """Compute the middle of each part of the last shape."""
     header, payload = connected.shapes[-1]
     n, m = header.vertices, header.triangles
     points = np.frombuffer(payload, "<f4", 3 * n).reshape(n, 3)
@@ -38,7 +38,7 @@ def middles(connected):
 
 
 def shown(connected):
-    """The middles of the picked result."""
+    """Show the active result; return the middles of its parts."""
     connected.shapes.clear()
     connected.ask("show", key=connected.view["picked"])
     while not connected.shapes:
@@ -59,15 +59,15 @@ def test_a_part_moves_with_the_pointer_and_its_end_is_a_result(ship):
             to = (middle + step * AIM).tolist()
             ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="move")
         header = ship.shapes[-1][0]
-        assert {one.what for one, _ in ship.shapes} == {"moving"}
+        assert {shape.role for shape, _ in ship.shapes} == {"moving"}
         left = np.linalg.norm((np.array(header.held) - middle - AIM)[[0, 2]])
         assert (left <= 0.01 * 20) == (header.note == "")
-        told = ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="end")
-        assert told["kind"] == "dragged"
-        assert (told["share"] <= 0.01) == (told["reason"] == "")
-        assert (ship.view["picked"] != picked) == bool(told["changes"])
-        arrived += told["reason"] == ""
-        if told["changes"]:
+        outcome = ship.ask("drag", part=part, to=to, grab=middle.tolist(), along=ALONG, phase="end")
+        assert outcome["kind"] == "dragged"
+        assert (outcome["share"] <= 0.01) == (outcome["reason"] == "")
+        assert (ship.view["picked"] != picked) == bool(outcome["changes"])
+        arrived += outcome["reason"] == ""
+        if outcome["changes"]:
             ship.ask("undo")
         assert ship.view["picked"] == picked
     assert arrived >= 2
@@ -75,17 +75,17 @@ def test_a_part_moves_with_the_pointer_and_its_end_is_a_result(ship):
 
 def test_pinned_choices_are_equal_to_the_bit_after_twenty_drags(ship):
     first = described(ship)["choices"]
-    held = [one["address"] for one in first][::3]
+    held = [row["address"] for row in first][::3]
     ship.ask("hold", parts=held)
-    values = {one["address"]: one["value"] for one in first if one["address"] in held}
+    values = {row["address"]: row["value"] for row in first if row["address"] in held}
     rng = np.random.default_rng(1)
     for _ in range(20):
         places = shown(ship)
         part = sorted(places)[rng.integers(len(places))]
         to = places[part] + rng.normal(size=3) * 0.3
-        told = ship.ask("drag", part=part, to=to.tolist(), along=[0.6, 0.4, 0.7], phase="end")
-        assert told["share"] <= 0.01 or told["reason"]
-        after = {one["address"]: one["value"] for one in described(ship)["choices"]}
+        outcome = ship.ask("drag", part=part, to=to.tolist(), along=[0.6, 0.4, 0.7], phase="end")
+        assert outcome["share"] <= 0.01 or outcome["reason"]
+        after = {row["address"]: row["value"] for row in described(ship)["choices"]}
         assert {address: after.get(address) for address in values} == values
 
 
@@ -95,9 +95,9 @@ def test_the_rest_is_grown_again_around_the_part(ship):
         if middle is None:
             continue
         goal = middle + np.array([0.0, 0.0, -0.15])
-        told = ship.ask("drag", part=part, to=goal.tolist(), phase="end", follow=True)
-        if told["reason"] == "" and ship.view["picked"]["run"] >= picked["run"] + 2:
-            after = shown(ship)[told["part"]]
+        outcome = ship.ask("drag", part=part, to=goal.tolist(), phase="end", follow=True)
+        if outcome["reason"] == "" and ship.view["picked"]["run"] >= picked["run"] + 2:
+            after = shown(ship)[outcome["part"]]
             assert np.linalg.norm(after - goal) <= 0.01 * 20
             return
     pytest.fail("no part was followed")
@@ -117,12 +117,12 @@ def test_a_default_that_explains_a_drag_is_written_when_accepted(connected, pile
     connected.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
     connected.ask("ask", ask={"target": {"source": "box", "scale": [2.0, 3.0, 2.0]}})
     connected.ask("run")
-    (part,) = [one for one in shown(connected) if "i[3]" in one]
+    (part,) = [address for address in shown(connected) if "i[3]" in address]
     middle = shown(connected)[part]
     to = (middle + [0.0, 3.5 / 8, 0.0]).tolist()
-    told = connected.ask("drag", part=part, to=to, phase="end")
-    first = told["offers"][0]
-    assert first["says"] == "line 7: 3.0 becomes 3.5"
+    outcome = connected.ask("drag", part=part, to=to, phase="end")
+    first = outcome["offers"][0]
+    assert first["label"] == "line 7: 3.0 becomes 3.5"
     assert pile.read_text() == text
     with pytest.raises(studio.StudioError, match="has not offered"):
         connected.ask("rewrite", difference="---")
@@ -134,18 +134,18 @@ def test_a_default_that_explains_a_drag_is_written_when_accepted(connected, pile
 def test_arguments_are_offered_as_defaults_and_written_when_accepted(connected, pile):
     text = pile.read_text()
     connected.ask("model", reference=str(pile))
-    # The same as the default is no change.
+    # An argument equal to its default is no change.
     connected.ask("set", arguments={"height": 3.0})
     assert connected.ask("propose")["offers"] == []
     connected.ask("set", arguments={"height": 4, "count": 6})
     (offer,) = connected.ask("propose")["offers"]
-    assert offer["says"] == "line 7: 3.0 becomes 4.0; line 7: 4 becomes 6"
+    assert offer["label"] == "line 7: 3.0 becomes 4.0; line 7: 4 becomes 6"
     assert pile.read_text() == text
     connected.ask("rewrite", difference=offer["difference"])
     assert pile.read_text() == text.replace(
         "height: float = 3.0, count: int = 4", "height: float = 4.0, count: int = 6"
     )
     pile.write_text(text)
-    # A model of the gallery is not the user's to change.
+    # Files of the gallery are never changed.
     connected.ask("model", reference="spaceship")
     assert connected.ask("propose")["offers"] == []

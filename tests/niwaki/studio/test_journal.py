@@ -1,4 +1,4 @@
-"""A session is on the disk before it is shown: undo, redo, and a line that was cut short."""
+"""The journal of a session: undo, redo, and a line that was cut short."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from niwaki import studio
 from niwaki.studio.journal import Journal
 from studio_process import serving
 
-#: A session as the first format has it: two colourings of a bug, the second starred and picked, one region held.
+#: A session of the first format: two colourings of a bug, the second starred and active, one region held.
 STORED = Path(__file__).parents[2] / "golden" / "studio-session"
 
 
 @pytest.fixture
 def session(tmp_path):
-    """A function that opens the journal of one folder, again and again."""
-    found = []
+    """A function that opens the journal of one folder, also several times."""
+    journals = []
 
-    def opened():
-        found.append(Journal(tmp_path))
-        return found[-1]
+    def open_journal():
+        journals.append(Journal(tmp_path))
+        return journals[-1]
 
-    yield opened
-    for one in found:
-        one.close()
+    yield open_journal
+    for journal in journals:
+        journal.close()
 
 
 def steps(journal, *names):
@@ -69,7 +69,7 @@ def test_another_process_reads_the_same(session):
     again = session()
     assert again.document().hash == journal.document().hash and again.name == journal.name
     assert (again.undoable, again.redoable, again.running) == (2, 1, 1)
-    again.ended()
+    again.end_run()
     assert session().running is None and session().run() == 2
 
 
@@ -88,22 +88,25 @@ def test_a_last_line_that_is_cut_short_is_left_out(session, tmp_path, cut):
 def test_a_session_of_the_first_format_is_opened_with_its_results_and_its_way_back(tmp_path):
     pytest.importorskip("starlette")
     shutil.copytree(STORED, tmp_path / "stored")
-    with serving(tmp_path / "stored") as served, studio.connect(served.url, served.key) as one:
-        while one.view["model"] is None:
-            one.read(10)
-        first, second = one.view["results"]
-        assert one.view["model"]["reference"] == "drawing:bug" and one.view["picked"] == second["key"]
-        assert one.view["stars"] == [second["key"]] and (one.view["undo"], one.view["redo"]) == (7, 1)
-        (part,) = one.view["held"]
-        colors = one.ask("describe", key=second["key"])["colors"]
+    with serving(tmp_path / "stored") as served, studio.connect(served.url, served.key) as script:
+        while script.view["model"] is None:
+            script.read(10)
+        first, second = script.view["results"]
+        assert script.view["model"]["reference"] == "drawing:bug" and script.view["picked"] == second["key"]
+        assert script.view["stars"] == [second["key"]] and (script.view["undo"], script.view["redo"]) == (
+            7,
+            1,
+        )
+        (part,) = script.view["held"]
+        colors = script.ask("describe", key=second["key"])["colors"]
         assert colors[part["part"]] == part["choices"][part["part"]]
-        one.ask("redo")
-        assert one.view["held"] == []
+        script.ask("redo")
+        assert script.view["held"] == []
         for _ in range(8):
-            one.ask("undo")
-        assert one.view["results"] == [] and one.view["stars"] == []
-        # A search goes on from what it had.
+            script.ask("undo")
+        assert script.view["results"] == [] and script.view["stars"] == []
+        # A search keeps the starred result of the stored session.
         for _ in range(7):
-            one.ask("redo")
-        one.ask("run")
-        assert one.view["results"][0]["key"] == second["key"] and len(one.view["results"]) > 1
+            script.ask("redo")
+        script.ask("run")
+        assert script.view["results"][0]["key"] == second["key"] and len(script.view["results"]) > 1

@@ -1,4 +1,4 @@
-"""A file of models that does not end, or that ends its process: a message, and a fresh process."""
+"""Files of models that do not end, or that end their process: a message, and a fresh process."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from niwaki.studio.process import Worker
 from niwaki.studio.session import Session, begin, reload
 from studio_process import PILE
 
-#: What a file does when it is loaded: what the message says of it.
+#: Texts of files, and a part of the message about each.
 ENDINGS = {
     "raise SystemExit(3)": "SystemExit: 3 (line 1)",
     "import sys\nsys.exit()": "SystemExit",
@@ -32,7 +32,7 @@ ENDINGS = {
 
 
 def alive(work: Coroutine[Any, Any, None]) -> None:
-    """Do work that must not wait for ever."""
+    """Do work with a limit of time."""
 
     async def bounded() -> None:
         async with asyncio.timeout(60):
@@ -52,10 +52,10 @@ def test_a_file_that_loops_is_ended_with_its_line_and_a_fresh_process_goes_on(tm
                 place.write_text(text)
                 answer = await worker.do(m.ListModels(files=[str(place)]))
                 assert answer.problem is not None and answer.problem.code == "model-file-failed"
-                told = answer.problem.text
-                assert f"it was ended at line {line}" in told or f"at line {line + 1}" in told
-                assert str(place) in told
-                # The same state is not waited for again, whoever asks.
+                text = answer.problem.text
+                assert f"it was ended at line {line}" in text or f"at line {line + 1}" in text
+                assert str(place) in text
+                # Loading the unchanged file again fails at once.
                 monkeypatch.setattr(process, "LOADING", 1e6)
                 again = await worker.do(m.Load(reference=str(place)))
                 assert again.problem is not None and again.problem.code == "model-file-failed"
@@ -163,11 +163,11 @@ def test_a_host_function_that_does_not_end_does_not_hold_the_desk_for_ever(tmp_p
 @pytest.mark.skipif(os.name == "nt", reason="groups of processes are Unix")
 def test_what_a_file_has_started_ends_with_its_process(tmp_path, monkeypatch):
     monkeypatch.setattr(process, "LOADING", 2.0)
-    place, said = tmp_path / "pile.py", tmp_path / "child"
+    place, note = tmp_path / "pile.py", tmp_path / "child"
     place.write_text(
         "import subprocess, pathlib\n"
         "child = subprocess.Popen(['sleep', '1000'])\n"
-        f"pathlib.Path({str(said)!r}).write_text(str(child.pid))\n"
+        f"pathlib.Path({str(note)!r}).write_text(str(child.pid))\n"
         "while True: pass\n"
     )
 
@@ -177,7 +177,7 @@ def test_what_a_file_has_started_ends_with_its_process(tmp_path, monkeypatch):
             assert (await worker.do(m.Load(reference=str(place)))).problem is not None
         finally:
             await worker.kill()
-        child = Path(f"/proc/{said.read_text()}/stat")
+        child = Path(f"/proc/{note.read_text()}/stat")
         while child.exists() and child.read_text().rpartition(")")[2].split()[0] != "Z":
             await asyncio.sleep(0.02)
 

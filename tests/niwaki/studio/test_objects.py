@@ -1,4 +1,4 @@
-"""What is asked of a scene beside its target, and where a result differs from it, sent by a script."""
+"""Goals beside the target, and the difference from the target, sent by a script."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from niwaki.shell import run_files
 
 @pytest.fixture
 def connected(served):
-    with studio.connect(served.url, served.key) as one:
-        one.ask("model", reference="spaceship")
-        one.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
-        yield one
+    with studio.connect(served.url, served.key) as script:
+        script.ask("model", reference="spaceship")
+        script.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+        yield script
 
 
 def sample(served, key):
@@ -25,11 +25,11 @@ def sample(served, key):
     return run_files.replayed(data, key["number"])
 
 
-def shape_of(connected, what):
+def shape_of(connected, role):
     connected.shapes.clear()
-    while not any(shape.what == what for shape, _ in connected.shapes):
+    while not any(shape.role == role for shape, _ in connected.shapes):
         connected.read(10)
-    return next(shape for shape, _ in connected.shapes if shape.what == what)
+    return next(shape for shape, _ in connected.shapes if shape.role == role)
 
 
 def test_nothing_goes_below_the_floor_or_near_an_obstacle(served, connected):
@@ -38,12 +38,12 @@ def test_nothing_goes_below_the_floor_or_near_an_obstacle(served, connected):
     header = shape_of(connected, "obstacle")
     assert header.number == 0 and header.pivot == (5.0, -0.5, -3.0)
     connected.ask("run")
-    found = sample(served, connected.view["picked"])
-    assert found.scene.bounds[0][1] >= -1.5
-    # The engine's own sketch forbids none of its parts.
-    solid = next(one.given["obstacle"] for one in found.search.score.asks if one.function == "avoid")
+    best = sample(served, connected.view["picked"])
+    assert best.scene.bounds[0][1] >= -1.5
+    # The engine's own sketch forbids none of the parts.
+    solid = next(ask.given["obstacle"] for ask in best.search.score.asks if ask.function == "avoid")
     sketch = _engine.Sketch(nw.avoid(solid).specs)
-    assert not any(sketch.add(list(part.shapes)) for part in found.scene)
+    assert not any(sketch.add(list(part.shapes)) for part in best.scene)
     turned = np.radians(30.0)
     reach = 0.5 * (np.cos(turned) + np.sin(turned))
     assert np.allclose(solid.bounds, [[5 - reach, -0.5, -3 - reach], [5 + reach, 1.5, -3 + reach]])
@@ -85,8 +85,8 @@ def test_a_shadow_falls_on_the_floor_where_the_light_throws_it(served, connected
     sketch = {"strokes": [stroke], "aspect": 1.2, "camera": camera, "kind": "shadow"}
     connected.ask("ask", ask={"sketch": sketch, "light": [1.0, -1.0, 0.0]})
     connected.ask("run")
-    found = sample(served, connected.view["picked"])
-    (view,) = found.search.score.views
+    best = sample(served, connected.view["picked"])
+    (view,) = best.search.score.views
     assert view.kind == "shadow" and view.light == (1.0, -1.0, 0.0)
     assert connected.view["results"][0]["covered"] > 0.5
 
@@ -100,6 +100,6 @@ def test_the_difference_has_a_byte_for_each_cell_and_its_sums_are_those_of_the_f
     assert len(payload) == np.prod(header.size) and not header.is_picture
     fit = sample(served, key).fit
     assert fit.covered == counts[1] / (counts[1] + counts[2])
-    # Beyond the grid there is more of the scene than there are cells.
+    # A part of the scene may lie outside the grid.
     assert fit.outside >= counts[3] / (counts[1] + counts[3]) - 1e-12
     assert connected.view["results"][0]["covered"] == fit.covered

@@ -1,4 +1,4 @@
-"""What was shown is there after `kill -9`; a worker that ends does not end the studio."""
+"""Restarts: a session after `kill -9`, and a studio whose worker has ended."""
 
 from __future__ import annotations
 
@@ -17,59 +17,63 @@ from studio_process import serving
 
 def test_kill_in_a_search_loses_nothing_that_was_shown(tmp_path):
     with serving(tmp_path) as served:
-        with studio.connect(served.url, served.key) as one:
-            one.ask("model", reference="spaceship")
-            one.ask("set", settings={"count": 3, "seed": 1, "effort": 0.25})
-            one.ask("run")
-            one.ask("star", key=one.view["results"][1]["key"])
-            one.ask("hold", parts=["while[0]/length"])
+        with studio.connect(served.url, served.key) as script:
+            script.ask("model", reference="spaceship")
+            script.ask("set", settings={"count": 3, "seed": 1, "effort": 0.25})
+            script.ask("run")
+            script.ask("star", key=script.view["results"][1]["key"])
+            script.ask("hold", parts=["while[0]/length"])
             before = {
-                name: one.view[name]
+                name: script.view[name]
                 for name in ("results", "picked", "stars", "held", "settings", "model", "undo")
             }
-            one.ask("set", settings={"count": 8, "seed": 2, "effort": 64.0})
-            one.events.clear()
-            one.send("run")
-            while not any(event["kind"] == "shape" and event["what"] == "best" for event in one.events):
-                one.read(20)
+            script.ask("set", settings={"count": 8, "seed": 2, "effort": 64.0})
+            script.events.clear()
+            script.send("run")
+            while not any(event["kind"] == "shape" and event["role"] == "best" for event in script.events):
+                script.read(20)
             served.kill()
-    begun = time.monotonic()
-    with serving(tmp_path) as served, studio.connect(served.url, served.key) as one:
-        while one.view["model"] is None:
-            one.read(10)
-        assert time.monotonic() - begun < 30.0
-        before |= {"settings": one.view["settings"], "undo": before["undo"] + 1}
-        assert {name: one.view[name] for name in before} == before
-        assert one.view["settings"]["seed"] == 2 and one.view["interrupted"] and one.view["searching"] is None
-        key = one.view["picked"]
-        one.ask("show", key=key)
-        assert one.shapes[-1][0].key is not None or one.read(5)["kind"] == "shape"
-        one.ask("set", settings={"count": 1, "seed": 2, "effort": 0.25})
-        one.ask("run")
-        assert not one.view["interrupted"]
+    start = time.monotonic()
+    with serving(tmp_path) as served, studio.connect(served.url, served.key) as script:
+        while script.view["model"] is None:
+            script.read(10)
+        assert time.monotonic() - start < 30.0
+        before |= {"settings": script.view["settings"], "undo": before["undo"] + 1}
+        assert {name: script.view[name] for name in before} == before
+        assert (
+            script.view["settings"]["seed"] == 2
+            and script.view["interrupted"]
+            and script.view["searching"] is None
+        )
+        key = script.view["picked"]
+        script.ask("show", key=key)
+        assert script.shapes[-1][0].key is not None or script.read(5)["kind"] == "shape"
+        script.ask("set", settings={"count": 1, "seed": 2, "effort": 0.25})
+        script.ask("run")
+        assert not script.view["interrupted"]
 
 
 def test_a_worker_that_is_killed_is_named_and_a_fresh_one_takes_its_place(tmp_path):
-    with serving(tmp_path) as served, studio.connect(served.url, served.key) as one:
-        one.ask("model", reference="gnarly-tree")
-        one.ask("set", settings={"count": 1, "seed": 1, "effort": 64.0})
-        number = one.send("run")
-        while not any(event["kind"] == "shape" and event["what"] == "best" for event in one.events):
-            one.read(20)
+    with serving(tmp_path) as served, studio.connect(served.url, served.key) as script:
+        script.ask("model", reference="gnarly-tree")
+        script.ask("set", settings={"count": 1, "seed": 1, "effort": 64.0})
+        number = script.send("run")
+        while not any(event["kind"] == "shape" and event["role"] == "best" for event in script.events):
+            script.read(20)
         for child in _children(served.process.pid):
             os.kill(child, signal.SIGKILL)
-        with pytest.raises(studio.StudioError, match="fresh one"):
-            one.wait(number, 10)
-        one.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
-        one.ask("run")
-        assert len(one.view["results"]) == 1
+        with pytest.raises(studio.StudioError, match="fresh process"):
+            script.wait(number, 10)
+        script.ask("set", settings={"count": 1, "seed": 1, "effort": 0.25})
+        script.ask("run")
+        assert len(script.view["results"]) == 1
 
 
 def test_workers_end_with_the_server(tmp_path):
     with serving(tmp_path) as served:
-        with studio.connect(served.url, served.key) as one:
-            one.ask("model", reference="spaceship")
-            one.ask("run")
+        with studio.connect(served.url, served.key) as script:
+            script.ask("model", reference="spaceship")
+            script.ask("run")
         children = _children(served.process.pid)
         assert len(children) == 2
         served.kill()
@@ -82,7 +86,7 @@ def test_workers_end_with_the_server(tmp_path):
 
 
 def _children(process: int) -> list[int]:
-    return [int(one) for one in Path(f"/proc/{process}/task/{process}/children").read_text().split()]
+    return [int(number) for number in Path(f"/proc/{process}/task/{process}/children").read_text().split()]
 
 
 def _state(process: int) -> str:

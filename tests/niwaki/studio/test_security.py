@@ -1,4 +1,4 @@
-"""Nobody but the user of this machine speaks to the studio: each way in that we know of is tried on a real server."""
+"""Access to the studio: each known attack is tried on a real server."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from websockets.sync.client import connect as dial
 
 
 def ask(served, method="GET", path="/", body=None, **headers):
-    """A request; names of headers have `_` for `-`."""
+    """Send a request; names of headers have `_` for `-`."""
     link = http.client.HTTPConnection("127.0.0.1", served.port, timeout=60)
     link.request(method, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
     answer = link.getresponse()
@@ -35,7 +35,7 @@ def key(served):
 
 @pytest.fixture(scope="module")
 def cookie(served) -> Iterator[str]:
-    """The cookie that the first link gives; the link then serves no more."""
+    """The cookie of the first link; the link then stops working."""
     status, headers, _ = ask(served, path=f"/open?token={served.token}")
     assert status == 303 and headers["location"] == "/"
     parts = headers["set-cookie"].split("; ")
@@ -100,8 +100,8 @@ def test_other_methods_are_refused(served, method):
 
 def test_every_answer_has_the_headers_that_keep_pages_apart(served):
     for path, status in (("/", 200), ("/nothing", 404)):
-        found, headers, _ = ask(served, path=path, **key(served))
-        assert found == status
+        answer, headers, _ = ask(served, path=path, **key(served))
+        assert answer == status
         policy = headers["content-security-policy"]
         assert (
             "default-src 'none'" in policy and "frame-ancestors 'none'" in policy and "unsafe" not in policy
@@ -127,15 +127,15 @@ def test_a_socket_needs_the_origin_of_the_page_or_the_key(served, cookie):
         {"Cookie": cookie, "Origin": "http://evil.example"},
         {"Origin": served.url},
     ):
-        with pytest.raises(InvalidStatus) as refused, dial(url, additional_headers=headers, proxy=None):
+        with pytest.raises(InvalidStatus) as caught, dial(url, additional_headers=headers, proxy=None):
             pass
-        assert refused.value.response.status_code == 403
-    with dial(url, additional_headers={"Cookie": cookie, "Origin": served.url}, proxy=None) as one:
-        one.send('{"kind": "hello", "protocol": 1}')
-        assert '"state"' in one.recv(10)
+        assert caught.value.response.status_code == 403
+    with dial(url, additional_headers={"Cookie": cookie, "Origin": served.url}, proxy=None) as link:
+        link.send('{"kind": "hello", "protocol": 1}')
+        assert '"state"' in link.recv(10)
 
 
-NO_MESSAGES = (
+INVALID = (
     "",
     "{",
     "[]",
@@ -151,32 +151,32 @@ NO_MESSAGES = (
 
 
 def test_messages_that_are_none_are_refused_and_the_socket_stays(served):
-    with studio.connect(served.url, served.key) as one:
-        for text in NO_MESSAGES:
-            one._socket.send(text)
-            event = one.read(5)
+    with studio.connect(served.url, served.key) as script:
+        for text in INVALID:
+            script._socket.send(text)
+            event = script.read(5)
             while event["kind"] != "error":
-                event = one.read(5)
-        assert one.ask("undo")["kind"] == "done"
+                event = script.read(5)
+        assert script.ask("undo")["kind"] == "done"
 
 
 def test_a_message_that_is_too_long_ends_its_socket_only(served):
-    with studio.connect(served.url, served.key) as one:
-        one._socket.send("x" * (server.COMMAND + 1))
+    with studio.connect(served.url, served.key) as script:
+        script._socket.send("x" * (server.COMMAND + 1))
         with pytest.raises(Exception, match="1009|too big|too long|close"):
             for _ in range(10):
-                one.read(5)
+                script.read(5)
     assert ask(served, **key(served))[0] == 200
 
 
 def test_a_mesh_that_is_too_large_is_refused_before_it_is_read(served):
     link = socket.create_connection(("127.0.0.1", served.port), 10)
-    who = f"Host: 127.0.0.1:{served.port}\r\nAuthorization: Bearer {served.key}\r\n"
-    head = f"POST /upload?name=a.stl HTTP/1.1\r\n{who}"
+    access = f"Host: 127.0.0.1:{served.port}\r\nAuthorization: Bearer {served.key}\r\n"
+    head = f"POST /upload?name=a.stl HTTP/1.1\r\n{access}"
     link.sendall(f"{head}Content-Length: {server.UPLOAD + 1}\r\n\r\n".encode())
     assert b" 413 " in link.recv(200)
     link.close()
-    # Without a length it is counted as it comes.
+    # Without a declared length, the bytes are counted on arrival.
     link = socket.create_connection(("127.0.0.1", served.port), 10)
     link.sendall(f"{head}Transfer-Encoding: chunked\r\n\r\n".encode())
     chunk = b"100000\r\n" + bytes(1 << 20) + b"\r\n"
@@ -214,27 +214,27 @@ def test_the_studio_answers_while_a_thousand_others_say_nothing(served):
     silent = []
     try:
         for k in range(count):
-            one = socket.create_connection(("127.0.0.1", served.port), 5)
+            link = socket.create_connection(("127.0.0.1", served.port), 5)
             if k % 2:
-                one.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.")
-            silent.append(one)
-        # Those that came first are closed; those that wait do not keep a late one out.
+                link.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.")
+            silent.append(link)
+        # The oldest connections are closed; the others do not block a new connection.
         assert ask(served, **key(served))[0] == 200
         end = time.monotonic() + 60.0
-        while sum(_is_closed(one) for one in silent) < count - serving.CONNECTIONS:
+        while sum(map(_is_closed, silent)) < count - serving.CONNECTIONS:
             assert time.monotonic() < end
             time.sleep(0.02)
         assert ask(served, **key(served))[0] == 200
     finally:
-        for one in silent:
-            one.close()
+        for link in silent:
+            link.close()
         resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
 
 
-def _is_closed(one: socket.socket) -> bool:
-    one.setblocking(False)
+def _is_closed(link: socket.socket) -> bool:
+    link.setblocking(False)
     try:
-        return one.recv(1) == b""
+        return link.recv(1) == b""
     except BlockingIOError:
         return False
     except OSError:

@@ -1,4 +1,4 @@
-"""The journeys of a designer, sent by a script: fill, stop, shape by hand, write, finish, and what `kill -9` leaves."""
+"""The journeys of a designer, sent by a script: fill, stop, shape by hand, write, finish."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import trimesh
 from niwaki import _engine, studio
 from niwaki.gallery.spaceship import spaceship
 from niwaki.shell import run_files
-from niwaki.studio.frames import opened
+from niwaki.studio.frames import unpack
 from niwaki.studio.messages import Shape
 from niwaki.studio.types import typescript
 from studio_process import fetch
@@ -26,7 +26,7 @@ REPOSITORY = Path(__file__).parents[3]
 
 
 def grown(connected, model="spaceship", count=3, seed=1):
-    """A gallery of results."""
+    """Grow a gallery of results."""
     connected.ask("model", reference=model)
     connected.ask("set", settings={"count": count, "seed": seed, "effort": 0.25})
     connected.shapes.clear()
@@ -35,7 +35,7 @@ def grown(connected, model="spaceship", count=3, seed=1):
 
 
 def until(connected, is_so, seconds=60.0):
-    """Read messages until something holds."""
+    """Read messages until a condition holds."""
     end = time.monotonic() + seconds
     while not is_so():
         connected.read(end - time.monotonic())
@@ -43,12 +43,12 @@ def until(connected, is_so, seconds=60.0):
 
 def test_a_search_shows_the_best_so_far_and_ends_with_results_that_differ(served, connected):
     results = grown(connected, count=8)
-    kinds = [shape.what for shape, _ in connected.shapes]
+    kinds = [shape.role for shape, _ in connected.shapes]
     assert 2 <= len(results) <= 8 and kinds.count("result") == len(results)
     assert "best" in kinds[: kinds.index("result")]
-    scores = [one["log_score"] for one in results]
+    scores = [result["log_score"] for result in results]
     assert scores == sorted(scores, reverse=True) and connected.view["picked"] == results[0]["key"]
-    # The engine's own judge of what differs agrees.
+    # The engine's own comparison agrees.
     data = run_files.load(served.folder / "runs" / f"{results[0]['key']['run']}.json")
     runs = [run_files.replayed(data, number)._run for number in range(len(results))]
     assert len(_engine.different(runs, len(runs))) == len(runs)
@@ -74,7 +74,7 @@ def test_stop_ends_a_search_and_keeps_what_it_found(connected):
     connected.ask("model", reference="gnarly-tree")
     connected.ask("set", settings={"count": 1, "seed": 1, "effort": 64.0})
     number = connected.send("run")
-    until(connected, lambda: any(shape.what == "best" for shape, _ in connected.shapes), 30)
+    until(connected, lambda: any(shape.role == "best" for shape, _ in connected.shapes), 30)
     connected.send("stop")
     connected.wait(number, 30)
     assert connected.view["searching"] is None and len(connected.view["results"]) == 1
@@ -82,8 +82,8 @@ def test_stop_ends_a_search_and_keeps_what_it_found(connected):
 
 def test_runs_that_became_impossible_are_told_with_their_parts(connected):
     grown(connected, count=1)
-    said = connected.view["losses"]
-    assert said.startswith("lost on the way: ") and "no_self_intersection" in said and "(line " in said
+    losses = connected.view["losses"]
+    assert losses.startswith("lost on the way: ") and "no_self_intersection" in losses and "(line " in losses
     connected.ask("model", reference="building")
     assert connected.view["losses"] == ""
 
@@ -102,7 +102,7 @@ def test_settings_can_change_during_a_search_and_the_newest_values_win(connected
 def test_pinned_choices_stay_equal_when_the_rest_is_grown_again(served, connected):
     results = grown(connected, count=1, seed=3)
     described = connected.ask("describe", key=results[0]["key"])
-    part = next(one["address"] for one in described["parts"] if "wings" in one["address"]).rpartition("/")[0]
+    part = next(row["address"] for row in described["parts"] if "wings" in row["address"]).rpartition("/")[0]
     connected.ask("hold", parts=[part])
     held = connected.view["held"][0]["choices"]
     assert any(address.startswith(part + "/") for address in held)
@@ -111,8 +111,8 @@ def test_pinned_choices_stay_equal_when_the_rest_is_grown_again(served, connecte
         connected.ask("run")
         key = connected.view["results"][0]["key"]
         data = run_files.load(served.folder / "runs" / f"{key['run']}.json")
-        found = {one["address"]: one["value"] for one in data["runs"][key["number"]]["choices"]}
-        assert {address: found[address] for address in held} == held
+        choices = {row["address"]: row["value"] for row in data["runs"][key["number"]]["choices"]}
+        assert {address: choices[address] for address in held} == held
     connected.ask("free")
     assert connected.view["held"] == []
 
@@ -120,15 +120,15 @@ def test_pinned_choices_stay_equal_when_the_rest_is_grown_again(served, connecte
 def test_a_part_is_grown_again_in_place_and_nothing_else_changes(served, connected):
     results = grown(connected, count=2, seed=3)
     described = connected.ask("describe", key=results[0]["key"])
-    part = next(one["address"] for one in described["parts"] if "wings" in one["address"]).rpartition("/")[0]
+    part = next(row["address"] for row in described["parts"] if "wings" in row["address"]).rpartition("/")[0]
     connected.ask("reroll", part=part, count=6)
-    found = [one for one in connected.view["results"] if one["origin"] == "regrow"]
-    assert 1 < len(found) <= 6 and connected.view["picked"] == found[0]["key"]
+    grown_again = [result for result in connected.view["results"] if result["origin"] == "regrow"]
+    assert 1 < len(grown_again) <= 6 and connected.view["picked"] == grown_again[0]["key"]
     forms = []
-    for one in found:
-        data = run_files.load(served.folder / "runs" / f"{one['key']['run']}.json")
-        forms.append(run_files.replayed(data, one["key"]["number"]).choices)
-    before = {one["address"]: one["value"] for one in described["choices"]}
+    for result in grown_again:
+        data = run_files.load(served.folder / "runs" / f"{result['key']['run']}.json")
+        forms.append(run_files.replayed(data, result["key"]["number"]).choices)
+    before = {row["address"]: row["value"] for row in described["choices"]}
     for form in forms:
         outside = {a: v for a, v in before.items() if not a.startswith(part + "/")}
         assert outside.items() <= form.items()
@@ -137,10 +137,10 @@ def test_a_part_is_grown_again_in_place_and_nothing_else_changes(served, connect
 
 def test_a_choice_has_its_line_and_its_slider(connected):
     described = connected.ask("describe", key=grown(connected)[0]["key"])
-    one = next(one for one in described["choices"] if one["address"] == "while[0]/length")
+    length = next(row for row in described["choices"] if row["address"] == "while[0]/length")
     lines = Path(spaceship.function.__code__.co_filename).read_text().splitlines()
-    assert "length = uniform(2.0, 5.0)" in lines[one["place"]["line"] - 1]
-    assert (one["low"], one["high"], one["family"]) == (2.0, 5.0, "uniform")
+    assert "length = uniform(2.0, 5.0)" in lines[length["place"]["line"] - 1]
+    assert (length["low"], length["high"], length["family"]) == (2.0, 5.0, "uniform")
     for part in described["parts"]:
         assert "emit(" in lines[part["place"]["line"] - 1]
 
@@ -154,22 +154,24 @@ def test_a_slider_shows_the_newest_value_and_ends_in_a_result(connected):
     with pytest.raises(studio.StudioError, match="no choice"):
         connected.ask("choose", address="while[0]/lenght", value=4.0)
     key = connected.view["picked"]
-    assert key != before and [one["origin"] for one in connected.view["results"]] == ["choose"]
+    assert key != before and [result["origin"] for result in connected.view["results"]] == ["choose"]
     described = connected.ask("describe", key=key)
-    assert next(one["value"] for one in described["choices"] if one["address"] == "while[0]/length") == 4.0
+    assert next(row["value"] for row in described["choices"] if row["address"] == "while[0]/length") == 4.0
     connected.ask("undo")
     assert connected.view["picked"] == before
 
 
 def test_stars_stay_where_they_are_when_new_results_come(connected):
     results = grown(connected, count=3, seed=1)
-    for one in results[:2]:
-        connected.ask("star", key=one["key"])
+    for result in results[:2]:
+        connected.ask("star", key=result["key"])
     connected.ask("set", settings={"count": 2, "seed": 9, "effort": 0.25})
     connected.ask("run")
-    assert [one["key"] for one in connected.view["results"][:2]] == [one["key"] for one in results[:2]]
-    for one in results[:2]:
-        connected.ask("star", key=one["key"], on=False)
+    assert [result["key"] for result in connected.view["results"][:2]] == [
+        result["key"] for result in results[:2]
+    ]
+    for result in results[:2]:
+        connected.ask("star", key=result["key"], on=False)
 
 
 def test_the_gallery_shows_results_of_the_present_model(connected):
@@ -178,7 +180,7 @@ def test_the_gallery_shows_results_of_the_present_model(connected):
     connected.ask("model", reference="building")
     assert connected.view["results"] == [] and connected.view["picked"] is None
     connected.ask("model", reference="spaceship")
-    assert [one["key"] for one in connected.view["results"]] == [key]
+    assert [result["key"] for result in connected.view["results"]] == [key]
     connected.ask("star", key=key, on=False)
 
 
@@ -196,8 +198,8 @@ def test_what_is_exported_is_what_replay_writes_to_the_byte(served, connected, t
     recipe = connected.ask("export", key=key, format="json")
     (tmp_path / "run.json").write_bytes(fetch(served, f"/file/{recipe['hash']}"))
     for name in ("glb", "stl"):
-        found = connected.ask("export", key=key, format=name)
-        data = fetch(served, f"/file/{found['hash']}")
+        file = connected.ask("export", key=key, format=name)
+        data = fetch(served, f"/file/{file['hash']}")
         command = [
             sys.executable,
             "-m",
@@ -222,7 +224,7 @@ def test_a_mesh_that_is_sent_is_a_target_moved_and_turned(served, connected):
     connected.ask("ask", ask={"target": target})
     until(connected, lambda: connected.shapes and connected.shapes[-1][0].triangles == 12)
     header, _ = connected.shapes[-1]
-    assert header.what == "ghost"
+    assert header.role == "ghost"
     assert np.allclose([header.low, header.high], [[8.0, 0.0, -1.0], [12.0, 2.0, 1.0]], atol=1e-5)
     assert np.allclose(header.pivot, [10.0, 0.0, 0.0], atol=1e-5)
 
@@ -283,7 +285,7 @@ def test_a_file_that_breaks_keeps_the_last_shape_and_goes_on_when_it_is_mended(s
 
 def test_arguments_reach_the_shape_that_is_shown(pile, connected):
     connected.ask("model", reference=str(pile))
-    assert [one["name"] for one in connected.view["model"]["parameters"]] == ["height", "count"]
+    assert [parameter["name"] for parameter in connected.view["model"]["parameters"]] == ["height", "count"]
     connected.ask("ask", ask={"target": {"source": "box", "scale": [1.5, 3.0, 1.5]}})
     connected.ask("set", settings={"seed": 1})
     connected.ask("run")
@@ -291,10 +293,12 @@ def test_arguments_reach_the_shape_that_is_shown(pile, connected):
     connected.shapes.clear()
     connected.ask("set", arguments={"height": 6.0})
     until(connected, lambda: connected.view["results"] != before)
-    # Shapes of the search before may still come.
+    # Shapes of the earlier search may still arrive.
     until(
         connected,
-        lambda: any(one.what == "result" and abs(one.high[1] - 6.0) < 1e-6 for one, _ in connected.shapes),
+        lambda: any(
+            shape.role == "result" and abs(shape.high[1] - 6.0) < 1e-6 for shape, _ in connected.shapes
+        ),
     )
     with pytest.raises(studio.StudioError):
         connected.ask("run", fields="no")
@@ -307,5 +311,5 @@ def test_the_types_of_the_page_are_those_of_the_messages():
 def test_a_frame_that_is_cut_short_is_refused():
     for data in (b"", b"\x01\x00", b"\xff\x00\x00\x00{}"):
         with pytest.raises(ValueError, match="frame"):
-            opened(data)
-    assert Shape().what == "result"
+            unpack(data)
+    assert Shape().role == "result"

@@ -1,4 +1,4 @@
-"""What comes slowly or takes too much ends, and does not wait for ever."""
+"""Limits of time and memory for uploads."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from niwaki.studio.session import Session
 
 def test_a_body_that_comes_slowly_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(server, "PATIENCE", 0.2)
-    said: list[dict] = []
+    messages: list[dict] = []
 
-    async def asked() -> None:
+    async def work() -> None:
         session = Session(tmp_path, [])
         guard = server.application(session, 1234)
         headers = {"host": "127.0.0.1:1234", "authorization": f"Bearer {guard.key}"}
@@ -35,26 +35,26 @@ def test_a_body_that_comes_slowly_is_refused(tmp_path, monkeypatch):
         }
 
         async def receive() -> dict:
-            # A byte at a time, for ever.
+            # Single bytes without an end.
             await asyncio.sleep(0.02)
             return {"type": "http.request", "body": b"x", "more_body": True}
 
         async def send(message: dict) -> None:
-            said.append(message)
+            messages.append(message)
 
         async with asyncio.timeout(5):
             await guard(scope, receive, send)
         await session.end()
 
-    asyncio.run(asked())
-    assert said[0]["status"] == 408
-    assert json.loads(said[1]["body"])["code"] == "too-slow"
+    asyncio.run(work())
+    assert messages[0]["status"] == 408
+    assert json.loads(messages[1]["body"])["code"] == "too-slow"
 
 
 def test_a_mesh_that_takes_more_memory_than_its_process_may_have_is_refused(tmp_path):
     place = tmp_path / "ball.stl"
     place.write_bytes(trimesh.creation.icosphere(7).export(file_type="stl"))
-    # A little more than what is taken before the mesh is read: 320 thousand triangles do not fit.
+    # The limit is a little above the memory before reading: 320 thousand triangles do not fit.
     program = """
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a studio stores beside its steps: runs, meshes that were sent, files: damaged, or on a disk that fails."""
+"""Files that a studio stores beside its steps (runs, uploads, exports): damaged, or on a failing disk."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from niwaki import Target
 from niwaki.errors import FileError, NiwakiError
 from niwaki.shell import run_files
 from niwaki.studio import messages as m
-from niwaki.studio.refused import Refused
+from niwaki.studio.problems import CommandError
 from niwaki.studio.session import Session, exporting
 from niwaki.studio.window import Window
 from niwaki.studio.worker import asks, loop, runs, thinning, uploads
@@ -35,28 +35,28 @@ from niwaki.studio.worker.thinning import Ghost
 STORED = Path(__file__).parents[2] / "golden" / "studio-session"
 #: Mutations of each file in the suite, and in `make soak`.
 QUICK, LONG = 25, 3_000
-#: No file may take longer, seconds.
+#: The longest time that a file may take, seconds.
 LONGEST = 10.0
 
 KEY = m.Key(0)
 
 
-def sent(*_: Any) -> None:
-    """Where reports go."""
+def ignore(*_: Any) -> None:
+    """Receive a report."""
 
 
 def grown(folder: Path) -> Path:
-    """A session's folder with a scene in runs/0.json, and a colouring in runs/1.json."""
+    """Fill a session's folder with a scene in runs/0.json and a colouring in runs/1.json."""
     (folder / "runs").mkdir(parents=True, exist_ok=True)
     question = m.Question("spaceship", {}, m.Ask(), m.Settings(count=1, effort=0.1))
     file = folder / "runs" / "0.json"
-    loop.done(m.Grow(question=question, run=0, seed=1, file=str(file)), sent, loop.Stopped())
+    loop.do(m.Grow(question=question, run=0, seed=1, file=str(file)), ignore, loop.StopFlag())
     shutil.copy(next(iter(sorted((STORED / "runs").glob("*.json")))), folder / "runs" / "1.json")
     return folder
 
 
 def jobs(source: Path, folder: Path, model: str) -> list[m.AnyJob]:
-    """What reads a stored run."""
+    """List jobs that read a stored run."""
     question, place = m.Question(model, {}, m.Ask(), m.Settings()), {"source": str(source), "number": 0}
     part = "while[0]/length" if model == "spaceship" else "wing"
     return [
@@ -71,27 +71,27 @@ def jobs(source: Path, folder: Path, model: str) -> list[m.AnyJob]:
 
 def try_runs(folder: Path, number: int, model: str, count: int, seed: int) -> Counter[str]:
     """Change a stored run; each job with it is done or gives a message."""
-    chance, found = random.Random(seed), Counter[str]()
+    chance, outcomes = random.Random(seed), Counter[str]()
     data = json.loads((folder / "runs" / f"{number}.json").read_bytes())
     for at in range(count):
-        what, text = mutated(data, chance)
-        # Runs that were read are kept by their file.
+        change, text = mutated(data, chance)
+        # Runs stay in memory by their file, so each change has a file of its own.
         place = folder / "runs" / f"{number}{at:06}.json"
         place.write_bytes(text)
         for job in jobs(place, folder, model):
-            begun = time.monotonic()
+            start = time.monotonic()
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    loop.done(job, sent, loop.Stopped())
-                found["done"] += 1
-            except (NiwakiError, Refused):
-                found["message"] += 1
+                    loop.do(job, ignore, loop.StopFlag())
+                outcomes["done"] += 1
+            except (NiwakiError, CommandError):
+                outcomes["message"] += 1
             except Exception as error:
-                raise AssertionError(f"{type(job).__name__}, {what}: {error!r}\n{text[:2000]!r}") from error
-            assert time.monotonic() - begun < LONGEST, (what, text[:2000])
+                raise AssertionError(f"{type(job).__name__}, {change}: {error!r}\n{text[:2000]!r}") from error
+            assert time.monotonic() - start < LONGEST, (change, text[:2000])
         place.unlink()
-    return found
+    return outcomes
 
 
 @pytest.fixture(scope="module")
@@ -105,9 +105,9 @@ RUNS = pytest.mark.parametrize(("number", "model"), [(0, "spaceship"), (1, "draw
 @RUNS
 def test_a_stored_run_that_was_changed_is_shown_or_gives_a_message(session, number, model):
     for job in jobs(session / "runs" / f"{number}.json", session, model)[:3]:
-        loop.done(job, sent, loop.Stopped())
-    found = try_runs(session, number, model, QUICK, 41)
-    assert found["message"] and found["done"]
+        loop.do(job, ignore, loop.StopFlag())
+    outcomes = try_runs(session, number, model, QUICK, 41)
+    assert outcomes["message"] and outcomes["done"]
 
 
 @pytest.mark.soak
@@ -118,7 +118,7 @@ def test_many_stored_runs_that_were_changed(session, number, model):
 
 
 def ball(folder: Path) -> Path:
-    """A mesh that was sent, with its ghost beside it."""
+    """Store an uploaded mesh with its ghost."""
     mesh = trimesh.creation.icosphere(3, 1.0)
     place = folder / f"{'a' * 64}.stl"
     place.write_bytes(thinning.stl(mesh))
@@ -127,13 +127,13 @@ def ball(folder: Path) -> Path:
 
 
 def try_meshes(folder: Path, suffix: str, count: int, seed: int) -> Counter[str]:
-    """Change a file of a mesh that was sent; it is shown, or gives a message."""
-    chance, found = random.Random(seed), Counter[str]()
+    """Change a file of an uploaded mesh; the mesh is shown or gives a message."""
+    chance, outcomes = random.Random(seed), Counter[str]()
     whole = ball(folder)
     data = whole.with_suffix(suffix).read_bytes()
     for at in range(count):
         place = folder / f"{at:064x}.stl"
-        # Without a ghost the mesh itself is read.
+        # Without a ghost the full mesh is read.
         for other in (".stl", ".light.stl", ".json") if suffix != ".stl" else (".stl",):
             shutil.copy(whole.with_suffix(other), place.with_suffix(other))
         if suffix == ".json":
@@ -146,19 +146,19 @@ def try_meshes(folder: Path, suffix: str, count: int, seed: int) -> Counter[str]
                 )
             text = bytes(changed[: chance.randint(0, len(data))] if chance.random() < 0.3 else changed)
         place.with_suffix(suffix).write_bytes(text)
-        begun = time.monotonic()
+        start = time.monotonic()
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 shown, foot = asks.shown(m.TargetAsk(str(place)))
             assert np.shape(shown.bounds) == (2, 3) and len(foot) == 3
-            found["shown"] += 1
+            outcomes["shown"] += 1
         except NiwakiError:
-            found["message"] += 1
-        assert time.monotonic() - begun < LONGEST
+            outcomes["message"] += 1
+        assert time.monotonic() - start < LONGEST
         for other in (".stl", ".light.stl", ".json"):
             place.with_suffix(other).unlink(missing_ok=True)
-    return found
+    return outcomes
 
 
 @pytest.mark.parametrize("suffix", [".json", ".light.stl", ".stl"])
@@ -182,7 +182,7 @@ def try_faults(
     prepare: Callable[[Path], object],
     whole: Callable[[Path], object],
 ) -> int:
-    """Each fault at each call: a message, and files that are whole; no parts are left."""
+    """Try each fault at each call: it gives a message, files are complete, and no partial files are left."""
     count = 0
     for trial in trials(place, attempt, prepare):
         count += 1
@@ -205,7 +205,7 @@ def test_files_of_results_are_whole_on_a_disk_that_fails(session, tmp_path):
                 format=format,
                 folder=str(folder / "files"),
             )
-            loop.done(job, sent, loop.Stopped())
+            loop.do(job, ignore, loop.StopFlag())
 
         return attempt
 
@@ -218,14 +218,14 @@ def test_files_of_results_are_whole_on_a_disk_that_fails(session, tmp_path):
                 sizes.add((file.name, file.read_bytes()))
 
         assert try_faults(tmp_path / kind, write(kind), prepare, whole) >= 12
-        # However it went, a file that is there has the same bytes.
+        # In every trial a file that exists has the same bytes.
         assert len(sizes) == len({name for name, _ in sizes})
 
 
 def test_a_run_is_stored_whole_on_a_disk_that_fails(session, tmp_path):
     sample = runs.sample(str(session / "runs" / "0.json"), 0)
     result = run_files.Result(sample.search, [sample], 1)
-    found = run_files.ModelReference("spaceship", sample.search.model)
+    reference = run_files.ModelReference("spaceship", sample.search.model)
 
     def whole(folder: Path) -> None:
         if (folder / "0.json").exists():
@@ -233,7 +233,7 @@ def test_a_run_is_stored_whole_on_a_disk_that_fails(session, tmp_path):
 
     count = try_faults(
         tmp_path,
-        lambda folder: runs.store(result, found, 0, str(folder / "0.json"), "run"),
+        lambda folder: runs.store(result, reference, 0, str(folder / "0.json"), "run"),
         lambda folder: None,
         whole,
     )
@@ -244,8 +244,8 @@ def test_what_was_sent_is_kept_whole_on_a_disk_that_fails(tmp_path, monkeypatch)
     monkeypatch.setattr(uploads, "bound", lambda **_: None)
     monkeypatch.setattr(thinning, "GHOST_TRIANGLES", 100)
     monkeypatch.setattr(uploads, "GHOST_TRIANGLES", 100)
-    said: list[str] = []
-    monkeypatch.setattr("builtins.print", lambda text, *_, **__: said.append(text))
+    lines: list[str] = []
+    monkeypatch.setattr("builtins.print", lambda text, *_, **__: lines.append(text))
     mesh = thinning.stl(trimesh.creation.icosphere(2, 1.0))
 
     def prepare(folder: Path) -> None:
@@ -265,16 +265,16 @@ def test_what_was_sent_is_kept_whole_on_a_disk_that_fails(tmp_path, monkeypatch)
             prepare,
         ):
             count += 1
-            told = json.loads(said[-1])
+            report = json.loads(lines[-1])
             assert trial.error is None, trial
-            if "error" not in told:
+            if "error" not in report:
                 assert (trial.folder / f"read.{suffix}").read_bytes(), trial
                 assert suffix == "svg" or Ghost.beside(trial.folder / "read.stl") is not None, trial
         assert count >= 20
 
 
 def test_a_file_that_is_fetched_is_whole_on_a_disk_that_fails(tmp_path):
-    """The server's part of an export, and what it then gives for a hash."""
+    """Try the server's part of an export, and the files that it then serves by hash."""
 
     async def exported(folder: Path) -> None:
         session, window = Session(folder / "session", []), Window()

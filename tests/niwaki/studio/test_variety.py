@@ -1,4 +1,4 @@
-"""Which results are shown: between the best and the most different."""
+"""Variety: the choice of results between the best and the most different."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def bricks(*places):
     return [nw.run(brick, choices={"uniform": place}).best for place in places]
 
 
-def test_the_same_look_has_no_distance_and_bricks_apart_have_all():
+def test_the_same_look_has_distance_zero_and_separate_bricks_distance_one():
     away = variety.distances(bricks(0.0, 0.0, 5.0, 5.2))
     assert away[0, 1] == 0.0 and away[0, 2] == 1.0 and 0.0 < away[2, 3] < 1.0
     assert np.array_equal(away, away.T)
@@ -31,27 +31,27 @@ def test_the_strongest_choice_takes_the_farthest_each_time_and_the_weakest_the_b
     away = np.random.default_rng(seed).uniform(size=(9, 9))
     away = np.triu(away, 1) + np.triu(away, 1).T
     assert variety.chosen(away, 4, 0.0) == [0, 1, 2, 3]
-    taken = variety.chosen(away, 4, 1.0)
+    selected = variety.chosen(away, 4, 1.0)
     for k in range(1, 4):
-        rest = [j for j in range(9) if j not in taken[:k]]
-        assert taken[k] == max(rest, key=lambda j: min(away[j, i] for i in taken[:k]))
+        rest = [j for j in range(9) if j not in selected[:k]]
+        assert selected[k] == max(rest, key=lambda j: min(away[j, i] for i in selected[:k]))
 
 
 def test_variants_come_in_the_order_of_their_distance():
-    first, *others = bricks(0.0, 5.0, 0.3, 0.0, 0.6)
-    near = variety.ordered(first, others, 2, 0.0)
-    far = variety.ordered(first, others, 2, 1.0)
-    assert [one.choices["uniform"] for one in near] == [0.0, 0.3]
-    assert [one.choices["uniform"] for one in far] == [0.6, 5.0]
+    first, *variants = bricks(0.0, 5.0, 0.3, 0.0, 0.6)
+    near = variety.ordered(first, variants, 2, 0.0)
+    far = variety.ordered(first, variants, 2, 1.0)
+    assert [variant.choices["uniform"] for variant in near] == [0.0, 0.3]
+    assert [variant.choices["uniform"] for variant in far] == [0.6, 5.0]
 
 
 def test_a_gallery_with_strength_differs_more():
     ship = nw.Target.find("gallery:ship")
     from niwaki.gallery.spaceship import spaceship
 
-    found = nw.grow(spaceship, ship, seed=2, diverse=variety.candidates(4, 1.0), rounds=2)
-    plain, strong = (variety.spread(found.samples, 4, strength) for strength in (0.0, 1.0))
-    assert plain[0] is strong[0] is found.best
+    result = nw.grow(spaceship, ship, seed=2, diverse=variety.candidates(4, 1.0), rounds=2)
+    plain, strong = (variety.spread(result.samples, 4, strength) for strength in (0.0, 1.0))
+    assert plain[0] is strong[0] is result.best
 
     def least(samples):
         away = variety.distances(samples)

@@ -1,16 +1,16 @@
-"""Every message of the studio: what a page or a script can ask, what it is told, and what a worker is given.
+"""The messages of the studio: commands and events of a page or a script, jobs and reports of a worker.
 
-This is the protocol. The page's types are written from it (`niwaki.studio.types`), and whatever arrives is decoded into
-one of these structs or refused. On the socket each message is JSON with its `kind`; a struct that carries geometry is
-the header of a frame (`niwaki.studio.frames`).
+This is the protocol. The page's types are written from it (`niwaki.studio.types`). A message that arrives is decoded
+into one of these structs or refused. On the socket each message is JSON with its `kind`; a struct that carries geometry
+is the header of a frame (`niwaki.studio.frames`).
 
-`id` is a number of the sender's own choice; the answers to a command repeat it.
+`id` is a number that the sender chooses; the answers to a command repeat it.
 
-- `document`  what is asked, how it is searched for, and what came of it
-- `commands`  what a client asks
-- `events`    what it is told
-- `modes`     what it is told of drawings that are coloured, and of structures that stand
-- `jobs`      what a worker is given, and its answer
+- `document`  goals, settings and results
+- `commands`  messages from a client
+- `events`    messages to a client
+- `modes`     messages to a client about colourings and structures
+- `jobs`      messages to and from a worker
 """
 
 from niwaki.studio.messages.commands import *

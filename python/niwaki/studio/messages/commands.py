@@ -1,4 +1,4 @@
-"""What a client asks: a command for each thing that the page does."""
+"""Commands: messages from a client, one for each action of the page."""
 
 from __future__ import annotations
 
@@ -25,79 +25,80 @@ Side = Annotated[float, Meta(gt=0.0, le=1e5)]
 
 
 class Command(Struct, kw_only=True, forbid_unknown_fields=True, tag_field="kind"):
-    """What a client asks."""
+    """A message from a client."""
 
     id: Number = 0
 
 
 class Hello(Command, tag="hello"):
-    """The first message: the whole state is the answer."""
+    """Begin a connection; the answer is the whole state."""
 
     protocol: int
 
 
 class ChooseModel(Command, tag="model"):
-    """Take a model: a name of the gallery, or a reference of a file that was named at the start."""
+    """Choose a model: a name of the gallery, or a reference to a file that was named at the start."""
 
     reference: Text
 
 
 def _changes(kind: type[Struct]) -> type[Struct]:
-    """The fields of a part of the document, each of which may be left out."""
-    members = [(one.name, one.type | UnsetType, UNSET) for one in fields(kind)]
+    """Make a struct with the fields of a part of the document, all of them optional."""
+    members = [(member.name, member.type | UnsetType, UNSET) for member in fields(kind)]
     return defstruct(f"{kind.__name__}Fields", members, frozen=True, forbid_unknown_fields=True)
 
 
 class AskChange(_changes(Ask)):  # type: ignore[misc]
-    """Other values of some fields of `Ask`; a target takes the place of a sketch, and a sketch that of a target."""
+    """New values of some fields of `Ask`; a target replaces a sketch, and a sketch replaces a target."""
 
 
 class SetAsk(Command, tag="ask"):
-    """Say what the scene should be like; what is left out stays."""
+    """Change the goals of the search; other goals stay."""
 
     ask: AskChange
 
 
 class SettingsChange(_changes(Settings)):  # type: ignore[misc]
-    """Other values of some fields of `Settings`."""
+    """New values of some fields of `Settings`."""
 
 
 class Set(Command, tag="set"):
-    """Set arguments by name, or settings; what is left out stays."""
+    """Set arguments by name, or settings; other values stay."""
 
     arguments: Annotated[dict[str, Any], Meta(max_length=200)] | None = None
     settings: SettingsChange | None = None
 
 
 class Run(Command, tag="run"):
-    """Search; what is held stays. A search that runs is stopped first, and nothing of it is kept."""
+    """Start a search; held parts stay. A running search is stopped first and its results are dropped."""
 
 
 class Stop(Command, tag="stop"):
-    """Stop the search; what it has found becomes results."""
+    """Stop the search and keep its results so far."""
 
 
 class HoldParts(Command, tag="hold"):
-    """Hold parts of the picked result in what follows."""
+    """Hold parts of the active result in further searches."""
 
     parts: Addresses
-    #: Of a drawing's regions: the colour that they shall have; None for the picked result's.
+    #: The colour of held regions of a drawing; None for their colours in the active result.
     color: Color | None = None
 
 
 class FreeParts(Command, tag="free"):
-    """Hold them no more; all, where none is named."""
+    """Free held parts; all parts if none is named."""
 
     parts: Addresses = field(default_factory=list)
 
 
 class Reroll(Command, tag="reroll"):
-    """Grow a part of the picked result again, in place; `count` times, by seeds that follow one another.
+    """Grow a part of the active result again, in place; `count` times, with consecutive seeds.
 
     Attributes
     ----------
     strength
-        Of twice as many those that look most like it (0) or least (1); as they come when left out.
+        Choose among twice as many: the forms that look most like the present one (0) or least like it (1). When left
+        out, all forms are kept in their order.
     """
 
     part: Address
@@ -106,27 +107,27 @@ class Reroll(Command, tag="reroll"):
 
 
 class Choose(Command, tag="choose"):
-    """Give a choice of the picked result a value; while it moves only its shape is shown, at the end it is a result."""
+    """Set a choice of the active result. During the move only the shape is shown; the end adds a result."""
 
     address: Address
-    #: A colour where the address is a drawing's region.
+    #: A colour, if the address is a region of a drawing.
     value: float | int | bool | Color
     phase: Literal["move", "end"] = "end"
 
 
 class Drag(Command, tag="drag"):
-    """Drag a part of the picked result to a point: while it moves only its shape is shown, at the end it is a result.
+    """Drag a part of the active result to a point. During the move only the shape is shown; the end adds a result.
 
     Attributes
     ----------
     grab
-        The point of the part that is held; its middle, where left out.
+        The point of the part under the pointer; the middle of the part when left out.
     along
-        The direction in which a camera looks: distances along it do not count.
+        The direction in which the camera looks: distances along it do not count.
     phase
-        A command that moves is left out where a newer one waits; "cancel" ends the drag with the result as it was.
+        "move" is skipped if a newer command waits; "cancel" ends the drag without a change.
     follow
-        Whether the rest is grown again at the end, around the part.
+        Whether the rest of the scene grows again around the part at the end.
     """
 
     part: Address
@@ -138,73 +139,73 @@ class Drag(Command, tag="drag"):
 
 
 class Propose(Command, tag="propose"):
-    """Ask for the change of the model's file that makes the arguments, as they are set, its defaults."""
+    """Request a change of the model's file that makes the present arguments its defaults."""
 
 
 class Rewrite(Command, tag="rewrite"):
-    """Write a change of the model's file that was offered last; the difference is the one that was shown."""
+    """Write one of the last offered changes of the model's file, named by its difference."""
 
     difference: Annotated[str, Meta(max_length=200_000)]
 
 
 class Describe(Command, tag="describe"):
-    """Ask for the choices of a result, with places in the source."""
+    """Request the choices of a result, with their places in the source."""
 
     key: Key
 
 
 class Show(Command, tag="show"):
-    """Ask for the shape of a result."""
+    """Request the shape of a result."""
 
     key: Key
     detail: Literal["light", "fine"] = "light"
 
 
 class ShowDifference(Command, tag="difference"):
-    """Ask where a result differs from what is wanted."""
+    """Request the difference between a result and its target."""
 
     key: Key
 
 
 class Pick(Command, tag="pick"):
-    """Go on with this result."""
+    """Make a result the active result."""
 
     key: Key
 
 
 class Star(Command, tag="star"):
-    """Mark a result, or take the mark away."""
+    """Star a result, or remove its star."""
 
     key: Key
     on: bool = True
 
 
 class Judge(Command, tag="judge"):
-    """Ask whether a structure of blocks stands: what holds it, and where let go in a simulation, what falls."""
+    """Request a check of whether a structure of blocks stands: its forces and, on request, a simulated fall."""
 
     key: Key
     simulate: bool = False
 
 
 class Undo(Command, tag="undo"):
-    """Take the last step back."""
+    """Undo the last step."""
 
 
 class Redo(Command, tag="redo"):
-    """Take the step again that was taken back."""
+    """Redo the last undone step."""
 
 
 class Export(Command, tag="export"):
-    """Write a result as a file, or its recipe (`json`), which `niwaki replay` repeats.
+    """Write a result as a file, or as a recipe (`json`), which `niwaki replay` repeats.
 
-    Of a structure `dxf` and `svg` are the boards of which its pieces are cut, and `assembly` is how they are put
-    together; of a drawing `toml` is its rules.
+    For a structure, `dxf` and `svg` are the boards with the pieces to cut, and `assembly` is a drawing of the assembly.
+    For a drawing, `toml` has its rules.
     """
 
     key: Key
     format: Literal["glb", "obj", "ply", "stl", "3mf", "svg", "png", "json", "dxf", "assembly", "toml"]
     scale: Annotated[float, Meta(gt=0.0, le=1e9)] | None = None
-    #: Width and height of a board, and what the saw takes, millimetres.
+    #: Width and height of a board, and the width of the saw cut, millimetres.
     board: tuple[Side, Side] = (600.0, 400.0)
     kerf: Annotated[float, Meta(ge=0.0, le=100.0)] = 0.2
 

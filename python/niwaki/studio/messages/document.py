@@ -1,4 +1,4 @@
-"""The parts of a session's document: what is asked, how it is searched for, and what came of it."""
+"""The parts of a session's document: goals, settings and results."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Point = tuple[Length, Length, Length]
 Addresses = Annotated[list[Address], Meta(max_length=10_000)]
 Color = Annotated[str, Meta(pattern="^#[0-9a-fA-F]{6}$")]
 Count = Annotated[int, Meta(ge=1, le=48)]
-#: Whole numbers that a page's script can hold.
+#: Whole numbers that JavaScript represents exactly.
 Number = Annotated[int, Meta(ge=0, lt=2**53)]
 Seed = Number
 Strength = Annotated[float, Meta(ge=0.0, le=1.0)]
@@ -24,14 +24,15 @@ Choices = dict[str, Any]
 
 
 class TargetAsk(Struct, frozen=True, forbid_unknown_fields=True):
-    """A solid in the scene, to fill or to avoid: where it comes from, and how it is placed.
+    """A solid to fill or to avoid: its source and its placement.
 
     Attributes
     ----------
     source
         `gallery:NAME`, `upload:SHA256`, or a primitive: `box`, `ball`, `column`.
     move, scale
-        Scene units; times, along x, y and z. Scaled and turned about the middle of its base, then moved.
+        A translation in scene units, and factors along x, y and z. The solid is scaled and turned about the middle of
+        its base, then moved.
     turn
         Degrees about y.
     """
@@ -64,23 +65,23 @@ class Eye(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Stroke(Struct, frozen=True, forbid_unknown_fields=True):
-    """A line of a pen: points as shares of the picture's height from its upper left corner, and the pen's width."""
+    """A pen stroke: points and width as shares of the picture's height, from its upper left corner."""
 
     points: Annotated[list[tuple[Share, Share]], Meta(min_length=1, max_length=20_000)]
     width: Annotated[float, Meta(gt=0.0, le=1.0)] = 0.05
 
 
 class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
-    """A silhouette or a shadow drawn by hand, over the view of a camera.
+    """A drawing by hand over the view of a camera: a silhouette or a shadow.
 
     Attributes
     ----------
     aspect
         Width of the picture over its height.
     camera
-        What saw it; None for a drawing in the plane.
+        The camera of the view; None for a drawing in the plane.
     kind
-        What the strokes are: the scene itself as the camera sees it, or its shadow on the floor.
+        The meaning of the strokes: the scene as the camera sees it, or its shadow on the floor.
     """
 
     strokes: Annotated[list[Stroke], Meta(min_length=1, max_length=500)]
@@ -90,14 +91,14 @@ class Sketch(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class RuleAsk(Struct, frozen=True, forbid_unknown_fields=True):
-    """A rule about regions of a drawing: those of `niwaki.color.Rules`.
+    """A rule about regions of a drawing, as in `niwaki.color.Rules`.
 
     Attributes
     ----------
     regions
-        A chain, the lightest first; of "muted" those that it is about (`all`: each without a number of its own).
+        A chain, the lightest region first; for "muted" the regions of the rule (`all`: regions without a number).
     most
-        Of "muted": the largest distance from grey, CIELAB units.
+        For "muted": the largest distance from grey, CIELAB units.
     """
 
     kind: Literal["lightness", "lighter", "same-chroma", "same-hue", "muted"]
@@ -106,14 +107,14 @@ class RuleAsk(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class RulesAsk(Struct, frozen=True, forbid_unknown_fields=True):
-    """Rules of a drawing.
+    """The rules of a drawing.
 
     Attributes
     ----------
     background
-        The region that the others lie on; None for the one at the picture's edge.
+        The region behind all others; None for the region at the picture's edge.
     weight
-        How strict they are.
+        The strictness of the rules.
     """
 
     rules: Annotated[list[RuleAsk], Meta(max_length=1_000)] = []
@@ -122,18 +123,18 @@ class RulesAsk(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Ask(Struct, frozen=True, forbid_unknown_fields=True):
-    """What a scene should be like; with no target and no sketch, what the model of the gallery is usually asked.
+    """The goals of a search. Without a target and a sketch, a model of the gallery has its usual goals.
 
     Attributes
     ----------
     floor
-        Nothing reaches below this height.
+        The height below which no part may reach.
     obstacles
-        Solids that nothing comes near.
+        Solids that all parts avoid.
     light
-        The direction in which the light travels that casts a shadow.
+        The direction of the light that casts a shadow.
     rules
-        Of a drawing to colour; None for those that come with it.
+        Rules of a drawing to colour; None for the rules that come with the drawing.
     """
 
     target: TargetAsk | None = None
@@ -145,18 +146,18 @@ class Ask(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Settings(Struct, frozen=True, forbid_unknown_fields=True):
-    """How to search.
+    """The settings of a search.
 
     Attributes
     ----------
     count
-        How many results that differ.
+        The number of results that differ.
     seed
-        None for a fresh one each time.
+        The seed; None for a fresh seed each time.
     effort
-        Rounds of `improve`, in its usual number.
+        The factor of the usual number of rounds of `improve`.
     strength
-        Which results are shown of those that were found: 0 the best, 1 those that look most different.
+        The choice among the results of a search: 0 for the best, 1 for the most different.
     """
 
     count: Count = 8
@@ -166,33 +167,33 @@ class Settings(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Key(Struct, frozen=True, forbid_unknown_fields=True):
-    """One result: the number of its run, and its place there."""
+    """The key of a result: the number of its run, and its place in the run."""
 
     run: Number
     number: Number = 0
 
 
 class Outcome(Struct, frozen=True):
-    """The numbers of a result, as the gallery shows them; scores in nats."""
+    """A result in the gallery: its key and its numbers; scores in nats."""
 
     key: Key
     log_score: float | None
     similarity: float | None
     primitives: int
     seed: int | None
-    #: What it came from: "run", "regrow", "choose" or "reload".
+    #: The kind of step that made the result: "run", "regrow", "choose" or "reload".
     origin: str = "run"
-    #: The reference of its model; the gallery shows those of the present one.
+    #: The reference of its model; the gallery shows only results of the present model.
     model: str = ""
-    #: Of what is wanted, the share that it fills; of it, the share that is elsewhere.
+    #: The share of the target that the result fills; the share of the result outside the target.
     covered: float | None = None
     outside: float | None = None
-    #: What is said of it in the gallery, where that is not how much it covers.
+    #: A note that the gallery shows in place of these shares.
     note: str = ""
 
 
 class HeldPart(Struct, frozen=True):
-    """A held part: its pattern, and the values of the choices that hold it."""
+    """A held part: its pattern, and the values of its held choices."""
 
     part: str
     choices: Choices

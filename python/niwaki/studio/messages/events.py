@@ -1,4 +1,4 @@
-"""What clients are told."""
+"""Events: messages to a client."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from niwaki.studio.messages.document import Ask, HeldPart, Key, Outcome, Point, 
 
 
 class Place(Struct):
-    """A place in a model's file, counted from 1; the end is excluded."""
+    """A place in a model's file; lines and columns count from 1, and the end is excluded."""
 
     path: str
     line: int
@@ -28,7 +28,7 @@ class Problem(Struct):
 
 
 class Parameter(Struct):
-    """A parameter of a model; `default` only where it is a number, a text or a truth value."""
+    """A parameter of a model; `default` is present only for numbers, texts and truth values."""
 
     name: str
     default: Any = None
@@ -36,7 +36,7 @@ class Parameter(Struct):
 
 
 class RegionInfo(Struct):
-    """A region of a drawing: its share of the picture, and the colour that it has there."""
+    """A region of a drawing: its share of the picture, and its colour in the file."""
 
     name: str
     share: float
@@ -44,22 +44,22 @@ class RegionInfo(Struct):
 
 
 class ModelInfo(Struct):
-    """What can be chosen: a model, or a drawing to colour.
+    """An entry of the list of models: a model, or a drawing to colour.
 
     Attributes
     ----------
     kind
-        A "structure" is a model of blocks that stand; a "coloring" is a drawing.
+        "structure" for a model of blocks that stand, "coloring" for a drawing.
     regions, rules
-        Of a drawing; the rules that come with it.
+        The regions of a drawing, and the rules that come with it.
     """
 
     reference: str
     title: str = ""
     parameters: list[Parameter] = []
-    #: The target that it is usually grown into, as a `source`.
+    #: The usual target of the model, as a `source`.
     target: str | None = None
-    #: The style of its drawings; None for models in space.
+    #: The style of its drawings; None for models of solids.
     draws: str | None = None
     is_file: bool = False
     kind: Literal["scene", "structure", "coloring"] = "scene"
@@ -68,7 +68,7 @@ class ModelInfo(Struct):
 
 
 class ChoiceInfo(Struct):
-    """A choice of a result: its value, and the range of a slider where it has one."""
+    """A choice of a result: its value, and the range of its slider if it has a slider."""
 
     address: str
     family: str
@@ -87,7 +87,7 @@ class PartInfo(Struct):
 
 
 class Searching(Struct):
-    """The search that is running."""
+    """The progress of the running search."""
 
     run: int
     done: int = 0
@@ -96,7 +96,7 @@ class Searching(Struct):
 
 
 class View(Struct):
-    """All that every window shows; a patch has some of its fields."""
+    """The state that every window shows; a patch has some of its fields."""
 
     model: ModelInfo | None
     arguments: dict[str, Any]
@@ -110,18 +110,18 @@ class View(Struct):
     targets: list[str]
     problem: Problem | None
     searching: Searching | None
-    #: A search that was running when the studio ended.
+    #: Whether a search was running when the studio ended.
     interrupted: bool
     undo: int
     redo: int
-    #: Of a drawing: which rules cannot all hold, and by how much; empty where they can.
+    #: A note on rules of a drawing that cannot all hold; empty if they can.
     note: str = ""
-    #: Which partial runs of the last search became impossible, and by which parts; empty where none did.
+    #: A note on partial runs of the last search that became impossible, and on the parts; empty without such runs.
     losses: str = ""
 
 
 class Event(Struct, tag_field="kind"):
-    """What a client is told."""
+    """A message to a client."""
 
     id: int = 0
 
@@ -135,14 +135,14 @@ class State(Event, tag="state"):
 
 
 class Patch(Event, tag="patch"):
-    """What has changed since the revision before."""
+    """The changes since the revision before."""
 
     rev: int = 0
     changes: dict[str, Any] = {}
 
 
 class Described(Event, tag="described"):
-    """The choices and parts of a result, in the order in which its run makes them."""
+    """The choices and parts of a result, in the order of its run."""
 
     key: Key | None = None
     choices: list[ChoiceInfo] = []
@@ -154,16 +154,16 @@ class Shape(Event, tag="shape"):
 
     Attributes
     ----------
-    what
-        "best" of a running search, a "result", a choice or a part that is "moving", the "ghost" of the target, or an
-        "obstacle".
+    role
+        "best" for the best of a running search, "result", "moving" while a choice or a part moves, "ghost" for the
+        target, or "obstacle".
     number
-        Of the obstacle.
+        The number of the obstacle.
     parts
-        Addresses; the mesh has the number of its part for each triangle.
+        Addresses of the parts; the mesh has the number of the part for each triangle.
     """
 
-    what: Literal["best", "result", "moving", "ghost", "obstacle"] = "result"
+    role: Literal["best", "result", "moving", "ghost", "obstacle"] = "result"
     number: int = 0
     key: Key | None = None
     detail: Literal["light", "fine"] = "light"
@@ -172,20 +172,20 @@ class Shape(Event, tag="shape"):
     parts: list[str] = []
     low: Point = (0.0, 0.0, 0.0)
     high: Point = (0.0, 0.0, 0.0)
-    #: Of a ghost or an obstacle: the solid that it shows; None where there is no target.
+    #: The source of a ghost or an obstacle; None without a target.
     source: str | None = None
-    #: Of a ghost: the point about which it is turned and scaled, where it stands.
+    #: The point about which a ghost is turned and scaled.
     pivot: Point = (0.0, 0.0, 0.0)
     is_flat: bool = False
     note: str = ""
-    #: Of a part that is dragged: where its held point is; the note says why it is not at the pointer.
+    #: The grabbed point of a dragged part; the note tells why this point is not at the pointer.
     held: Point | None = None
-    #: What is left from there to the pointer, as a share of the scene's size.
+    #: The distance from this point to the pointer, as a share of the scene's size.
     left: float = 0.0
 
 
 class Shifted(Struct):
-    """A choice before and after a drag; None where the run has no such choice."""
+    """A choice before and after a drag; None if the run has no such choice."""
 
     address: str
     before: Any
@@ -193,28 +193,30 @@ class Shifted(Struct):
 
 
 class Offer(Struct):
-    """A change of the model's file: one that explains a drag, or arguments as defaults.
+    """An offered change of the model's file: numbers that explain a drag, or arguments as defaults.
 
     Attributes
     ----------
+    label
+        The change in words.
     difference
         The change as a unified difference.
     is_instead
-        Whether it takes the place of the changed choices; else they change with it.
+        Whether the change of the file replaces the changed choices; otherwise both change.
     """
 
-    says: str
+    label: str
     difference: str
     is_instead: bool = True
 
 
 class Dragged(Event, tag="dragged"):
-    """The end of a drag: what has changed in the first answer; or why the part is not there.
+    """The end of a drag: the changes of the first answer, or the reason why the part is not at the pointer.
 
     Attributes
     ----------
     share
-        What is left to the pointer, as a share of the scene's size.
+        The distance that is left to the pointer, as a share of the scene's size.
     """
 
     part: str = ""
@@ -225,7 +227,7 @@ class Dragged(Event, tag="dragged"):
 
 
 class Offered(Event, tag="offered"):
-    """A change of the model's file that was asked for."""
+    """The answer to `propose`: offered changes of the model's file."""
 
     offers: list[Offer] = []
 
@@ -233,7 +235,7 @@ class Offered(Event, tag="offered"):
 class Difference(Event, tag="difference"):
     """The header of a frame with a byte for each cell of a target, or each pixel of a picture.
 
-    1 is wanted and filled, 2 is wanted only, 3 is filled only; x runs fastest, then y, then z. A picture has its first
+    1 is target and scene, 2 is target only, 3 is scene only; x runs fastest, then y, then z. A picture has its first
     row on top.
 
     Attributes
@@ -241,7 +243,7 @@ class Difference(Event, tag="difference"):
     size
         Cells along x, y and z; columns, rows and 1.
     low, high
-        Corners of the grid, or of the window of a drawing; both are the same for a picture seen by a camera.
+        Corners of the grid, or of the window of a drawing; equal for a picture seen by a camera.
     """
 
     key: Key | None = None
@@ -252,7 +254,7 @@ class Difference(Event, tag="difference"):
 
 
 class Done(Event, tag="done"):
-    """A command has done its work."""
+    """A command is done."""
 
     interrupted: bool = False
 
@@ -265,6 +267,6 @@ class File(Event, tag="file"):
 
 
 class Failed(Event, tag="error"):
-    """A command was refused, or its work failed."""
+    """A command was refused or failed."""
 
     problem: Problem | None = None

@@ -1,4 +1,4 @@
-"""What a worker is given. Its reports are events, how far a search is, and an answer last."""
+"""Jobs of a worker, and its reports: events, progress, and a final answer."""
 
 from __future__ import annotations
 
@@ -12,44 +12,44 @@ from niwaki.studio.messages.modes import Judged, Palette, Picture, Regions
 
 
 class Question(Struct):
-    """What is searched: a model with its arguments, what is asked, and held choices."""
+    """A search: a model with its arguments, goals, settings and held choices."""
 
     model: str
     arguments: dict[str, Any]
     ask: Ask
     settings: Settings
     hold: Choices = {}
-    #: Of a drawing that was sent: where it is.
+    #: The path of an uploaded drawing.
     file: str = ""
 
 
 class Job(Struct, kw_only=True, tag_field="kind"):
-    """Work for a worker process."""
+    """A job for a worker process."""
 
     id: int = 0
 
 
 class ListModels(Job, tag="models"):
-    """The models of the gallery and of these files."""
+    """List the models of the gallery and of these files."""
 
     files: list[str]
 
 
 class Load(Job, tag="load"):
-    """Read a model, perhaps again."""
+    """Load a model, or load it again."""
 
     reference: str
     file: str = ""
 
 
 class Ghost(Job, tag="ghost"):
-    """The mesh of a target; the regions of a drawing."""
+    """Send the mesh of a target, or the regions of a drawing."""
 
     question: Question
 
 
 class Grow(Job, tag="grow"):
-    """Search; results are written to `file`."""
+    """Search, and write the results to `file`."""
 
     question: Question
     run: int
@@ -58,18 +58,18 @@ class Grow(Job, tag="grow"):
 
 
 class GrowValues(Job, tag="grow-values"):
-    """Search for what is asked by values, from another program; results are written to `file`.
+    """Search with goals that another program gives as values, and write the results to `file`.
 
     Attributes
     ----------
-    asked
-        Options of `niwaki.targets.asks` by name, as `niwaki.search.data.Writer` writes them; where they match nothing,
-        what is usual for the gallery's model as well.
+    options
+        Options of `niwaki.targets.asks` by name, as `niwaki.search.data.Writer` writes them. Without a target or a
+        sketch, a model of the gallery has its usual goals as well.
     """
 
     model: str
     arguments: dict[str, Any]
-    asked: dict[str, Any]
+    options: dict[str, Any]
     settings: Settings
     run: int
     seed: int
@@ -77,12 +77,12 @@ class GrowValues(Job, tag="grow-values"):
 
 
 class GrowAgain(Job, tag="grow-again"):
-    """Carry out the search of a stored run again; results are written to `file`.
+    """Repeat the search of a stored run, and write the results to `file`.
 
     Attributes
     ----------
     seed, hold, count
-        Another seed, other held choices, another number of results that differ; as they were where they are None.
+        A new seed, new held choices, a new number of results that differ; None keeps the stored value.
     """
 
     source: str
@@ -94,7 +94,7 @@ class GrowAgain(Job, tag="grow-again"):
 
 
 class Regrow(Job, tag="regrow"):
-    """Grow a part of one result again; results are written to `file`."""
+    """Grow a part of a result again, and write the results to `file`."""
 
     question: Question
     source: str
@@ -108,7 +108,7 @@ class Regrow(Job, tag="regrow"):
 
 
 class Change(Job, tag="change"):
-    """Run a model again with the choices of a result, some of them changed; written to `file` where it is named."""
+    """Run a model with the choices of a result, some of them changed; write the result to `file` if it is named."""
 
     question: Question
     source: str
@@ -120,7 +120,7 @@ class Change(Job, tag="change"):
 
 
 class DragPart(Job, tag="drag"):
-    """Drag a part of one result: its shape while it moves; answers, written to `file`, where it is named."""
+    """Drag a part of a result: send its shape during the move; if `file` is named, write the answers to it."""
 
     question: Question
     source: str
@@ -134,19 +134,19 @@ class DragPart(Job, tag="drag"):
 
 
 class ProposeDefaults(Job, tag="propose"):
-    """The change of the model's file that makes its arguments its defaults."""
+    """Offer a change of the model's file that makes the arguments its defaults."""
 
     question: Question
 
 
 class RewriteFile(Job, tag="rewrite"):
-    """Write a change that was offered last."""
+    """Write one of the last offered changes."""
 
     difference: str
 
 
 class Hold(Job, tag="hold"):
-    """The choices that hold these parts of a result."""
+    """Return the choices that hold parts of a result."""
 
     source: str
     number: int
@@ -154,7 +154,7 @@ class Hold(Job, tag="hold"):
 
 
 class DescribeRun(Job, tag="describe"):
-    """The choices and parts of a result."""
+    """Send the choices and parts of a result."""
 
     question: Question
     source: str
@@ -163,7 +163,7 @@ class DescribeRun(Job, tag="describe"):
 
 
 class ShowRun(Job, tag="show"):
-    """The shape of a result."""
+    """Send the shape of a result."""
 
     source: str
     number: int
@@ -172,7 +172,7 @@ class ShowRun(Job, tag="show"):
 
 
 class FindDifference(Job, tag="difference"):
-    """Where a result differs from what is wanted."""
+    """Send the difference between a result and its target."""
 
     source: str
     number: int
@@ -180,7 +180,7 @@ class FindDifference(Job, tag="difference"):
 
 
 class JudgeRun(Job, tag="judge"):
-    """Whether a structure stands."""
+    """Check whether a structure stands."""
 
     source: str
     number: int
@@ -189,7 +189,7 @@ class JudgeRun(Job, tag="judge"):
 
 
 class WriteFile(Job, tag="write"):
-    """Write a result as a file into a folder."""
+    """Write a result as a file in a folder."""
 
     source: str
     number: int
@@ -222,7 +222,7 @@ AnyJob = (
 
 
 class Answer(Struct, tag_field="kind", tag="answer"):
-    """The end of a job: what it found, or why it failed."""
+    """The end of a job: its results, or the reason of its failure."""
 
     id: int = 0
     problem: Problem | None = None
@@ -232,12 +232,12 @@ class Answer(Struct, tag_field="kind", tag="answer"):
     held: list[HeldPart] = []
     path: str = ""
     interrupted: bool = False
-    #: What windows see as `View.note`; of a search, as `View.losses`.
+    #: The text of `View.note`; for a search, of `View.losses`.
     note: str = ""
 
 
 class Progressed(Struct, tag_field="kind", tag="progressed"):
-    """How far a search is."""
+    """The progress of a search."""
 
     id: int = 0
     done: int = 0
@@ -246,7 +246,7 @@ class Progressed(Struct, tag_field="kind", tag="progressed"):
 
 
 class Loading(Struct, tag_field="kind", tag="loading"):
-    """A file of models begins to run; said again with the line where it is; without a path it has ended."""
+    """A file of models is loading, at this line; without a path, it has been loaded."""
 
     path: str = ""
     line: int = 0

@@ -1,4 +1,4 @@
-"""What clients are told of drawings that are coloured and of structures that stand."""
+"""Events about colourings and structures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from niwaki.studio.messages.document import Key, Point
 from niwaki.studio.messages.events import Event
 
 
-class KeptRule(Struct):
+class RuleResult(Struct):
     """How well a colouring keeps a rule, in words and in units."""
 
     kind: str
@@ -18,22 +18,22 @@ class KeptRule(Struct):
     second: str
     text: str
     holds: bool
-    #: How far it is from holding: CIELAB units, of "same-hue" degrees.
+    #: The distance from holding: CIELAB units; degrees for "same-hue".
     residual: float
 
 
 class Palette(Event, tag="palette"):
-    """The colours of a result by region, and its rules."""
+    """The colours of a result by region, and how well it keeps the rules."""
 
     key: Key | None = None
     colors: dict[str, str] = {}
-    kept: list[KeptRule] = []
+    rules: list[RuleResult] = []
 
 
 class Picture(Event, tag="picture"):
     """The header of a frame with a PNG: a drawing in the colours of a result."""
 
-    what: Literal["result", "moving"] = "result"
+    role: Literal["result", "moving"] = "result"
     key: Key | None = None
     detail: Literal["light", "fine"] = "light"
 
@@ -41,41 +41,41 @@ class Picture(Event, tag="picture"):
 class Regions(Event, tag="regions"):
     """The header of a frame with the number of each pixel's region in the model's list, (height, width) uint16.
 
-    Pixels of no region have 65535. After them comes a PNG of the drawing in its own colours.
+    Pixels without a region have 65535. A PNG of the drawing in its own colours follows.
     """
 
-    what: Literal["ghost"] = "ghost"
+    role: Literal["ghost"] = "ghost"
     width: int = 0
     height: int = 0
 
 
 class Arrow(Struct):
-    """A force in the scene: where it acts, and its size and direction in mean weights of a block."""
+    """A force in the scene: its point, and its size and direction in mean weights of a block."""
 
     at: Point
     force: Point
 
 
 class Judged(Event, tag="judged"):
-    """Whether a structure stands.
+    """The check of a structure: whether it stands.
 
     Attributes
     ----------
     holds
-        Whether there are forces that hold every block.
+        Whether forces can hold every block.
     tilt
-        Degrees by which its ground can be tilted, in the worst direction.
+        Degrees by which the ground can be tilted, in the worst direction.
     loose
-        Parts that nothing holds.
+        Parts without support.
     arrows
-        What each contact carries.
+        The force at each contact.
     stands, moved, fallen
-        Of the simulation, None where there was none: whether it stands, how far the farthest block went (a share of its
-        size), and which went too far.
+        Results of the simulation, None without a simulation: whether the structure stands, the largest distance that a
+        block moved (a share of its size), and the blocks that moved too far.
     board
-        Thickness of the board that its pieces are cut of, millimetres; None where they cannot be cut.
+        Thickness of the board for cutting the pieces, millimetres; None if they cannot be cut.
     text
-        All of this in words.
+        The check in words.
     """
 
     key: Key | None = None

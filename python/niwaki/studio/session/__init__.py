@@ -1,19 +1,19 @@
 """A session: commands in, steps in the journal, patches and shapes out.
 
-It decides; workers do. A search runs in one worker and can be stopped; everything that has to be quick (a part that is
-clicked, a slider, a file) is the other worker's, so a search never makes the page wait.
+The session decides, and its two workers do the work. A search runs in one worker and can be stopped. Quick work (a part
+that is clicked, a slider, a file) goes to the other worker, so a search never makes the page wait.
 
-- `state`      what a session has, what windows see of it, and how a step is done
-- `dispatch`   which function carries out which command: a kind of command is a function and a line there
-- `loading`    models and targets, read again where a file has changed
-- `setting`    the ask, arguments and settings
-- `marking`    picked results, stars; undo and redo
-- `searching`  a search, what it shows meanwhile, its end
+- `state`      the data of a session, its view for windows, and its steps
+- `dispatch`   the function of each command
+- `loading`    models and targets, loaded again after a change of a file
+- `setting`    goals, arguments and settings
+- `marking`    the active result, stars, undo and redo
+- `searching`  a search, its progress and its end
 - `holding`    held parts
-- `reshaping`  a part grown again, a choice with another value: results in the place of a result
-- `dragging`   a part that is dragged
+- `reshaping`  new forms of a result: a part grown again, a choice with a new value
+- `dragging`   dragged parts
 - `rewriting`  changes of the model's file
-- `showing`    choices and shapes of a result; whether a structure stands
+- `showing`    choices and shapes of a result; the check of a structure
 - `exporting`  files
 """
 

@@ -1,8 +1,8 @@
-"""Which function carries out which command.
+"""The function of each command.
 
-A function that returns nothing has done its work: the window's next command finds it done. A function that has to wait
-for a worker is `async`: it goes on beside other commands, and returns the worker's answer. A command that cannot be
-carried out is refused by raising `Refused`; any other error is told as well.
+A function that returns None has finished before the window's next command. A function that waits for a worker is
+`async`: it runs beside other commands and returns the worker's answer. A function raises `CommandError` for a command
+that cannot be carried out; the window receives this and any other error.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Awaitable, Callable
 from typing import Any
 
 from niwaki.studio import messages as m
-from niwaki.studio.refused import Refused, problem
+from niwaki.studio.problems import CommandError, problem
 from niwaki.studio.session import (
     dragging,
     exporting,
@@ -55,28 +55,28 @@ COMMANDS: dict[type[m.Command], Work] = {
 
 
 async def obey(session: Session, window: Window, command: m.AnyCommand) -> None:
-    """Carry a command out; it is answered in any case, and what it cannot do it says to the window that asked."""
+    """Carry out a command; the window receives an answer in every case."""
     await session.ready.wait()
     try:
         if isinstance(command, m.Hello):
             if command.protocol != m.PROTOCOL:
-                raise Refused("protocol", f"this studio speaks protocol {m.PROTOCOL}")
+                raise CommandError("protocol", f"this studio uses protocol {m.PROTOCOL}")
             session.welcome(window, command.id)
             return
         if session.is_busy and not isinstance(command, m.Stop):
-            raise Refused("busy", "the studio has too much to do; wait until some of it is done")
-        rest = COMMANDS[type(command)](session, window, command)
+            raise CommandError("busy", "too many commands are waiting; wait until some of them are done")
+        work = COMMANDS[type(command)](session, window, command)
     except Exception as error:
         window.tell(m.Failed(command.id, problem(error)))
         return
-    if rest is None:
+    if work is None:
         window.tell(m.Done(command.id))
         return
 
-    def ended(answer: m.Answer) -> None:
+    def report(answer: m.Answer) -> None:
         if answer.problem is not None:
             window.tell(m.Failed(command.id, answer.problem))
         else:
             window.tell(m.Done(command.id, answer.interrupted))
 
-    session.start(rest, ended)
+    session.start(work, report)

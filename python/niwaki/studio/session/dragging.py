@@ -1,4 +1,4 @@
-"""A part that is dragged: of the points of a pointer that moves the newest is shown; at its end there are results."""
+"""Dragging a part: the shape at the newest point of the pointer while it moves, results at its end."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from niwaki.studio import messages as m
 from niwaki.studio.session.state import Session, of_model
 from niwaki.studio.window import Window
 
-#: The effort with which the rest is grown again.
+#: The effort of growing the rest again.
 EFFORT = 0.25
 
 
 async def drag(session: Session, window: Window, command: m.Drag) -> m.Answer | None:
-    """Drag a part of the picked result."""
+    """Drag a part of the active result."""
     picked, is_end = session.document.picked, command.phase == "end"
     source = session.source(picked)
     session.dragged = command
@@ -33,23 +33,23 @@ async def drag(session: Session, window: Window, command: m.Drag) -> m.Answer | 
             along=command.along,
         )
 
-        def report(found: Any, payload: bytes) -> None:
-            if isinstance(found, m.Dragged):
-                window.tell(msgspec.structs.replace(found, id=command.id))
+        def report(message: Any, payload: bytes) -> None:
+            if isinstance(message, m.Dragged):
+                window.tell(msgspec.structs.replace(message, id=command.id))
             else:
-                session.reported(found, payload)
+                session.forward(message, payload)
 
         answer = await session.desk.do(job, report)
     if answer.outcomes:
-        found = of_model(answer.outcomes, job.question.model)
-        session.placed("drag", picked, found)
+        results = of_model(answer.outcomes, job.question.model)
+        session.replace("drag", picked, results)
         if command.follow:
-            await _follow(session, found[0].key, job.question, answer.held)
+            await _follow(session, results[0].key, job.question, answer.held)
     return answer
 
 
 async def _follow(session: Session, picked: m.Key, question: m.Question, held: list[m.HeldPart]) -> None:
-    """Grow the rest again around the part; where that gives nothing, the result stays."""
+    """Grow the rest again around the part; without an outcome, the result stays."""
     if session.searching is not None:
         return
     hold = question.hold | {name: value for part in held for name, value in part.choices.items()}
@@ -59,6 +59,6 @@ async def _follow(session: Session, picked: m.Key, question: m.Question, held: l
         question=msgspec.structs.replace(question, hold=hold, settings=settings),
         seed=secrets.randbits(53),
     )
-    answer = await session.searcher.do(job, session.reported)
+    answer = await session.searcher.do(job, session.forward)
     if answer.outcomes and session.document.picked == picked:
-        session.placed("follow", picked, of_model(answer.outcomes, question.model))
+        session.replace("follow", picked, of_model(answer.outcomes, question.model))

@@ -1,4 +1,4 @@
-"""A result as a file, fetched by the hash of its bytes."""
+"""Exported files: a result as a file, fetched by the hash of its bytes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from niwaki.studio.window import Window
 
 
 async def export(session: Session, window: Window, command: m.Export) -> m.Answer:
-    """Write a result as a file, or its recipe."""
+    """Write a result as a file, or as its recipe."""
     source, files = session.source(command.key), session.journal.folder / "files"
     folder = files / f"{command.key.run}-{command.key.number}"
     answer = await session.desk.do(
@@ -29,8 +29,8 @@ async def export(session: Session, window: Window, command: m.Export) -> m.Answe
     if answer.problem is None:
         data = await asyncio.to_thread(Path(answer.path).read_bytes)
         name = hashlib.sha256(data).hexdigest()
-        kept = files / name / Path(answer.path).name
-        if not kept.is_file():
-            await asyncio.to_thread(lambda: write_whole(ensure_folder(kept.parent) / kept.name, data))
+        place = files / name / Path(answer.path).name
+        if not place.is_file():
+            await asyncio.to_thread(lambda: write_whole(ensure_folder(place.parent) / place.name, data))
         window.tell(m.File(command.id, name, Path(answer.path).name))
     return answer

@@ -1,4 +1,4 @@
-"""Another form of the picked result: a part grown again, a choice with another value, the model as it is at present."""
+"""New forms of the active result: a part grown again, a choice with a new value, a changed model."""
 
 from __future__ import annotations
 
@@ -22,33 +22,33 @@ async def reroll(session: Session, window: Window, command: m.Reroll) -> m.Answe
         strength=command.strength,
         seed=secrets.randbits(53),
     )
-    answer = await session.desk.do(job, session.reported)
+    answer = await session.desk.do(job, session.forward)
     if answer.outcomes:
-        session.placed("reroll", picked, of_model(answer.outcomes, job.question.model))
+        session.replace("reroll", picked, of_model(answer.outcomes, job.question.model))
     return answer
 
 
 def choose(session: Session, window: Window, command: m.Choose) -> Any:
-    """A slider: while it moves, the newest value is shown; at its end there is a result."""
-    session.wanted[command.phase] = command
-    return _chosen(session, command)
+    """Follow a slider: the shape at its newest value while it moves, a result at its end."""
+    session.slider[command.phase] = command
+    return _choose(session, command)
 
 
-async def _chosen(session: Session, command: m.Choose) -> m.Answer | None:
-    if session.wanted.get(command.phase) is not command:
+async def _choose(session: Session, command: m.Choose) -> m.Answer | None:
+    if session.slider.get(command.phase) is not command:
         return None
-    return await _changed(session, {command.address: command.value}, command.phase == "end", "choose")
+    return await _change(session, {command.address: command.value}, command.phase == "end", "choose")
 
 
 async def reshape(session: Session) -> None:
-    """Run the picked result with the present model and arguments."""
-    answer = await _changed(session, {}, True, "reload")
+    """Run the active result again with the present model and arguments."""
+    answer = await _change(session, {}, True, "reload")
     if answer is not None and answer.problem is not None:
         session.problem = answer.problem
         session.tell_all()
 
 
-async def _changed(session: Session, changes: dict[str, Any], is_end: bool, origin: str) -> m.Answer | None:
+async def _change(session: Session, changes: dict[str, Any], is_end: bool, origin: str) -> m.Answer | None:
     picked = session.document.picked
     if picked is None or not session.journal.runs_file(picked.run).is_file():
         return None
@@ -59,7 +59,7 @@ async def _changed(session: Session, changes: dict[str, Any], is_end: bool, orig
         changes=changes,
         origin=origin,
     )
-    answer = await session.desk.do(job, session.reported)
+    answer = await session.desk.do(job, session.forward)
     if answer.outcomes:
-        session.placed(origin, picked, of_model(answer.outcomes, job.question.model))
+        session.replace(origin, picked, of_model(answer.outcomes, job.question.model))
     return answer

@@ -1,4 +1,4 @@
-"""Changes of the model's file: offered, and written when one is accepted."""
+"""Changes of the model's file: offers, and the offer that the user accepts."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from niwaki.studio.window import Window
 
 
 async def propose(session: Session, window: Window, command: m.Propose) -> m.Answer:
-    """Offer the arguments as defaults."""
+    """Offer to make the arguments the defaults."""
 
-    def report(found: Any, payload: bytes) -> None:
-        window.tell(msgspec.structs.replace(found, id=command.id))
+    def report(message: Any, payload: bytes) -> None:
+        window.tell(msgspec.structs.replace(message, id=command.id))
 
     return await session.desk.do(m.ProposeDefaults(question=session.question()), report)
 
 
 async def rewrite(session: Session, window: Window, command: m.Rewrite) -> m.Answer:
-    """Write a change of the model's file; it is read again as after any edit."""
+    """Write a change of the model's file; the session then reloads the file, as after any edit."""
     return await session.desk.do(m.RewriteFile(difference=command.difference))

@@ -1,4 +1,4 @@
-"""What a session has: its journal, its windows, its two workers; what windows see of it, and how a step is done."""
+"""The state of a session: journal, windows and workers; the view that windows show; the steps."""
 
 from __future__ import annotations
 
@@ -14,55 +14,55 @@ import msgspec
 from niwaki.studio import messages as m
 from niwaki.studio.frames import frame
 from niwaki.studio.journal import Journal
+from niwaki.studio.problems import CommandError as CommandError
+from niwaki.studio.problems import problem
 from niwaki.studio.process import Stamp, Worker
-from niwaki.studio.refused import Refused as Refused
-from niwaki.studio.refused import problem
 from niwaki.studio.window import Window, newest
 
-#: The name of a drawing that was sent.
+#: The file name of an uploaded drawing.
 DRAWING = re.compile(r"[0-9a-f]{64}\.(svg|png|webp|bmp|gif|tif|tiff|jpg|jpeg)")
-#: Bytes of shapes that are kept ready.
+#: Bytes of shapes that are kept in memory.
 SHAPES = 256 << 20
-#: Commands that wait for a worker at one time.
+#: Commands that may wait for a worker at one time.
 WORK = 4_000
-#: Seconds that what has to be quick may take.
+#: Seconds that a job of the desk may take.
 PATIENCE = 300.0
 
 
 class Session:
-    """One session and its open windows.
+    """A session and its open windows.
 
     Parameters
     ----------
     folder
-        Where it is stored; a session that is there goes on.
+        The folder of the session; a session that is there resumes.
     files
-        References of models that may be chosen beside those of the gallery; each of a file that was named at the start.
+        References of models in files that were named at the start.
     trust
-        Whether files that stored runs name may be run for their host functions, where they have not changed.
+        Whether unchanged files that stored runs name may be run for their host functions.
 
     Attributes
     ----------
     searcher, desk : Worker
-        The process that searches; the one that does what has to be quick.
+        The process that searches, and the process for quick work.
     ready : asyncio.Event
-        Set when commands can be carried out.
+        Set when the session is ready for commands.
     models, targets
-        What can be chosen.
+        The lists of models and targets.
     model
-        The present one, as it was last read.
+        The present model, as last loaded.
     problem, note, losses
-        The error of its file; what is said of what is asked, and of the runs that the last search lost.
+        The error of the model's file; a note on the goals; a note on impossible runs of the last search.
     searching
-        How far the search is that runs.
+        The progress of the running search.
     search
-        Its task.
+        The task of the running search.
     ghosts
         Frames of the target and of obstacles, by kind.
-    wanted
+    slider
         The newest value of a choice, by the phase of its slider.
     dragged, dragging
-        The newest point of a part that is dragged; held while one of them is gone to.
+        The newest point of a dragged part; a lock that a drag to a point holds.
     """
 
     def __init__(self, folder: Path, files: list[str], trust: bool = False) -> None:
@@ -83,33 +83,33 @@ class Session:
         self.searching: m.Searching | None = None
         self.search: asyncio.Task[m.Answer] | None = None
         self.is_interrupted = self.journal.running is not None
-        self.wanted: dict[str, m.Choose] = {}
+        self.slider: dict[str, m.Choose] = {}
         self.dragged: m.Drag | None = None
         self.dragging = asyncio.Lock()
         self.ghosts: dict[str, bytes] = {}
         self._shapes: OrderedDict[tuple[m.Key, str], bytes] = OrderedDict()
-        self._told: dict[str, Any] = {}
+        self._last: dict[str, Any] = {}
         self._rev = 0
         self._tasks: set[asyncio.Task[Any]] = set()
 
     async def end(self) -> None:
-        """End the workers."""
+        """End the workers, and close the journal."""
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(self.searcher.kill(), self.desk.kill())
         self.journal.close()
 
     def start(
-        self, work: Awaitable[m.Answer | None], told: Callable[[m.Answer], None] | None = None
+        self, work: Awaitable[m.Answer | None], report: Callable[[m.Answer], None] | None = None
     ) -> asyncio.Task[m.Answer]:
-        """Do work beside what else is done; however it ends, somebody is told.
+        """Do work in a task of its own, and report its end.
 
         Parameters
         ----------
         work
-            What is done; an error of it is an answer with a problem, and one that is cancelled is interrupted.
-        told
-            Gets the answer; every window sees its problem, where it is left out.
+            The work. An error becomes an answer with a problem; cancelled work has an interrupted answer.
+        report
+            Receives the answer; when left out, every window shows its problem.
         """
 
         async def done() -> m.Answer:
@@ -120,41 +120,41 @@ class Session:
                 answer = m.Answer(interrupted=True)
             except Exception as error:
                 answer = m.Answer(problem=problem(error))
-            (told or self._complain)(answer)
+            (report or self._report_problem)(answer)
             return answer
 
-        def ended(task: asyncio.Task[m.Answer]) -> None:
+        def close(task: asyncio.Task[m.Answer]) -> None:
             self._tasks.discard(task)
             if asyncio.iscoroutine(work):
-                # It was never begun where its task was cancelled at once.
+                # A task that was cancelled at once has never started its coroutine.
                 work.close()
 
         task = asyncio.create_task(done())
         self._tasks.add(task)
-        task.add_done_callback(ended)
+        task.add_done_callback(close)
         return task
 
-    def _complain(self, answer: m.Answer) -> None:
+    def _report_problem(self, answer: m.Answer) -> None:
         if answer.problem is not None:
             for window in self.windows:
                 window.tell(m.Failed(0, answer.problem))
 
     @property
     def is_busy(self) -> bool:
-        """Whether so much waits to be done that nothing more is begun."""
+        """Whether so many tasks wait that no more may start."""
         return len(self._tasks) >= WORK
 
-    # ---- what windows see
+    # ---- the view of windows
 
     def view(self) -> m.View:
-        """All that every window shows."""
+        """Return the state that every window shows."""
         document = self.document
         return m.View(
             model=self.model,
             arguments=document.arguments,
             ask=document.ask,
             settings=document.settings,
-            results=[one for one in document.results if one.model == document.model],
+            results=[outcome for outcome in document.results if outcome.model == document.model],
             picked=document.picked,
             held=document.held,
             stars=document.stars,
@@ -170,7 +170,7 @@ class Session:
         )
 
     def welcome(self, window: Window, command: int) -> None:
-        """Give a window the whole state."""
+        """Send a window the whole state."""
         self.windows.add(window)
         window.tell(m.State(command, session=self.journal.name, rev=self._rev, view=self.view()))
         if self.journal.loss:
@@ -179,17 +179,17 @@ class Session:
             window.put(data, kind)
 
     def tell_all(self) -> None:
-        """Send what has changed since the last time."""
+        """Send all windows the changes since the last time."""
         now = msgspec.to_builtins(self.view())
-        changes = {name: value for name, value in now.items() if self._told.get(name, ...) != value}
+        changes = {name: value for name, value in now.items() if self._last.get(name, ...) != value}
         if changes:
-            self._told = now
+            self._last = now
             self._rev += 1
             for window in self.windows:
                 window.tell(m.Patch(rev=self._rev, changes=changes))
 
-    def reported(self, report: Any, payload: bytes) -> None:
-        """Pass on what a worker says while it works."""
+    def forward(self, report: Any, payload: bytes) -> None:
+        """Send a worker's report to all windows."""
         if isinstance(report, m.Progressed) and self.searching is not None:
             run = self.searching.run
             self.searching = m.Searching(run, report.done, report.best, report.seconds)
@@ -199,7 +199,7 @@ class Session:
         elif isinstance(report, m.Shape | m.Picture):
             report.id = 0
             data = frame(msgspec.json.encode(report), payload)
-            if report.what == "result" and report.key is not None:
+            if report.role == "result" and report.key is not None:
                 self.keep(report.key, report.detail, data)
             for window in self.windows:
                 window.put(data, newest(report))
@@ -207,63 +207,69 @@ class Session:
     # ---- steps
 
     def step(self, name: str, changes: dict[str, Any]) -> None:
-        """Do a step, on the disk first."""
+        """Do a step: write it to the disk, then show it."""
         self.journal.step(name, msgspec.to_builtins(changes))
-        self.turned()
+        self.show_head()
 
-    def turned(self) -> None:
+    def show_head(self) -> None:
         """Show the document at the journal's head."""
         self.document = self.journal.document()
         self.tell_all()
 
-    def placed(self, name: str, old: m.Key | None, found: list[m.Outcome]) -> None:
-        """Put one outcome in the place of the result that it came from, or several behind it."""
+    def replace(self, name: str, old: m.Key | None, new: list[m.Outcome]) -> None:
+        """Replace a result by one new outcome, or insert several outcomes behind it."""
         results: list[m.Outcome] = []
-        if old not in {one.key for one in self.document.results}:
-            # It was taken back meanwhile.
-            results += found
-        for one in self.document.results:
-            if one.key != old:
-                results.append(one)
+        if old not in {outcome.key for outcome in self.document.results}:
+            # An undo has removed the result meanwhile.
+            results += new
+        for outcome in self.document.results:
+            if outcome.key != old:
+                results.append(outcome)
                 continue
-            if len(found) > 1 or one.key in self.document.stars:
-                results.append(one)
-            results += found
-        self.step(name, {"results": results, "picked": found[0].key})
+            if len(new) > 1 or outcome.key in self.document.stars:
+                results.append(outcome)
+            results += new
+        self.step(name, {"results": results, "picked": new[0].key})
 
     # ---- results
 
     def source(self, key: m.Key | None) -> dict[str, Any]:
-        """Where a worker finds a result; refused where there is none."""
+        """Return the file and the number of a result, for a worker.
+
+        Raises
+        ------
+        CommandError
+            `no-result`.
+        """
         if key is None or not self.journal.runs_file(key.run).is_file():
-            raise Refused("no-result", "there is no such result; run a search first")
+            raise CommandError("no-result", "there is no such result; run a search first")
         return {"source": str(self.journal.runs_file(key.run)), "number": key.number}
 
     def fresh_run(self) -> dict[str, Any]:
-        """The number and the file of a run that a command makes at once."""
+        """Return the number and the file of a run that a command makes at once."""
         number = self.journal.run()
-        self.journal.ended()
+        self.journal.end_run()
         return {"run": number, "file": str(self.journal.runs_file(number))}
 
     def keep(self, key: m.Key, detail: str, data: bytes) -> None:
-        """Keep the shape of a result ready."""
+        """Keep the shape of a result in memory."""
         self._shapes[key, detail] = data
         while sum(map(len, self._shapes.values())) > SHAPES:
             self._shapes.popitem(last=False)
 
     def shape(self, key: m.Key, detail: str) -> bytes | None:
-        """The shape of a result, where it is ready."""
+        """Return the shape of a result, if it is in memory."""
         return self._shapes.get((key, detail))
 
-    # ---- what is asked
+    # ---- the question
 
     def question(self) -> m.Question:
-        """What a search is to find, as a worker reads it."""
+        """Return the question of a search, as a worker reads it."""
         document = self.document
         ask = document.ask
-        target = None if ask.target is None else self._read(ask.target)
+        target = None if ask.target is None else self._with_file(ask.target)
         ask = msgspec.structs.replace(
-            ask, target=target, obstacles=[self._read(one) for one in ask.obstacles]
+            ask, target=target, obstacles=[self._with_file(solid) for solid in ask.obstacles]
         )
         hold: dict[str, Any] = {}
         for part in document.held:
@@ -272,18 +278,18 @@ class Session:
         return m.Question(document.model or "", document.arguments, ask, document.settings, hold, file)
 
     def drawing_file(self, reference: str | None) -> str:
-        """Where a drawing is that was sent, by its reference; empty for anything else."""
+        """Return the path of an uploaded drawing by its reference; empty for other references."""
         name = (reference or "").removeprefix("drawing:upload:")
         place = self.journal.folder / "uploads" / name
-        is_sent = reference != name and DRAWING.fullmatch(name) is not None and place.is_file()
-        return str(place.resolve()) if is_sent else ""
+        is_upload = reference != name and DRAWING.fullmatch(name) is not None and place.is_file()
+        return str(place.resolve()) if is_upload else ""
 
-    def _read(self, solid: m.TargetAsk) -> m.TargetAsk:
-        """A solid with the file that a worker reads."""
+    def _with_file(self, solid: m.TargetAsk) -> m.TargetAsk:
+        """Replace the source of a solid by the file that a worker reads."""
         return msgspec.structs.replace(solid, source=self.file_of(solid.source) or solid.source)
 
     def file_of(self, source: str) -> str | None:
-        """What a worker reads for a target's source; None where there is no such target."""
+        """Return the file that a worker reads for a target's source; None without such a target."""
         if source.startswith("upload:"):
             place = self.journal.folder / "uploads" / f"{source.removeprefix('upload:')}.stl"
             is_hash = len(source) == 71 and all(c in "0123456789abcdef" for c in source[7:])
@@ -292,5 +298,5 @@ class Session:
 
 
 def of_model(outcomes: list[m.Outcome], model: str) -> list[m.Outcome]:
-    """Results with the reference of their model."""
-    return [msgspec.structs.replace(one, model=model) for one in outcomes]
+    """Add the reference of their model to outcomes."""
+    return [msgspec.structs.replace(outcome, model=model) for outcome in outcomes]

@@ -1,22 +1,22 @@
-"""The process that does the work of a session: it alone imports models, runs them and reads what users sent.
+"""The worker process of a session: only this process imports models, runs them and reads uploads.
 
-- `loop`     jobs in, reports out; the flag that stops a search
-- `loading`  files of models that are run
-- `models`   models by reference
-- `offers`   what can be chosen
-- `asks`     what is asked, as a target and a score
-- `kinds`    which module does a job: scenes, structures, drawings
-- `jobs`     scenes: searches, parts grown again, choices changed
-- `values`   searches that another program asks for by values, and stored ones that are carried out again
-- `drag`     a part that is dragged
-- `runs`     stored runs: replayed, described, shown, written
-- `differences`  where a result differs from what is wanted
-- `variety`  how different results look, and which of many to show
-- `allowed`  which files may be run for a stored run
-- `places`   where in the source a choice is made and a part is emitted, and how a choice's slider goes
-- `shapes`   a scene as a mesh for the page
-- `structures`  blocks that stand: found, judged, cut
-- `coloring`  drawings that are coloured: regions, rules, colourings
-- `thinning`  a large mesh with fewer triangles, for the eye
-- `uploads`  a mesh that a user sent, read within limits
+- `loop`         jobs in, reports out; the flag that stops a search
+- `loading`      loading files of models
+- `models`       models by reference
+- `offers`       the lists of models and targets
+- `asks`         goals as targets and scores
+- `kinds`        the module of a job: scenes, structures or drawings
+- `jobs`         scenes: searches, parts grown again, changed choices
+- `values`       searches of other programs by values, and repeated searches
+- `drag`         dragged parts
+- `runs`         stored runs: replayed, described, shown, written
+- `differences`  differences between a result and its target
+- `variety`      different looks of results, and the choice of results to show
+- `permissions`  files that may be run for a stored run
+- `places`       places of choices and parts in the source, and ranges of sliders
+- `shapes`       a scene as a mesh for the page
+- `structures`   structures of blocks: searched, checked, cut
+- `coloring`     drawings to colour: regions, rules, colourings
+- `thinning`     a large mesh with fewer triangles, for display
+- `uploads`      an uploaded mesh or drawing, read within limits
 """

@@ -1,4 +1,4 @@
-"""`python -m niwaki.studio.worker`: a worker that speaks frames on its standard input and output."""
+"""The command `python -m niwaki.studio.worker`: a worker that reads and writes frames on standard input and output."""
 
 from niwaki.studio.worker.loop import main
 

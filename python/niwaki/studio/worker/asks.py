@@ -1,4 +1,4 @@
-"""What is asked, as what `niwaki.grow` takes: a target, a score, and the arguments that a drawing gives."""
+"""Goals as arguments of `niwaki.grow`: a target, a score, and the arguments that a drawing sets."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ from niwaki.studio.worker.thinning import Ghost
 
 Point = tuple[float, float, float]
 
-#: Pixels of the height of a mask that was drawn by hand, and of the longer side of a drawing in the plane.
+#: Pixels: the height of a mask drawn by hand, and the longer side of a drawing in the plane.
 MASK_HEIGHT, DRAWING_SIDE = 96, 50
 
-#: Primitives to build a target from: unit size, on the ground.
+#: Primitive targets: unit size, on the ground.
 PRIMITIVES = {
     "box": lambda: trimesh.creation.box((1.0, 1.0, 1.0)),
     "ball": lambda: trimesh.creation.icosphere(3, 0.5),
@@ -37,53 +37,53 @@ PRIMITIVES = {
 
 
 def search(question: Question) -> tuple[ModelReference, dict[str, Any]]:
-    """The model, and the settings of `niwaki.grow` that say what is asked of it."""
-    found = reference(question.model)
+    """Return the model of a question, and the settings of `niwaki.grow` with its goals."""
+    model = reference(question.model)
     ask = question.ask
-    options: dict[str, Any] = {"floor": ask.floor, "avoid": [placed(one) for one in ask.obstacles]}
+    options: dict[str, Any] = {"floor": ask.floor, "avoid": [placed(solid) for solid in ask.obstacles]}
     if ask.sketch is not None:
-        options |= _drawn(ask, ask.sketch)
-    elif ask.target is not None and ask.target != usual(found):
+        options |= _sketch_options(ask, ask.sketch)
+    elif ask.target is not None and ask.target != usual(model):
         options["target"] = placed(ask.target)
-    asked = found.asked(options)
-    guide = shipped(found.model) if found.style is not None and "camera" not in options else None
-    return found, {
-        "score": targets.asks.score(asked),
+    goals = model.asked(options)
+    guide = shipped(model.model) if model.style is not None and "camera" not in options else None
+    return model, {
+        "score": targets.asks.score(goals),
         "guide": guide,
-        **found.start(asked),
+        **model.start(goals),
         **question.arguments,
     }
 
 
 def arguments(question: Question) -> tuple[Any, ...]:
-    """The model's arguments by position: those that are set, and those that a drawing gives."""
-    found = reference(question.model)
-    given = search(question)[1] if found.follows else question.arguments
-    own = {name: value for name, value in given.items() if name not in ("score", "guide")}
-    return tuple(positional(found.model, (), own))
+    """Return the model's arguments by position: the user's arguments, and the arguments that a drawing sets."""
+    model = reference(question.model)
+    values = search(question)[1] if model.follows else question.arguments
+    named = {name: value for name, value in values.items() if name not in ("score", "guide")}
+    return tuple(positional(model.model, (), named))
 
 
-def usual(found: ModelReference) -> TargetAsk | None:
-    """The target of a gallery's model."""
-    entry = found.entry
+def usual(model: ModelReference) -> TargetAsk | None:
+    """Return the usual target of a model of the gallery."""
+    entry = model.entry
     return None if entry is None or entry.target_name is None else TargetAsk(f"gallery:{entry.target_name}")
 
 
-def _drawn(ask: Ask, sketch: Sketch) -> dict[str, Any]:
-    """The options of a drawing in the plane, of a silhouette, or of a shadow on the floor."""
+def _sketch_options(ask: Ask, sketch: Sketch) -> dict[str, Any]:
+    """Return the options for a drawing in the plane, a silhouette, or a shadow on the floor."""
     if sketch.camera is None:
         return {"match_image": mask(sketch, DRAWING_SIDE)}
-    wanted, seen_by = mask(sketch, MASK_HEIGHT), camera(sketch)
+    image, seen_by = mask(sketch, MASK_HEIGHT), camera(sketch)
     if sketch.kind == "silhouette":
-        return {"match_image": wanted, "camera": seen_by}
-    # As far as the camera can see it well.
+        return {"match_image": image, "camera": seen_by}
+    # The part of the floor that the camera sees well.
     (x, _, z), reach = seen_by.look_at, 4.0 * dist(seen_by.position, seen_by.look_at)
     ground = nw.Receiver.floor(ask.floor or 0.0, (x - reach, z - reach), (x + reach, z + reach))
-    return {"match_shadow": wanted, "camera": seen_by, "light": ask.light, "receiver": ground}
+    return {"match_shadow": image, "camera": seen_by, "light": ask.light, "receiver": ground}
 
 
 def mask(sketch: Sketch, height: int) -> NDArray[np.bool_]:
-    """Where the strokes are, (height, columns)."""
+    """Draw the strokes as a mask, (height, columns)."""
     fine = 4 * height
     picture = Image.new("L", (max(8, round(fine * sketch.aspect)), fine), 0)
     pen = ImageDraw.Draw(picture)
@@ -99,24 +99,24 @@ def mask(sketch: Sketch, height: int) -> NDArray[np.bool_]:
 
 
 def camera(sketch: Sketch) -> nw.Camera:
-    """The camera over whose view a sketch was drawn."""
+    """Return the camera of a sketch."""
     eye = sketch.camera
     assert eye is not None
     return nw.Camera.perspective(eye.position, eye.look_at, eye.up, fov_degrees=eye.fov)
 
 
 def placed(ask: TargetAsk) -> nw.Target:
-    """A target where it is placed."""
-    base = _named(ask.source)
-    place = Placing(ask, base.bounds)
+    """Return a target at its place."""
+    base = _load(ask.source)
+    place = Placement(ask, base.bounds)
     return base if place.is_at_rest else nw.Target(place(base.vertices), base.faces, base.name)
 
 
 def shown(ask: TargetAsk) -> tuple[Ghost, Point]:
-    """What is shown of a target where it is placed, and the middle of its base, about which it is turned and scaled."""
+    """Return the ghost of a target at its place, and the middle of its base, about which it is turned and scaled."""
     mesh = Path(ask.source)
-    base = (Ghost.beside(mesh) if mesh.is_absolute() else None) or Ghost.of(_named(ask.source))
-    place = Placing(ask, base.bounds)
+    base = (Ghost.beside(mesh) if mesh.is_absolute() else None) or Ghost.of(_load(ask.source))
+    place = Placement(ask, base.bounds)
     corners = np.array(
         [[x, y, z] for x in base.bounds[:, 0] for y in base.bounds[:, 1] for z in base.bounds[:, 2]]
     )
@@ -127,8 +127,8 @@ def shown(ask: TargetAsk) -> tuple[Ghost, Point]:
     return replace(base, vertices=place(base.vertices), bounds=bounds), place.foot
 
 
-class Placing:
-    """How a target is scaled and turned about the middle of its base, and moved."""
+class Placement:
+    """The placement of a target: scaled and turned about the middle of its base, then moved."""
 
     def __init__(self, ask: TargetAsk, bounds: NDArray[np.float64]) -> None:
         low, high = bounds
@@ -138,12 +138,12 @@ class Placing:
 
     @property
     def foot(self) -> Point:
-        """Where the middle of the base stands."""
+        """The point at which the middle of the base stands."""
         x, y, z = (self._base + np.array(self._ask.move)).tolist()
         return x, y, z
 
     def __call__(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points where they are placed."""
+        """Move points to the place of the target."""
         if self.is_at_rest:
             return points
         angle = radians(self._ask.turn)
@@ -154,18 +154,18 @@ class Placing:
 
 
 @lru_cache(maxsize=4)
-def _named(source: str) -> nw.Target:
-    """The target of a source: a primitive, one of the gallery, or a file that was sent."""
+def _load(source: str) -> nw.Target:
+    """Load the target of a source: a primitive, a target of the gallery, or an uploaded file."""
     if source in PRIMITIVES:
         mesh = PRIMITIVES[source]()
         if source == "column":
-            # From along z to along y.
+            # Turn the axis from z to y.
             mesh.apply_transform([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
         mesh.apply_translation((0.0, -mesh.bounds[0][1], 0.0))
         return nw.Target(mesh.vertices, mesh.faces, source)
     if source.startswith("gallery:"):
         return nw.Target.find(source)
-    # The server has put the file's path in place of `upload:HASH`.
+    # The server has replaced `upload:HASH` by the path of the file.
     if not Path(source).is_file():
         raise InputError("no-target", name=source)
     return nw.Target.load(source)

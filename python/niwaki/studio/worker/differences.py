@@ -1,4 +1,4 @@
-"""Where a result differs from what is wanted, cell by cell or pixel by pixel, as the score counts them."""
+"""Differences between a result and its target, by cells or pixels, as the score counts them."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from niwaki.studio.messages import Answer, Difference, FindDifference
 from niwaki.studio.worker import runs
 from niwaki.targets.fit import cells
 
-#: What a byte of the payload says.
+#: Values of a byte of the payload.
 BOTH, MISSING, OUTSIDE = 1, 2, 3
 
 
 def find(job: FindDifference, send: Any) -> Answer:
-    """The cells or pixels of a result."""
-    one = runs.sample(job.source, job.number)
+    """Send the cells or pixels of a result."""
+    sample = runs.sample(job.source, job.number)
     header = Difference(job.id, job.key)
-    found = cells(one.search.score, one.scene)
-    if found is not None:
-        marks = marked(found.wanted, found.made)
-        header.low, header.high = tuple(found.low.tolist()), tuple(found.high.tolist())
+    grid = cells(sample.search.score, sample.scene)
+    if grid is not None:
+        marks = marked(grid.wanted, grid.made)
+        header.low, header.high = tuple(grid.low.tolist()), tuple(grid.high.tolist())
         header.size = marks.shape[0], marks.shape[1], marks.shape[2]
         # x runs fastest.
         payload = marks.T.tobytes()
-    elif one.search.score.views:
-        view = one.search.score.views[0]
-        marks = marked(view.image, view.mask(one.scene))
+    elif sample.search.score.views:
+        view = sample.search.score.views[0]
+        marks = marked(view.image, view.mask(sample.scene))
         rows, columns = marks.shape
         header.size, header.is_picture, payload = (columns, rows, 1), True, marks.tobytes()
         if view.window is not None:
@@ -41,6 +41,6 @@ def find(job: FindDifference, send: Any) -> Answer:
     return Answer()
 
 
-def marked(wanted: NDArray[np.bool_], made: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """A byte for each."""
-    return np.where(wanted, np.where(made, BOTH, MISSING), np.where(made, OUTSIDE, 0)).astype(np.uint8)
+def marked(target: NDArray[np.bool_], scene: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """Mark each cell with a byte."""
+    return np.where(target, np.where(scene, BOTH, MISSING), np.where(scene, OUTSIDE, 0)).astype(np.uint8)

@@ -1,6 +1,6 @@
-"""Files of models that are run: the server is told, since a file that does not end ends this process.
+"""Loading files of models: the worker reports it to the server, which ends the process if loading takes too long.
 
-A thread says where the file is while it runs, so that the message about one that loops names its line.
+A thread reports the current line of the file while it runs, so that the message about an endless loop names its line.
 """
 
 from __future__ import annotations
@@ -15,33 +15,33 @@ from typing import Any
 from niwaki.errors import InputError
 from niwaki.studio.messages import Loading
 
-#: Seconds between two looks at a file that runs.
-LOOK = 0.5
+#: Seconds between two reports of the current line.
+INTERVAL = 0.5
 
 
 def send(report: Any) -> None:
-    """Tell the server; the worker's loop puts its own function here."""
+    """Report to the server; the worker's loop replaces this function."""
 
 
 @contextmanager
 def loading(place: Path) -> Iterator[None]:
-    """Inside, a file of models is run.
+    """Report that a file of models is loading, inside the `with` block.
 
     Raises
     ------
     InputError
-        `model-file-failed`: it raises what ends a program. Nobody has pressed a key here.
+        `model-file-failed`: the file raises `KeyboardInterrupt`; a worker has no keyboard.
     """
     path, runs = str(place.resolve()), threading.get_ident()
     ended = threading.Event()
 
-    def look() -> None:
-        while not ended.wait(LOOK):
+    def watch() -> None:
+        while not ended.wait(INTERVAL):
             send(Loading(path, _line(runs, path)))
 
-    watching = threading.Thread(target=look, daemon=True)
+    watcher = threading.Thread(target=watch, daemon=True)
     send(Loading(path))
-    watching.start()
+    watcher.start()
     try:
         yield
     except KeyboardInterrupt as error:
@@ -49,12 +49,12 @@ def loading(place: Path) -> Iterator[None]:
         raise InputError("model-file-failed", path=path, reason=reason) from error
     finally:
         ended.set()
-        watching.join()
+        watcher.join()
         send(Loading())
 
 
 def _line(thread: int, path: str) -> int:
-    """The line of the file at which a thread is; 0 where it is not in it."""
+    """Return the line of the file that a thread runs; 0 if it runs no line of the file."""
     frame = sys._current_frames().get(thread)
     while frame is not None and frame.f_code.co_filename != path:
         frame = frame.f_back

@@ -1,4 +1,4 @@
-"""What can be chosen: models of files, of the gallery, of structures, and drawings to colour."""
+"""The lists of models and targets: models of files, of the gallery, of structures, and drawings to colour."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from niwaki.studio.worker import coloring, models
 
 
 def listed(job: ListModels) -> Answer:
-    """The models that can be chosen: those of the files first."""
+    """List the models, with the models of files first."""
     infos = []
     for file in job.files:
         infos.append(models.info(models.reference(file), file, is_file=True))
     for entry in gallery.entries():
-        # A model without a target, a drawing or a score of its own makes no scene to look at.
+        # A model with neither a target nor a drawing makes no scene to show.
         if entry.target_name is not None or entry.draws is not None:
             infos.append(models.info(ModelReference(entry.name, entry.model, entry), entry.name))
     structures = [name for name in stacks.__all__ if isinstance(getattr(stacks, name), Model)]
@@ -25,13 +25,13 @@ def listed(job: ListModels) -> Answer:
 
 
 def loaded(job: Load) -> Answer:
-    """A model, compiled so that its errors are seen; or a drawing."""
+    """Load a model and compile it, so that errors appear; or load a drawing."""
     if coloring.is_drawing(job.reference):
         return coloring.loaded(job)
-    found = models.reference(job.reference)
-    found.model.program()
-    is_file = found.entry is None and not job.reference.startswith(models.STACK)
-    answer = models.info(found, job.reference, is_file)
+    model = models.reference(job.reference)
+    model.model.program()
+    is_file = model.entry is None and not job.reference.startswith(models.STACK)
+    answer = models.info(model, job.reference, is_file)
     if models.is_structure(job.reference):
         answer.kind = "structure"
     return Answer(models=[answer])

@@ -1,6 +1,6 @@
-"""Where in the source each choice is made and each part is emitted, and how far a choice's slider goes.
+"""Places in the source of choices and parts, and the ranges of sliders.
 
-The model runs once more as plain Python with the choices of a result; its words note the line that called them.
+The model runs once more as plain Python with the choices of a result; each word notes the line that called it.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from niwaki.words.distributions import Distribution
 from niwaki.words.running import current
 
 
-class Noting(PlainRun):
+class PlaceRecorder(PlainRun):
     """A plain run that notes places and distributions by address."""
 
     def __init__(self, choices: Mapping[str, Any]) -> None:
@@ -28,7 +28,7 @@ class Noting(PlainRun):
         return calls[-1].span if calls else None
 
     def sample(self, dist: Any) -> Any:
-        """Make a choice."""
+        """Make a choice, and note its place."""
         before = len(self.choices_made)
         value = super().sample(dist)
         if len(self.choices_made) > before:
@@ -37,18 +37,18 @@ class Noting(PlainRun):
         return value
 
     def emit(self, shapes: Sequence[Any]) -> None:
-        """Add a primitive to the scene."""
+        """Add a primitive to the scene, and note its place."""
         super().emit(shapes)
         self.places[self.scene[-1][0]] = self._span()
 
 
-def noted(model: Model[..., Any], args: Sequence[Any], choices: Mapping[str, Any]) -> Noting:
-    """A run of the model with those choices; what it did until it failed, where it fails."""
-    state = Noting(choices)
+def record(model: Model[..., Any], args: Sequence[Any], choices: Mapping[str, Any]) -> PlaceRecorder:
+    """Run the model with these choices and record places; a run that fails has the places before the failure."""
+    state = PlaceRecorder(choices)
     token = current.set(state)
     try:
         state.enter(model.function, args, {})
-    except Exception:  # noqa: S110 - a model that has changed may fail with old choices: then fewer places are known
+    except Exception:  # noqa: S110 - a changed model may fail with old choices: then fewer places are known
         pass
     finally:
         current.reset(token)
@@ -56,12 +56,12 @@ def noted(model: Model[..., Any], args: Sequence[Any], choices: Mapping[str, Any
 
 
 def slider(dist: Distribution | None, value: Any) -> tuple[float, float, bool] | None:
-    """The low and the high end of a choice's slider, and whether its values are whole; None where it has none."""
+    """Return the low and the high end of a slider, and whether its values are whole; None without a slider."""
     if dist is None or isinstance(value, tuple | list | str):
         return None
     if isinstance(value, bool) or dist.family == "bernoulli":
         return 0.0, 1.0, True
-    numbers = [one for one in dist.parameters if isinstance(one, int | float)]
+    numbers = [number for number in dist.parameters if isinstance(number, int | float)]
     match dist.family:
         case "uniform" | "discrete_uniform":
             low, high = numbers[0], numbers[1]

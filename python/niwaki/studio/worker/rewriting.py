@@ -1,4 +1,4 @@
-"""Changes of the model's file: those that were offered last, of which one may be written."""
+"""Changes of the model's file: the last offers, one of which may be written."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from niwaki.search.drag.source import SourceChange, as_defaults
 from niwaki.studio.messages import Answer, Offer, Offered, ProposeDefaults, RewriteFile
 from niwaki.studio.worker import models
 
-_offered: list[SourceChange] = []
+_offers: list[SourceChange] = []
 
 
-def offered(changes: list[SourceChange]) -> list[Offer]:
-    """Offer these, and nothing that was offered before."""
-    _offered[:] = changes
-    return [Offer(one.says, one.difference(), not one.choices) for one in changes]
+def offer(changes: list[SourceChange]) -> list[Offer]:
+    """Offer these changes, and withdraw all earlier offers."""
+    _offers[:] = changes
+    return [Offer(change.says, change.difference(), not change.choices) for change in changes]
 
 
 def propose(job: ProposeDefaults, send: Any) -> Answer:
-    """Offer the arguments as defaults."""
+    """Offer to make the arguments the defaults."""
     change = as_defaults(models.reference(job.question.model).model, job.question.arguments)
-    send(Offered(job.id, offered([] if change is None else [change])))
+    send(Offered(job.id, offer([] if change is None else [change])))
     return Answer()
 
 
 def rewrite(job: RewriteFile) -> Answer:
     """Write a change of the model's file."""
-    for one in _offered:
-        if one.difference() == job.difference:
-            one.apply()
+    for change in _offers:
+        if change.difference() == job.difference:
+            change.apply()
             return Answer()
     raise InputError("nothing-offered")

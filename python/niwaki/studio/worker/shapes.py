@@ -1,11 +1,11 @@
-"""A scene as a mesh for the page: one mesh, with the number of its part for each triangle.
+"""A scene as a mesh for the page: a single mesh with the number of the part for each triangle.
 
 The payload of a frame, for n vertices and m triangles, little-endian:
 
     positions (n, 3) float32 | normals (n, 3) float32, only if fine | colours (n, 4) uint8, sRGB
     corners (m, 3) uint32 | parts (m,) uint32 | metalness and roughness (n, 2) uint8, of 255
 
-The light mesh is the one that scores see; it comes without normals and is shown with flat faces.
+The light mesh is the mesh of scores; it has no normals, and the page shows flat faces.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Piece = tuple[int, Paint, NDArray[Any], NDArray[Any] | None, NDArray[Any]]
 
 
 def shape(scene: Scene, detail: Literal["light", "fine"], **header: Any) -> tuple[Shape, bytes]:
-    """The header and the payload of a scene."""
+    """Return the header and the payload of a scene."""
     pieces = _fine(scene) if detail == "fine" else _light(scene)
     return _packed([part.address for part in scene.parts], pieces, detail=detail, **header)
 
@@ -40,11 +40,11 @@ def ghost(
     pivot: tuple[float, float, float],
     **header: Any,
 ) -> tuple[Shape, bytes]:
-    """The header and the payload of a target or an obstacle."""
-    described, data = _packed([], [(0, GHOST, vertices, None, faces)], pivot=pivot, **header)
+    """Return the header and the payload of a target or an obstacle."""
+    shape, data = _packed([], [(0, GHOST, vertices, None, faces)], pivot=pivot, **header)
     low, high = bounds.tolist()
-    described.low, described.high = tuple(low), tuple(high)
-    return described, data
+    shape.low, shape.high = tuple(low), tuple(high)
+    return shape, data
 
 
 def _fine(scene: Scene) -> list[Piece]:
@@ -57,16 +57,16 @@ def _fine(scene: Scene) -> list[Piece]:
 
 
 def _light(scene: Scene) -> list[Piece]:
-    meshes = iter(_engine.meshes([[one] for part in scene.parts for one in part.shapes], fine=False))
+    meshes = iter(_engine.meshes([[shape] for part in scene.parts for shape in part.shapes], fine=False))
     return [
         (number, paint, vertices, None, faces)
-        for number, worn in enumerate(paints(scene))
-        for paint, (vertices, faces, *_) in zip(worn, meshes, strict=False)
+        for number, part_paints in enumerate(paints(scene))
+        for paint, (vertices, faces, *_) in zip(part_paints, meshes, strict=False)
     ]
 
 
 def _packed(parts: list[str], pieces: list[Piece], **header: Any) -> tuple[Shape, bytes]:
-    """Pieces one after the other."""
+    """Pack pieces one after the other."""
     counts = [len(vertices) for _, _, vertices, _, _ in pieces]
     starts = np.cumsum([0, *counts])
     points = _joined([vertices for _, _, vertices, _, _ in pieces], 3, "<f4")
@@ -75,11 +75,11 @@ def _packed(parts: list[str], pieces: list[Piece], **header: Any) -> tuple[Shape
     finishes = _tiled([(paint.metalness, paint.roughness) for _, paint, *_ in pieces], counts, 2)
     owners = np.repeat([p for p, *_ in pieces], [len(f) for *_, f in pieces]).astype("<u4")
     arrays = [points, colors, faces, owners, finishes]
-    normals = [one for _, _, _, one, _ in pieces if one is not None]
+    normals = [directions for _, _, _, directions, _ in pieces if directions is not None]
     if normals:
         arrays.insert(1, _joined(normals, 3, "<f4"))
     low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(3), np.zeros(3))
-    described = Shape(
+    shape = Shape(
         vertices=len(points),
         triangles=len(faces),
         parts=parts,
@@ -87,7 +87,7 @@ def _packed(parts: list[str], pieces: list[Piece], **header: Any) -> tuple[Shape
         high=tuple(high.tolist()),
         **header,
     )
-    return described, b"".join(array.tobytes() for array in arrays)
+    return shape, b"".join(array.tobytes() for array in arrays)
 
 
 def _joined(arrays: list[NDArray[Any]], width: int, kind: str) -> NDArray[Any]:
@@ -95,6 +95,6 @@ def _joined(arrays: list[NDArray[Any]], width: int, kind: str) -> NDArray[Any]:
 
 
 def _tiled(shares: list[tuple[float, ...]], counts: list[int], width: int) -> NDArray[np.uint8]:
-    """Shares in [0, 1] as bytes, those of a piece for each of its vertices."""
+    """Convert shares in [0, 1] to bytes, and repeat each piece's row for each of its vertices."""
     rows = np.clip(np.array(shares).reshape(len(shares), width), 0.0, 1.0)
     return np.repeat(np.round(255.0 * rows).astype(np.uint8), counts, axis=0)

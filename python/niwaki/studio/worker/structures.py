@@ -1,6 +1,7 @@
-"""Structures of blocks: found so that they balance, judged, and cut.
+"""Structures of blocks: searched for balance, checked, and cut.
 
-No search of scenes finds a balance: chains do that follow the slope of the model's log density (`niwaki.explore`).
+The searches of scenes do not find a balance. Chains that follow the slope of the model's log density do
+(`niwaki.explore`).
 """
 
 from __future__ import annotations
@@ -36,10 +37,10 @@ from niwaki.studio.messages import (
     Regrow,
     WriteFile,
 )
-from niwaki.studio.refused import Refused
+from niwaki.studio.problems import CommandError
 from niwaki.studio.worker import jobs, models, runs, shapes, variety
 
-#: Chains for each result: those are kept that stand most surely.
+#: Chains for each result; the most stable structures are kept.
 CHAINS = 2
 #: The call whose choices are the forces between blocks (`niwaki.stacks`).
 FORCES = "balance"
@@ -48,61 +49,61 @@ SMALL = 1e-3
 
 
 def grow(job: Grow, send: Any, check: Callable[[], None]) -> Answer:
-    """Structures by chains from places of their own, those first whose ground can be tilted most."""
-    question, begun = job.question, time.perf_counter()
-    found, settings = models.reference(question.model), question.settings
+    """Search for structures with independent chains; the structure whose ground can be tilted most comes first."""
+    question, start = job.question, time.perf_counter()
+    model, settings = models.reference(question.model), question.settings
     shown = [-math.inf]
 
     def progress(now: Progress) -> None:
         if now.sample is not None and now.sample.log_score > shown[0]:
             shown[0] = now.sample.log_score
-            send(*shapes.shape(now.sample.scene, "light", what="best", id=job.id, key=Key(job.run)))
+            send(*shapes.shape(now.sample.scene, "light", role="best", id=job.id, key=Key(job.run)))
         best = shown[0] if math.isfinite(shown[0]) else None
-        send(Progressed(job.id, now.done, best, time.perf_counter() - begun))
+        send(Progressed(job.id, now.done, best, time.perf_counter() - start))
         check()
 
-    drawn = nw.run(
-        found.model,
+    draws = nw.run(
+        model.model,
         explore(draws=1, chains=max(1, round(CHAINS * settings.count * settings.effort))),
         seed=job.seed,
-        hold=runs.given(question.hold) or None,
+        hold=runs.values(question.hold) or None,
         progress=progress,
         **question.arguments,
     )
-    tilts = sorted(((_tilt_of(one), -number) for number, one in enumerate(drawn)), reverse=True)
-    kept = [drawn[-number] for _, number in tilts[: settings.count]]
-    return _answered(Result(drawn.search, kept, job.seed), found, job, "run", send, drawn.interrupted)
+    tilts = sorted(((_tilt_of(draw), -number) for number, draw in enumerate(draws)), reverse=True)
+    best = [draws[-number] for _, number in tilts[: settings.count]]
+    return _answer(Result(draws.search, best, job.seed), model, job, "run", send, draws.interrupted)
 
 
-def _answered(
+def _answer(
     result: Result,
-    found: ModelReference,
+    model: ModelReference,
     job: Grow | Regrow,
     origin: str,
     send: Any,
     interrupted: bool = False,
 ) -> Answer:
-    """Store results, show them, and say of each whether it stands."""
+    """Store results, send their shapes, and note for each whether it stands."""
     if not result.samples:
         return Answer(interrupted=interrupted)
-    outcomes = runs.store(result, found, job.run, job.file, origin)
-    for one, outcome in zip(result.samples, outcomes, strict=True):
-        send(*shapes.shape(one.scene, "light", what="result", id=job.id, key=outcome.key))
+    outcomes = runs.store(result, model, job.run, job.file, origin)
+    for sample, outcome in zip(result.samples, outcomes, strict=True):
+        send(*shapes.shape(sample.scene, "light", role="result", id=job.id, key=outcome.key))
     noted = [
-        replace(outcome, note=_said(_tilt_of(one)))
-        for one, outcome in zip(result.samples, outcomes, strict=True)
+        replace(outcome, note=_note(_tilt_of(sample)))
+        for sample, outcome in zip(result.samples, outcomes, strict=True)
     ]
     return Answer(outcomes=noted, interrupted=interrupted)
 
 
 def change(job: Change, send: Any) -> Answer:
-    """Run with the choices of a result, some of them changed, whether it then stands or not."""
+    """Run with the choices of a result, some of them changed, and note whether the structure stands."""
     answer = jobs.change(job, send)
     return replace(
         answer,
         outcomes=[
-            replace(one, note=_said(_tilt_of(runs.sample(job.file, one.key.number))))
-            for one in answer.outcomes
+            replace(outcome, note=_note(_tilt_of(runs.sample(job.file, outcome.key.number))))
+            for outcome in answer.outcomes
         ],
     )
 
@@ -111,53 +112,58 @@ ghost = jobs.ghost
 
 
 def regrow(job: Regrow, send: Any) -> Answer:
-    """Grow a part again so that the whole balances: chains over its choices and the forces, with all others held."""
-    found, one = models.reference(job.question.model), runs.sample(job.source, job.number)
-    choices = one.held()
-    own = {address for address in choices if address == job.part or address.startswith(f"{job.part}/")}
+    """Grow a part again so that the structure balances: chains over its choices and the forces, other choices held."""
+    model, original = models.reference(job.question.model), runs.sample(job.source, job.number)
+    choices = original.held()
+    part_choices = {
+        address for address in choices if address == job.part or address.startswith(f"{job.part}/")
+    }
     held = {
         address: value
         for address, value in choices.items()
-        if address not in own and FORCES not in address.split("/")
+        if address not in part_choices and FORCES not in address.split("/")
     }
-    hold = {**held, **runs.given(job.question.hold)}
-    if own <= set(hold):
-        raise Refused("no-other-form", f"`{job.part}` has no choices of its own that are free")
-    wanted = job.count if job.strength is None else 2 * job.count
+    hold = {**held, **runs.values(job.question.hold)}
+    if part_choices <= set(hold):
+        raise CommandError("no-other-form", f"`{job.part}` has no free choices of its own")
+    count = job.count if job.strength is None else 2 * job.count
     try:
-        drawn = nw.run(
-            found.model,
-            explore(draws=1, chains=CHAINS * wanted),
+        draws = nw.run(
+            model.model,
+            explore(draws=1, chains=CHAINS * count),
             seed=job.seed,
             hold=hold,
             **job.question.arguments,
         )
     except NiwakiError as error:
         text = (
-            f"`{job.part}` has no other form in which the structure balances, while the rest stays as it is"
+            f"`{job.part}` has no other form with which the structure balances while the rest stays unchanged"
         )
-        raise Refused("no-other-form", text) from error
+        raise CommandError("no-other-form", text) from error
     standing = sorted(
-        ((tilt, -number) for number, other in enumerate(drawn) if (tilt := _tilt_of(other)) >= 0.0),
+        ((tilt, -number) for number, draw in enumerate(draws) if (tilt := _tilt_of(draw)) >= 0.0),
         reverse=True,
     )
-    samples = [drawn[-number] for _, number in standing[:wanted]]
+    samples = [draws[-number] for _, number in standing[:count]]
     if not samples:
-        raise Refused("no-other-form", f"in no other form that was tried of `{job.part}` does it balance")
+        raise CommandError(
+            "no-other-form",
+            f"the structure balances with none of the other forms of `{job.part}` that were tried",
+        )
     if job.strength is not None:
-        samples = variety.ordered(one, samples, job.count, job.strength)
-    return _answered(Result(drawn.search, samples, job.seed), found, job, "regrow", send)
+        samples = variety.ordered(original, samples, job.count, job.strength)
+    return _answer(Result(draws.search, samples, job.seed), model, job, "regrow", send)
 
 
 def judge(job: JudgeRun, send: Any) -> Answer:
-    """Whether a structure stands: what holds each block, and where it is let go, what falls."""
-    one = runs.sample(job.source, job.number)
+    """Check whether a structure stands: its forces and, on request, a simulated fall."""
+    sample = runs.sample(job.source, job.number)
     if not is_structure(job.source, job.number):
-        raise Refused("no-structure", "this result is no structure of blocks")
-    structure = stacks.Structure.of(one)
-    parts = _parts(structure, one.scene)
+        raise CommandError("no-structure", "this result is not a structure of blocks")
+    structure = stacks.Structure.of(sample)
+    parts = _parts(structure, sample.scene)
     balance, carried = stacks.balanced(structure), stacks.carried(structure)
-    told = Judged(
+    verdict = Judged(
         job.id,
         job.key,
         holds=balance.holds,
@@ -168,15 +174,15 @@ def judge(job: JudgeRun, send: Any) -> Answer:
     )
     if job.simulate:
         fall = stacks.simulated(structure)
-        told.stands, told.moved = fall.stands, min(fall.moved, 1e9)
-        told.fallen = [parts[number] for number in fall.fallen if number in parts]
-    told.text = _text(told, len(structure))
-    send(told)
+        verdict.stands, verdict.moved = fall.stands, min(fall.moved, 1e9)
+        verdict.fallen = [parts[number] for number in fall.fallen if number in parts]
+    verdict.text = _text(verdict, len(structure))
+    send(verdict)
     return Answer()
 
 
 def write(job: WriteFile) -> Answer:
-    """Boards with the pieces to cut (DXF, SVG), or a drawing of how they are put together; else as any scene."""
+    """Write boards with the pieces to cut (DXF, SVG) or a drawing of the assembly; other formats as for any scene."""
     if job.format not in ("dxf", "svg", "assembly"):
         return runs.write(job)
     folder = ensure_folder(Path(job.folder))
@@ -184,13 +190,13 @@ def write(job: WriteFile) -> Answer:
     if job.format == "assembly":
         return Answer(path=str(stacks.assembly(structure).save(folder / "assembly.svg")[0]))
     sheet = stacks.cut_sheet(structure, board=job.board, kerf=job.kerf)
-    written = sheet.save(folder / f"boards.{job.format}")
-    if len(written) == 1:
-        return Answer(path=str(written[0]))
+    paths = sheet.save(folder / f"boards.{job.format}")
+    if len(paths) == 1:
+        return Answer(path=str(paths[0]))
     place = folder / f"boards-{job.format}.zip"
-    with zipfile.ZipFile(place, "w") as together:
-        for one in written:
-            together.write(one, one.name)
+    with zipfile.ZipFile(place, "w") as archive:
+        for path in paths:
+            archive.write(path, path.name)
     return Answer(path=str(place))
 
 
@@ -201,61 +207,61 @@ def is_structure(source: str, number: int) -> bool:
 
 
 def _tilt(balance: stacks.Balance) -> float:
-    """Degrees by which the ground can be tilted; below 0 where there is no balance."""
+    """Degrees by which the ground can be tilted; below 0 without a balance."""
     return math.degrees(math.atan(balance.margin)) if balance.holds else -1.0
 
 
-def _tilt_of(one: Sample) -> float:
-    """The same of a result; lowest where it is no structure any more: a contact has vanished, a block is inside out."""
+def _tilt_of(sample: Sample) -> float:
+    """Tilt of a result; lowest for a broken structure: a contact has vanished, or a block is inside out."""
     try:
-        return _tilt(stacks.balanced(stacks.Structure.of(one)))
+        return _tilt(stacks.balanced(stacks.Structure.of(sample)))
     except FileError:
         return -2.0
 
 
-def _said(tilt: float) -> str:
+def _note(tilt: float) -> str:
     return f"stands to {tilt:.1f}°" if tilt >= 0.0 else "falls"
 
 
-def _text(told: Judged, count: int) -> str:
-    """What was found, in words."""
-    if told.holds:
-        text = f"Forces hold all {count} blocks until the ground is tilted by {told.tilt:.1f}°."
+def _text(verdict: Judged, count: int) -> str:
+    """Describe the check in words."""
+    if verdict.holds:
+        text = f"Forces hold all {count} blocks until the ground is tilted by {verdict.tilt:.1f}°."
     else:
-        text = f"No forces hold {len(told.loose) or 'all'} of its {count} blocks."
-    if told.stands is None:
+        text = f"No forces hold {len(verdict.loose) or 'all'} of its {count} blocks."
+    if verdict.stands is None:
         return text
-    if told.stands:
-        much = 100.0 * (told.moved or 0.0)
-        return f"{text} Let go for five seconds, no block moved by more than {much:.1f} % of its size."
-    return f"{text} Let go for five seconds, {len(told.fallen)} of its blocks fell."
+    if verdict.stands:
+        much = 100.0 * (verdict.moved or 0.0)
+        return f"{text} In five simulated seconds no block moved by more than {much:.1f} % of its size."
+    return f"{text} In five simulated seconds {len(verdict.fallen)} of its blocks fell."
 
 
 def _upright(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points as the scene has them: y up where blocks have z."""
+    """Turn points from the axes of blocks (z up) to those of the scene (y up)."""
     x, y, z = np.moveaxis(points, -1, 0)
     return np.stack([x, z, -y], axis=-1)
 
 
 def _parts(structure: stacks.Structure, scene: Scene) -> dict[int, str]:
-    """The part of the scene that shows each block: the one with its bounds."""
+    """Find the part of the scene that shows each block, by its bounds."""
     boxes = []
     for part in scene.parts:
         corners = np.concatenate([shape.vertices() for shape in part.shapes])
         boxes.append((corners.min(axis=0), corners.max(axis=0), part.address))
-    found = {}
+    parts = {}
     for number, corners in enumerate(_upright(structure.corners)):
         low, high = corners.min(axis=0), corners.max(axis=0)
         near = 0.02 * float((high - low).max())
         for part_low, part_high, address in boxes:
             if np.abs(part_low - low).max() < near and np.abs(part_high - high).max() < near:
-                found[number] = address
+                parts[number] = address
                 break
-    return found
+    return parts
 
 
 def _arrows(carried: stacks.Carried) -> list[Arrow]:
-    """What each contact carries, on the body above."""
+    """Return the force of each contact on the body above."""
     arrows = []
     for at, force in zip(_upright(carried.points), _upright(carried.forces), strict=True):
         if np.linalg.norm(force) > SMALL:
@@ -265,7 +271,7 @@ def _arrows(carried: stacks.Carried) -> list[Arrow]:
 
 
 def _board(structure: stacks.Structure) -> float | None:
-    """Thickness of the board of which all blocks can be cut, millimetres."""
+    """Thickness of a board from which all blocks can be cut, millimetres."""
     try:
         return stacks.cut_sheet(structure, (1e5, 1e5)).thickness
     except FileError:

@@ -1,8 +1,8 @@
-"""A large mesh with fewer triangles, for the eye: made once, when the mesh arrives, and kept beside it.
+"""A large mesh with fewer triangles, for display: made once, when the mesh is uploaded, and stored beside it.
 
 HASH.stl         the mesh
-HASH.light.stl   about `GHOST_TRIANGLES` of it
-HASH.json        its true bounds, and how many triangles it has
+HASH.light.stl   the thinned mesh, with about `GHOST_TRIANGLES` triangles
+HASH.json        the bounds and the number of triangles of the mesh
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from niwaki.errors.schema import Unfit, decoded, fitted
 from niwaki.inputs import bytes_of
 from niwaki.targets.target import Target
 
-#: The ghost of a target has no more triangles than about this.
+#: Approximate limit of the triangles of a ghost.
 GHOST_TRIANGLES = 60_000
 
 
 class About(Struct):
-    """What HASH.json says of the mesh itself; corners of its bounds in scene units."""
+    """The contents of HASH.json: bounds (scene units) and triangles of the full mesh."""
 
     bounds: tuple[tuple[float, float, float], tuple[float, float, float]]
     triangles: Annotated[int, Meta(ge=0, lt=2**53)]
@@ -36,16 +36,16 @@ class About(Struct):
 
 @dataclass(frozen=True)
 class Ghost:
-    """What is shown of a mesh.
+    """A mesh as it is shown: thinned if it is large.
 
     Attributes
     ----------
     vertices, faces
-        Of the thinned mesh.
+        Vertices and faces of the thinned mesh.
     bounds : (2, 3) float64
-        Of the mesh itself.
+        Bounds of the full mesh.
     triangles : int
-        Of the mesh itself.
+        Number of triangles of the full mesh.
     """
 
     vertices: NDArray[np.float64]
@@ -55,12 +55,12 @@ class Ghost:
 
     @classmethod
     def of(cls, target: Target) -> Ghost:
-        """The ghost of a target."""
+        """Make the ghost of a target."""
         vertices, faces = thinned(np.asarray(target.vertices), np.asarray(target.faces))
         return cls(vertices, faces, np.asarray(target.bounds), len(target.faces))
 
     def save(self, mesh: Path) -> None:
-        """Keep it beside its mesh."""
+        """Write the ghost beside its mesh."""
         light = trimesh.Trimesh(self.vertices, self.faces, process=False)
         write_whole(mesh.with_suffix(".light.stl"), stl(light))
         low, high = self.bounds.tolist()
@@ -69,7 +69,7 @@ class Ghost:
 
     @classmethod
     def beside(cls, mesh: Path) -> Ghost | None:
-        """The ghost that is kept beside a mesh, where there is one that can be used; else it is made again."""
+        """Read the ghost beside a mesh; None without a usable ghost."""
         place = mesh.with_suffix(".json")
         if not is_file(place):
             return None
@@ -84,7 +84,7 @@ class Ghost:
 
 
 def stl(mesh: trimesh.Trimesh) -> bytes:
-    """The bytes of a mesh as binary STL."""
+    """Write a mesh as binary STL."""
     data: Any = mesh.export(file_type="stl")
     return bytes(data)
 
@@ -92,7 +92,7 @@ def stl(mesh: trimesh.Trimesh) -> bytes:
 def thinned(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int = GHOST_TRIANGLES
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """A mesh of about `most` triangles at most: vertices of one cell of a grid become one (Rossignac, Borrel 1993)."""
+    """Thin a mesh to about `most` triangles: the vertices in a cell of a grid become one (Rossignac, Borrel 1993)."""
     cells = 256
     extent = float(np.ptp(vertices, axis=0).max()) or 1.0
     while len(faces) > most and cells > 8:

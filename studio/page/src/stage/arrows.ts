@@ -1,15 +1,15 @@
-// Forces as arrows that are seen through what they hold.
+// Forces as arrows, visible through the blocks.
 
 import { ConeGeometry, CylinderGeometry, Mesh, MeshBasicMaterial, Quaternion, Vector3 } from "three";
 import type { Arrow } from "../messages";
 
 const UP = new Vector3(0, 1, 0);
 
-/** A shaft and a head for each force; the largest is `longest` long, and thickness follows length. */
+/** Makes a shaft and a head for each force; the largest arrow is `longest` long, and thickness follows length. */
 export function arrowMeshes(forces: Arrow[], longest: number, color: number): Mesh[] {
-  const most = Math.max(...forces.map((one) => Math.hypot(...one.force)), 1e-12);
-  return forces.flatMap((one) => {
-    const force = new Vector3(...one.force);
+  const most = Math.max(...forces.map((arrow) => Math.hypot(...arrow.force)), 1e-12);
+  return forces.flatMap((arrow) => {
+    const force = new Vector3(...arrow.force);
     const length = (longest * force.length()) / most;
     const head = Math.min(0.16 * longest, 0.5 * length);
     const wide = 0.026 * longest * (0.5 + (0.5 * length) / longest);
@@ -20,7 +20,7 @@ export function arrowMeshes(forces: Arrow[], longest: number, color: number): Me
       const material = new MeshBasicMaterial({ color, transparent: true, opacity: 0.85, depthTest: false });
       const mesh = new Mesh(geometry, material);
       mesh.quaternion.copy(turn);
-      mesh.position.set(...one.at);
+      mesh.position.set(...arrow.at);
       mesh.renderOrder = 10;
       return mesh;
     });

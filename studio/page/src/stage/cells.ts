@@ -1,4 +1,4 @@
-// The difference to a target: its cells, in the colours of the legend.
+// The difference from a target: its cells, in the colours of the legend.
 
 import {
   BufferAttribute,
@@ -17,7 +17,7 @@ import {
 } from "three";
 import type { Difference } from "../messages";
 
-/** Of what is wanted and filled, wanted only, filled only. */
+/** Colours of cells of target and scene, of the target only, of the scene only. */
 export const KINDS = {
   light: [0, 0xaaa69c, 0x3f7fc0, 0xd0652b],
   dark: [0, 0x6d6e73, 0x6aa9e6, 0xf08a4b],
@@ -27,9 +27,9 @@ export const KINDS = {
 const SIDES = [0, 1, 2].flatMap((axis) =>
   [0, 1].map((end) => {
     const corner = (u: number, v: number) => {
-      const found = [0, 0, 0];
-      [found[axis], found[(axis + 1) % 3], found[(axis + 2) % 3]] = [end, u, v];
-      return found;
+      const place = [0, 0, 0];
+      [place[axis], place[(axis + 1) % 3], place[(axis + 2) % 3]] = [end, u, v];
+      return place;
     };
     const step = [0, 0, 0];
     step[axis] = 2 * end - 1;
@@ -37,32 +37,32 @@ const SIDES = [0, 1, 2].flatMap((axis) =>
     return { step, corners: end === 1 ? around : around.reverse() };
   }),
 );
-/** Where the corners of a side are in its picture. */
+/** Texture coordinates of the corners of a side. */
 const EDGES = [0, 0, 1, 0, 1, 1, 0, 1];
 
-/** The sides of cells that can be seen: those beside an empty cell. */
+/** Makes the visible sides of cells: those beside an empty cell. */
 export function cubes({ size, low, high }: Difference, marks: Uint8Array, colors: number[]): Group {
   const [nx, ny, nz] = size;
   const at = (x: number, y: number, z: number) =>
     x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz ? 0 : marks[(z * ny + y) * nx + x];
-  const seen: number[] = [];
+  const visible: number[] = [];
   for (let z = 0, k = 0; z < nz; z++) {
     for (let y = 0; y < ny; y++) {
       for (let x = 0; x < nx; x++, k++) {
         if (marks[k] === 0) continue;
         SIDES.forEach(({ step }, side) => {
-          if (at(x + step[0], y + step[1], z + step[2]) === 0) seen.push(x, y, z, side);
+          if (at(x + step[0], y + step[1], z + step[2]) === 0) visible.push(x, y, z, side);
         });
       }
     }
   }
-  const n = seen.length / 4;
-  const [places, normals, shades, edges] = [12, 12, 12, 8].map((one) => new Float32Array(one * n));
+  const n = visible.length / 4;
+  const [places, normals, shades, edges] = [12, 12, 12, 8].map((width) => new Float32Array(width * n));
   const corners = new Uint32Array(6 * n);
   const widths = high.map((end, axis) => (end - low[axis]) / size[axis]);
-  const paint = colors.map((one) => new Color(one));
+  const paint = colors.map((color) => new Color(color));
   for (let k = 0; k < n; k++) {
-    const [x, y, z, side] = seen.slice(4 * k, 4 * k + 4);
+    const [x, y, z, side] = visible.slice(4 * k, 4 * k + 4);
     const color = paint[at(x, y, z)];
     SIDES[side].corners.forEach((corner, c) => {
       const first = 12 * k + 3 * c;
@@ -71,7 +71,7 @@ export function cubes({ size, low, high }: Difference, marks: Uint8Array, colors
       shades.set([color.r, color.g, color.b], first);
     });
     edges.set(EDGES, 8 * k);
-    corners.set([0, 1, 2, 0, 2, 3].map((one) => 4 * k + one), 6 * k);
+    corners.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner), 6 * k);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(places, 3));
@@ -84,10 +84,10 @@ export function cubes({ size, low, high }: Difference, marks: Uint8Array, colors
   return group;
 }
 
-/** What cells are drawn with. */
+/** The material of cells. */
 export const tiles = (): MeshLambertMaterial => new MeshLambertMaterial({ vertexColors: true, map: TILE });
 
-/** The picture of a side: a darker edge, so that cells can be told apart. */
+/** The texture of a side: a darker edge, so that cells can be distinguished. */
 const TILE = tile();
 
 function tile(): DataTexture {
@@ -97,16 +97,16 @@ function tile(): DataTexture {
     const isEdge = k % n === 0 || k % n === n - 1 || k < n || k >= n * n - n;
     if (isEdge) bytes.fill(205, 4 * k, 4 * k + 3);
   }
-  const found = new DataTexture(bytes, n, n);
-  found.colorSpace = SRGBColorSpace;
-  found.generateMipmaps = true;
-  found.minFilter = LinearMipmapLinearFilter;
-  found.magFilter = LinearFilter;
-  found.needsUpdate = true;
-  return found;
+  const texture = new DataTexture(bytes, n, n);
+  texture.colorSpace = SRGBColorSpace;
+  texture.generateMipmaps = true;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.magFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
 }
 
-/** The pixels of a drawing in the plane, before it. */
+/** Makes a sheet with the pixels in front of a drawing in the plane. */
 export function sheet(header: Difference, marks: Uint8Array, colors: number[]): Group {
   const [columns, rows] = header.size;
   const texture = new DataTexture(pixels(marks, colors, 200), columns, rows);
@@ -122,13 +122,13 @@ export function sheet(header: Difference, marks: Uint8Array, colors: number[]): 
   return group;
 }
 
-/** Red, green, blue and opacity of each mark. */
+/** Converts marks to red, green, blue and opacity. */
 export function pixels(marks: Uint8Array, colors: number[], opacity: number): Uint8ClampedArray<ArrayBuffer> {
-  const found = new Uint8ClampedArray(4 * marks.length);
-  const bytes = colors.map((one) => new Color(one).getHex());
+  const image = new Uint8ClampedArray(4 * marks.length);
+  const bytes = colors.map((color) => new Color(color).getHex());
   marks.forEach((mark, k) => {
     const color = bytes[mark];
-    if (mark > 0) found.set([color >> 16, (color >> 8) & 255, color & 255, opacity], 4 * k);
+    if (mark > 0) image.set([color >> 16, (color >> 8) & 255, color & 255, opacity], 4 * k);
   });
-  return found;
+  return image;
 }

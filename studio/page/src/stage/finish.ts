@@ -1,4 +1,4 @@
-// What shapes are drawn with: colour, metalness and roughness of each vertex. Metal mirrors a sky that is lighter above.
+// The material of shapes: colour, metalness and roughness of each vertex. Metal reflects a sky that is lighter above.
 
 import { MeshStandardMaterial } from "three";
 

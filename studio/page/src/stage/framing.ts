@@ -1,4 +1,4 @@
-// Where a camera stands to see a box, along the direction of our pictures.
+// The position of a camera that sees a box, along the direction of all pictures.
 
 import { Box3, PerspectiveCamera, Vector3 } from "three";
 
@@ -16,7 +16,7 @@ export function isSeen(camera: PerspectiveCamera, { min, max }: Box3): boolean {
   });
 }
 
-/** Puts the camera where the box just fits, with a margin (a share of the view). */
+/** Moves the camera to where the box just fits, with a margin (a share of the view). */
 export function frame(camera: PerspectiveCamera, low: Vector3, high: Vector3, isFlat: boolean, margin = 0.06): Vector3 {
   const middle = low.clone().add(high).multiplyScalar(0.5);
   const away = isFlat ? FRONT : ALONG;

@@ -1,13 +1,13 @@
-// A shape part by part: its triangles in the order in which parts come, so that a range of them is the shape so far.
+// The growth of a shape: triangles in the order of their parts, so that a range of them is the shape so far.
 
 import { BufferAttribute } from "three";
 import type { Piece } from "./meshes";
 
-/** As the run emits its parts, or the parts of outer calls first. */
+/** The order of parts: as the run emits them, or outer calls first. */
 export type Order = "emitted" | "depth";
 
-/** Sorts the triangles of a piece by the order of their parts; how many belong to the first k parts. */
-export function sorted(piece: Piece, order: Order, emitted: string[]): Uint32Array {
+/** Sorts the triangles of a piece by their parts; returns the number of triangles of the first k parts. */
+export function sortByPart(piece: Piece, order: Order, emitted: string[]): Uint32Array {
   const { parts } = piece.header;
   const depth = (address: string) => address.split("/").length;
   const turn = new Map(emitted.map((address, k) => [address, k]));

@@ -1,4 +1,4 @@
-// A frame's payload as geometry: see python/niwaki/studio/worker/shapes.py for its layout.
+// The payload of a frame as geometry; python/niwaki/studio/worker/shapes.py describes its layout.
 
 import { BufferAttribute, BufferGeometry, Color } from "three";
 import type { Shape } from "../messages";
@@ -6,20 +6,20 @@ import type { Shape } from "../messages";
 export interface Piece {
   header: Shape;
   geometry: BufferGeometry;
-  /** The number of its part for each triangle. */
+  /** The number of the part of each triangle. */
   owners: Uint32Array;
 }
 
 const LINEAR = Float32Array.from({ length: 256 }, (_, byte) => new Color().setRGB(byte / 255, 0, 0, "srgb").r);
 
-export function unpacked(header: Shape, payload: ArrayBuffer): Piece {
+export function unpack(header: Shape, payload: ArrayBuffer): Piece {
   const n = header.vertices;
   const m = header.triangles;
   let at = 0;
   const floats = () => {
-    const found = new Float32Array(payload, at, 3 * n);
+    const numbers = new Float32Array(payload, at, 3 * n);
     at += 12 * n;
-    return found;
+    return numbers;
   };
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(floats(), 3));
@@ -40,7 +40,7 @@ export function unpacked(header: Shape, payload: ArrayBuffer): Piece {
   return { header, geometry, owners };
 }
 
-/** A triangle of no size, with all that a material may ask for. */
+/** Makes a triangle of no size, with all attributes that a material may need. */
 export function triangle(): BufferGeometry {
   const geometry = new BufferGeometry();
   const sizes = { position: 3, normal: 3, color: 3, finish: 2, uv: 2 };
@@ -50,23 +50,23 @@ export function triangle(): BufferGeometry {
   return geometry;
 }
 
-/** The triangles of some parts, sharing the vertices of the whole. */
+/** Selects the triangles of some parts; they share the vertices of the whole. */
 export function subset(piece: Piece, isIn: (address: string) => boolean): BufferGeometry | null {
   const chosen = new Set(piece.header.parts.flatMap((address, number) => (isIn(address) ? [number] : [])));
   if (chosen.size === 0) return null;
   const corners = piece.geometry.index!.array;
-  const kept: number[] = [];
+  const triangles: number[] = [];
   piece.owners.forEach((owner, k) => {
-    if (chosen.has(owner)) kept.push(corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]);
+    if (chosen.has(owner)) triangles.push(corners[3 * k], corners[3 * k + 1], corners[3 * k + 2]);
   });
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", piece.geometry.getAttribute("position"));
   const normal = piece.geometry.getAttribute("normal");
   if (normal !== undefined) geometry.setAttribute("normal", normal);
-  geometry.setIndex(kept);
+  geometry.setIndex(triangles);
   return geometry;
 }
 
-/** Whether something with this address is at or below a call; everything is below "". */
+/** Whether an address is at or below a call; all addresses are below "". */
 export const isBelow = (address: string, call: string): boolean =>
   call === "" || address === call || address.startsWith(`${call}/`);

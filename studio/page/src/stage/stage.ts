@@ -1,8 +1,8 @@
 // The scene in three.js: the shape, the ghost of the target, marks of selected and held parts, the camera.
 //
-// Nothing is drawn unless something has changed. The camera moves when the user moves it, and when a window shows its
-// first content or another model; and once more for the first shape of a model that does not fit into the view, where the
-// user has not moved it and draws nothing over it. Never because of a later search, a reload or an undo.
+// The stage draws only after a change. The camera moves when the user moves it, and when a window shows its first content
+// or another model. It moves once more if the first shape of a model does not fit into the view, unless the user has moved
+// the camera or has drawn a sketch. It never moves because of a later search, a reload or an undo.
 
 import {
   AmbientLight,
@@ -37,9 +37,9 @@ import { cubes, KINDS, sheet, tiles } from "./cells";
 import { arrowMeshes } from "./arrows";
 import { solid } from "./finish";
 import { frame, isSeen } from "./framing";
-import { type Order, sorted } from "./growth";
-import { subset, triangle, unpacked } from "./meshes";
-import { kindOf, type Mode, Things } from "./things";
+import { type Order, sortByPart } from "./growth";
+import { subset, triangle, unpack } from "./meshes";
+import { kindOf, type Mode, SceneObjects } from "./objects";
 import type { Piece } from "./meshes";
 
 export const COLORS = {
@@ -53,7 +53,7 @@ export class Stage {
   piece: Piece | null = null;
   private readonly renderer: WebGLRenderer;
   private readonly orbit: OrbitControls;
-  readonly things: Things;
+  readonly objects: SceneObjects;
   private readonly sun = new DirectionalLight(0xfff9ef, 2.3);
   private readonly ground: Mesh;
   private readonly shape = new Group();
@@ -67,13 +67,13 @@ export class Stage {
   private ask: Ask = {};
   private look = COLORS.light;
   private theme: "light" | "dark" = "light";
-  /** Materials that keep their programs compiled. */
-  readonly kept: Material[];
+  /** Materials that keep their shaders compiled. */
+  readonly materials: Material[];
   private isAsked = false;
   private isFramed = false;
-  /** The first shape of the model has come, or the user has moved the camera. */
+  /** Whether the first shape of the model has arrived, or the user has moved the camera. */
   private isSettled = false;
-  /** Pixels may be drawn again. */
+  /** The number of frames drawn so far. */
   frames = 0;
 
   constructor(
@@ -112,30 +112,30 @@ export class Stage {
       this.onLook();
     });
     const dragging = (isDragging: boolean) => (this.orbit.enabled = !isDragging);
-    this.things = new Things(this.camera, canvas, onPlaced, dragging, () => this.draw());
-    this.scene.add(this.things.group, this.things.handles.getHelper());
+    this.objects = new SceneObjects(this.camera, canvas, onPlaced, dragging, () => this.draw());
+    this.scene.add(this.objects.group, this.objects.handles.getHelper());
     this.paint("light");
-    this.kept = this.warm();
+    this.materials = this.warm();
   }
 
   /**
-   * Compile what is drawn with before it is wanted. The materials are kept: what no material uses is compiled again,
-   * and that takes longer than a frame.
+   * Compiles shaders before the first frame. The materials stay in memory: three.js drops shaders without a material,
+   * and to compile them again takes longer than a frame.
    */
   private warm(): Material[] {
     const glass = { transparent: true, opacity: 0.5 };
     const [fill, line] = [new MeshBasicMaterial(glass), new LineBasicMaterial(glass)];
-    const meshes = [solid(true), solid(false), tiles(), fill].map((one) => new Mesh(triangle(), one));
+    const meshes = [solid(true), solid(false), tiles(), fill].map((material) => new Mesh(triangle(), material));
     for (const mesh of meshes) mesh.castShadow = mesh.receiveShadow = mesh.material !== fill;
     const all = [...meshes, new LineSegments(triangle(), line)];
     this.shape.add(...all);
     this.renderer.render(this.scene, this.camera);
     this.shape.clear();
-    for (const one of all) one.geometry.dispose();
-    return all.map((one) => one.material);
+    for (const { geometry } of all) geometry.dispose();
+    return all.map(({ material }) => material);
   }
 
-  /** Draw with the next frame. */
+  /** Draws with the next frame. */
   draw(): void {
     if (this.isAsked) return;
     this.isAsked = true;
@@ -147,13 +147,13 @@ export class Stage {
     });
   }
 
-  /** Several shapes side by side, seen by the same camera; none of them shows the one shape again. */
+  /** Shows several shapes side by side, seen by the same camera; without shapes, the single shape appears again. */
   setSides(shapes: [Shape, ArrayBuffer][]): void {
-    for (const one of this.sides) clear(one);
+    for (const side of this.sides) clear(side);
     this.scene.remove(...this.sides);
     this.sides = shapes.map(([header, payload]) => {
       const group = new Group();
-      if (header.triangles > 0) group.add(this.meshOf(unpacked(header, payload)));
+      if (header.triangles > 0) group.add(this.meshOf(unpack(header, payload)));
       return group;
     });
     if (this.sides.length > 0) this.scene.add(...this.sides);
@@ -162,9 +162,9 @@ export class Stage {
     this.draw();
   }
 
-  /** Triangles of what stands side by side. */
+  /** The number of triangles of each shape side by side. */
   get compared(): number[] {
-    return this.sides.map((one) => ((one.children[0] as Mesh)?.geometry.index?.count ?? 0) / 3);
+    return this.sides.map((side) => ((side.children[0] as Mesh)?.geometry.index?.count ?? 0) / 3);
   }
 
   private drawSides(): void {
@@ -172,7 +172,7 @@ export class Stage {
     const edge = (k: number) => Math.round((k * clientWidth) / this.sides.length);
     this.renderer.setScissorTest(true);
     this.sides.forEach((_, k) => {
-      this.sides.forEach((one, other) => (one.visible = other === k));
+      this.sides.forEach((side, other) => (side.visible = other === k));
       this.renderer.setViewport(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
       this.renderer.setScissor(edge(k), 0, edge(k + 1) - edge(k), clientHeight);
       this.renderer.render(this.scene, this.camera);
@@ -181,11 +181,11 @@ export class Stage {
     this.renderer.setViewport(0, 0, clientWidth, clientHeight);
   }
 
-  /** The camera's view is as wide as one of those that stand side by side. */
+  /** Makes the camera's view as wide as one of the shapes side by side. */
   private aspect(): void {
     const { clientWidth, clientHeight } = this.canvas;
     this.camera.aspect = clientWidth / Math.max(this.sides.length, 1) / Math.max(clientHeight, 1);
-    // What was seen across the whole width is seen across the narrower one.
+    // The narrower view shows the same width of the scene.
     this.camera.zoom = 1 / Math.max(this.sides.length, 1);
     this.camera.updateProjectionMatrix();
   }
@@ -202,22 +202,22 @@ export class Stage {
     this.look = COLORS[theme];
     this.scene.background = new Color(this.look.paper);
     (this.ground.material as ShadowMaterial).opacity = this.look.shade;
-    this.things.paint(this.look);
+    this.objects.paint(this.look);
     this.draw();
   }
 
   // ---- content
 
-  /** Show a shape; an empty payload takes it away. */
+  /** Shows a shape; null removes it. */
   show(header: Shape | null, payload: ArrayBuffer): void {
     clear(this.shape);
     this.piece = null;
     this.ends = null;
     if (header !== null && header.triangles > 0) {
-      this.piece = unpacked(header, payload);
+      this.piece = unpack(header, payload);
       this.shape.add(this.meshOf(this.piece));
     }
-    this.come();
+    this.onContent();
   }
 
   private meshOf({ header, geometry }: Piece): Mesh {
@@ -229,29 +229,29 @@ export class Stage {
     return mesh;
   }
 
-  /** Show the first parts of the shape in an order; all of them where there is no count. */
+  /** Shows the first parts of the shape in an order; all parts if `count` is null. */
   setGrowth(count: number | null, order: Order, emitted: string[]): void {
     if (this.piece === null) return;
     if (count === null) this.piece.geometry.setDrawRange(0, Infinity);
     else {
-      if (this.ends === null || this.ends.order !== order) this.ends = { order, at: sorted(this.piece, order, emitted) };
+      if (this.ends === null || this.ends.order !== order) this.ends = { order, at: sortByPart(this.piece, order, emitted) };
       this.piece.geometry.setDrawRange(0, 3 * this.ends.at[Math.min(count, this.ends.at.length - 1)]);
     }
     this.marks.visible = this.shape.visible && count === null;
     this.draw();
   }
 
-  /** Show the target or an obstacle where it is placed. */
-  setSolid(name: string, header: Shape, payload: ArrayBuffer, asked: TargetAsk | null): void {
-    this.things.setSolid(name, header, payload, asked);
+  /** Shows the target or an obstacle at its place. */
+  setSolid(name: string, header: Shape, payload: ArrayBuffer, placement: TargetAsk | null): void {
+    this.objects.setSolid(name, header, payload, placement);
     if (kindOf(name) === "target") {
       this.ghostBox.makeEmpty();
       if (header.triangles > 0) this.ghostBox.set(new Vector3(...header.low), new Vector3(...header.high));
     }
-    this.come();
+    this.onContent();
   }
 
-  /** What is asked, apart from solids: floor, light and camera. */
+  /** Sets the goals other than solids: floor, light and camera. */
   setAsk(ask: Ask): void {
     this.ask = ask;
     this.settle();
@@ -259,11 +259,11 @@ export class Stage {
   }
 
   setGhostVisible(isVisible: boolean): void {
-    this.things.setGhostVisible(isVisible);
+    this.objects.setGhostVisible(isVisible);
     this.draw();
   }
 
-  /** Show where the scene differs from what is wanted in its place, or the scene itself. */
+  /** Shows the difference from the target in place of the scene; null shows the scene. */
   setDifference(header: Difference | null, marks: Uint8Array): void {
     clear(this.differences);
     this.scene.remove(this.differences);
@@ -277,7 +277,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Mark parts: those that are selected or under the pointer, and those that are held. */
+  /** Marks parts: selected parts and parts under the pointer, held parts, falling parts. */
   mark(
     isSelected: (address: string) => boolean,
     isHeld: (address: string) => boolean,
@@ -292,11 +292,11 @@ export class Stage {
     this.draw();
   }
 
-  /** Show forces, as long as a fifth of the scene where they are largest. */
+  /** Shows forces; the longest arrow has a fifth of the scene's size. */
   setArrows(forces: Arrow[]): void {
     clear(this.arrows);
     const size = this.bounds().getSize(new Vector3()).length();
-    for (const one of arrowMeshes(forces, 0.2 * size, this.look.force)) this.arrows.add(one);
+    for (const arrow of arrowMeshes(forces, 0.2 * size, this.look.force)) this.arrows.add(arrow);
     this.draw();
   }
 
@@ -321,13 +321,13 @@ export class Stage {
     return box;
   }
 
-  /** Put light and ground around what is there. */
+  /** Moves light and ground to the contents. */
   private settle(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
     const middle = box.getCenter(new Vector3());
     const radius = Math.max(0.5 * box.getSize(new Vector3()).length(), 1e-3);
-    this.things.update(this.ask, middle, radius);
+    this.objects.update(this.ask, middle, radius);
     const isOnFloor = this.ask.floor != null || this.ask.sketch?.kind === "shadow";
     this.ground.position.set(middle.x, (isOnFloor ? (this.ask.floor ?? 0) : box.min.y) - 0.002 * radius, middle.z);
     this.ground.scale.setScalar(40 * radius);
@@ -343,8 +343,8 @@ export class Stage {
     this.sun.shadow.camera.updateProjectionMatrix();
   }
 
-  /** Look at what has come, where nothing of this model was looked at before. */
-  private come(): void {
+  /** Moves light and ground; moves the camera if it has shown nothing of this model before. */
+  private onContent(): void {
     this.settle();
     const isFirst = this.piece !== null && !this.isSettled;
     this.isSettled ||= isFirst;
@@ -352,12 +352,12 @@ export class Stage {
     this.draw();
   }
 
-  /** Whether the camera sees all that is there. */
+  /** Whether the camera sees all contents. */
   get seesAll(): boolean {
     return isSeen(this.camera, this.bounds());
   }
 
-  /** Look at everything, along the direction of our pictures. */
+  /** Fits all contents into the view, along the direction of pictures. */
   fit(): void {
     const box = this.bounds();
     if (box.isEmpty()) return;
@@ -367,7 +367,7 @@ export class Stage {
     this.draw();
   }
 
-  /** A solid of unit size above what is there, where the camera sees it. */
+  /** Returns a solid above the contents, where the camera sees it. */
   above(source: string): TargetAsk {
     const box = this.bounds();
     if (box.isEmpty()) return { source };
@@ -376,24 +376,24 @@ export class Stage {
     return { source, move: [round(middle.x), round(box.max.y + 0.3 * side), round(middle.z)], scale: [side, side, side] };
   }
 
-  /** The lowest height of what is there. */
+  /** The lowest height of the contents. */
   bottom(): number {
     const box = this.bounds();
     return box.isEmpty() ? 0 : Math.floor(box.min.y * 100) / 100;
   }
 
-  /** A light from behind the scene, so that its shadow falls towards the camera. */
+  /** Returns a light from behind the scene, so that the shadow falls towards the camera. */
   lightFromBehind(): [number, number, number] {
     const ahead = this.camera.getWorldDirection(new Vector3()).setY(0).normalize();
     return [round(-0.6 * ahead.x - 0.25 * ahead.z), -1, round(-0.6 * ahead.z + 0.25 * ahead.x)];
   }
 
-  /** The next content is looked at. */
+  /** Lets the camera move to the next contents. */
   forget(): void {
     this.isFramed = this.isSettled = false;
   }
 
-  /** The camera as a sketch keeps it. */
+  /** Returns the camera in the form of a sketch. */
   eye(): Eye {
     const { position, up, fov } = this.camera;
     return { position: position.toArray(), look_at: this.orbit.target.toArray(), up: up.toArray(), fov };
@@ -414,19 +414,19 @@ export class Stage {
 
   // ---- handles
 
-  /** Put handles on an object of the scene, or take them away. */
+  /** Attaches handles to an object of the scene; null removes them. */
   setHandles(name: string | null, mode: Mode): void {
-    this.things.select(name, mode);
+    this.objects.select(name, mode);
     this.draw();
   }
 
-  /** Where the handles are seen, in CSS pixels. */
+  /** The point of the handles on the canvas, CSS pixels. */
   handlePoint(): [number, number] | null {
-    const at = this.things.at?.clone().project(this.camera);
+    const at = this.objects.at?.clone().project(this.camera);
     return at == null ? null : this.pixel(at);
   }
 
-  /** Whether nothing of the page lies over a point. */
+  /** Whether no element of the page lies over a point. */
   private isFree(x: number, y: number): boolean {
     const { left, top } = this.canvas.getBoundingClientRect();
     return document.elementFromPoint(left + x, top + y) === this.canvas;
@@ -443,7 +443,7 @@ export class Stage {
     return this.hitAt(x, y)?.address ?? null;
   }
 
-  /** The part under a point of the canvas, and the point of the part that is seen there. */
+  /** The part under a point of the canvas, and the visible point of the part. */
   hitAt(x: number, y: number): { address: string; point: Vector3 } | null {
     const mesh = this.shape.children[0];
     if (this.piece === null || mesh === undefined) return null;
@@ -465,7 +465,7 @@ export class Stage {
     return this.ray(x, y).ray.intersectPlane(plane, new Vector3()) ?? point.clone();
   }
 
-  /** A line from where a dragged part is to where it should be; none without points. */
+  /** Draws a line from a dragged part to the pointer; null removes it. */
   tether(from: Vector3 | null, to: Vector3 | null): void {
     clear(this.line);
     if (from !== null && to !== null) {
@@ -481,8 +481,8 @@ export class Stage {
   }
 
   /** The obstacle, light or camera under a point of the canvas. */
-  thingAt(x: number, y: number): string | null {
-    return this.things.hit(this.ray(x, y));
+  objectAt(x: number, y: number): string | null {
+    return this.objects.hit(this.ray(x, y));
   }
 
   private ray(x: number, y: number): Raycaster {
@@ -492,7 +492,7 @@ export class Stage {
     return ray;
   }
 
-  /** Where a part is seen, in CSS pixels: a point that `partAt` answers with it. */
+  /** A point of the canvas at which `partAt` returns a part, CSS pixels. */
   pointOf(address: string): [number, number] | null {
     const piece = this.piece;
     if (piece === null) return null;
@@ -514,7 +514,7 @@ export class Stage {
 
 const round = (value: number): number => Math.round(value * 1e3) / 1e3;
 
-/** A geometry with the vertices of its own triangles only, for edges. */
+/** Copies a geometry with only the vertices of its triangles, for edges. */
 function compact(geometry: BufferGeometry): BufferGeometry {
   const plain = new BufferGeometry();
   plain.setAttribute("position", geometry.getAttribute("position"));
@@ -523,9 +523,9 @@ function compact(geometry: BufferGeometry): BufferGeometry {
 }
 
 function clear(group: Group): void {
-  for (const one of [...group.children] as Mesh[]) {
-    group.remove(one);
-    one.geometry.dispose();
-    (one.material as Material).dispose();
+  for (const mesh of [...group.children] as Mesh[]) {
+    group.remove(mesh);
+    mesh.geometry.dispose();
+    (mesh.material as Material).dispose();
   }
 }

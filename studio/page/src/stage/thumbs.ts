@@ -1,4 +1,4 @@
-// Small pictures of results, all from one direction, by one renderer that draws one after the other.
+// Small pictures of results, all from one direction; a single renderer draws them in turn.
 
 import {
   BufferGeometry,
@@ -17,7 +17,7 @@ import {
 import type { Shape } from "../messages";
 import { frame } from "./framing";
 import { COLORS } from "./stage";
-import { triangle, unpacked } from "./meshes";
+import { triangle, unpack } from "./meshes";
 
 const SHARP = Math.min(Math.max(devicePixelRatio, 1), 2);
 export const WIDTH = Math.round(148 * SHARP);
@@ -25,7 +25,7 @@ export const HEIGHT = Math.round(98 * SHARP);
 
 const waiting: (() => void)[] = [];
 
-/** Draws one picture after the other, so that none of them keeps the page from what is clicked meanwhile. */
+/** Draws pictures in turn, so that the page answers clicks between them. */
 export function later(draw: () => void): void {
   waiting.push(draw);
   if (waiting.length === 1) setTimeout(next, 30);
@@ -38,21 +38,21 @@ function next(): void {
 }
 
 let renderer: WebGLRenderer | null = null;
-// Kept: what no material uses is compiled again.
+// The materials stay in memory: three.js drops shaders without a material, and would compile them again.
 const materials = {
   flat: new MeshBasicMaterial({ vertexColors: true }),
   fine: new MeshLambertMaterial({ vertexColors: true }),
   coarse: new MeshLambertMaterial({ vertexColors: true, flatShading: true }),
 };
 
-/** Compiles what small pictures are drawn with, before the first one is wanted. */
+/** Compiles the shaders of small pictures before the first picture. */
 export function warm(): void {
   const pen = document.createElement("canvas").getContext("2d")!;
-  // Reading the picture waits until it is drawn.
-  for (const material of Object.values(materials)) pen.drawImage(drawn(triangle(), material, "light", [0, 0, 0], [1, 1, 1]), 0, 0);
+  // `drawImage` waits until the picture is drawn.
+  for (const material of Object.values(materials)) pen.drawImage(render(triangle(), material, "light", [0, 0, 0], [1, 1, 1]), 0, 0);
 }
 
-/** Draws a shape into a canvas; `low` and `high` are what all pictures of the gallery look at. */
+/** Draws a shape into a canvas; `low` and `high` are the corners of the box that it shows. */
 export function thumbnail(
   canvas: HTMLCanvasElement,
   header: Shape,
@@ -66,13 +66,13 @@ export function thumbnail(
     pen.clearRect(0, 0, WIDTH, HEIGHT);
     return;
   }
-  const { geometry } = unpacked(header, payload);
+  const { geometry } = unpack(header, payload);
   const material = materials[header.is_flat ? "flat" : header.detail === "fine" ? "fine" : "coarse"];
-  pen.drawImage(drawn(geometry, material, theme, low, high), 0, 0, WIDTH, HEIGHT);
+  pen.drawImage(render(geometry, material, theme, low, high), 0, 0, WIDTH, HEIGHT);
 }
 
-/** Draws a geometry, of which nothing is kept. */
-function drawn(
+/** Draws a geometry and disposes of it. */
+function render(
   geometry: BufferGeometry,
   material: Material,
   theme: "light" | "dark",

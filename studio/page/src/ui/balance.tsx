@@ -1,4 +1,4 @@
-// Whether a structure stands, by what margin, and the boards of which its pieces are cut.
+// The balance of a structure: whether it stands, its margin, and the boards for cutting its pieces.
 
 import { useState } from "preact/hooks";
 import * as store from "../store";
@@ -7,7 +7,7 @@ export function Balance() {
   const judged = store.judged.value;
   const [isBusy, setBusy] = useState(false);
   const key = store.picked.value;
-  const letGo = async () => {
+  const simulate = async () => {
     if (key === null) return;
     setBusy(true);
     await store.tell({ kind: "judge", key, simulate: true });
@@ -25,10 +25,10 @@ export function Balance() {
           </p>
           <p class="quiet">{judged.text}</p>
           <div class="actions">
-            <button class="button" onClick={() => void letGo()} disabled={isBusy} title="Simulate five seconds">
-              {isBusy ? "Falling…" : "Let go"}
+            <button class="button" onClick={() => void simulate()} disabled={isBusy} title="Simulate the structure for five seconds">
+              {isBusy ? "Simulating…" : "Simulate"}
             </button>
-            <button class="button" aria-pressed={store.showForces.value} onClick={() => (store.showForces.value = !store.showForces.value)}>
+            <button class="button" title="Show the forces between blocks" aria-pressed={store.showForces.value} onClick={() => (store.showForces.value = !store.showForces.value)}>
               Forces
             </button>
           </div>
@@ -40,7 +40,7 @@ export function Balance() {
 }
 
 function Boards({ thickness }: { thickness: number | null }) {
-  if (thickness === null) return <p class="quiet">Its blocks are no outlines of one board: they cannot be cut.</p>;
+  if (thickness === null) return <p class="quiet">The pieces cannot be cut: not all blocks are flat outlines of one thickness.</p>;
   const names = ["width", "height", "kerf"] as const;
   return (
     <div class="boards" role="group" aria-label={`Boards of ${thickness.toFixed(0)} mm`}>
@@ -57,7 +57,7 @@ function Boards({ thickness }: { thickness: number | null }) {
               onChange={(event) => {
                 const value = Number(event.currentTarget.value);
                 if (value > 0 || (k === 2 && value === 0)) {
-                  store.board.value = store.board.value.map((one, at) => (at === k ? value : one)) as [number, number, number];
+                  store.board.value = store.board.value.map((old, at) => (at === k ? value : old)) as [number, number, number];
                 }
               }}
             />
@@ -66,9 +66,9 @@ function Boards({ thickness }: { thickness: number | null }) {
         <span class="quiet">mm</span>
       </div>
       <div class="actions">
-        <button class="button small" onClick={() => void store.exported("dxf")}>DXF</button>
-        <button class="button small" onClick={() => void store.exported("svg")}>SVG</button>
-        <button class="button small" onClick={() => void store.exported("assembly")}>Plan</button>
+        <button class="button small" onClick={() => void store.download("dxf")}>DXF</button>
+        <button class="button small" onClick={() => void store.download("svg")}>SVG</button>
+        <button class="button small" onClick={() => void store.download("assembly")}>Plan</button>
       </div>
     </div>
   );

@@ -1,4 +1,4 @@
-// The bar at the top: what is open, undo and redo, tools, export, light.
+// The bar at the top: undo and redo, tools, export, theme.
 
 import { useState } from "preact/hooks";
 import * as store from "../store";
@@ -7,13 +7,13 @@ import { Icon } from "./icons";
 const FORMATS = [
   ["glb", "GLB", "for Blender, engines, the web"],
   ["stl", "STL", "for 3D printing"],
-  ["obj", "OBJ", "for everything else"],
+  ["obj", "OBJ", "for other programs"],
   ["png", "PNG", "a picture"],
   ["json", "Recipe", "run.json, for niwaki replay"],
 ] as const;
 
 const MORE = {
-  structure: [["dxf", "DXF", "boards to cut"], ["svg", "SVG", "boards to cut"], ["assembly", "Plan", "how its pieces are put together"], ...FORMATS],
+  structure: [["dxf", "DXF", "boards to cut"], ["svg", "SVG", "boards to cut"], ["assembly", "Plan", "a drawing of the assembly"], ...FORMATS],
   coloring: [["svg", "SVG", "the drawing"], ["png", "PNG", "a picture"], ["toml", "Rules", "rules.toml, for niwaki color"]],
 } as const;
 
@@ -35,7 +35,7 @@ export function Bar({ onFit }: { onFit: () => void }) {
         </button>
       </div>
       <div class="group" role="group" aria-label="View">
-        <button class="icon-button" title="Look at everything (F)" onClick={onFit}>
+        <button class="icon-button" title="Fit the scene into the view (F)" onClick={onFit}>
           <Icon name="fit" />
         </button>
         {kind === "scene" && (
@@ -50,7 +50,7 @@ export function Bar({ onFit }: { onFit: () => void }) {
             </button>
             <button
               class="icon-button"
-              title="Difference to what is wanted (X)"
+              title="Show the difference from the target (X)"
               aria-pressed={store.showDifference.value}
               disabled={store.picked.value === null}
               onClick={() => (store.showDifference.value = !store.showDifference.value)}
@@ -81,7 +81,7 @@ export function Bar({ onFit }: { onFit: () => void }) {
       {!store.isOpen.value && <span class="warning" role="status">not connected</span>}
       <button
         class="icon-button"
-        title={store.theme.value === "light" ? "Dark" : "Light"}
+        title={store.theme.value === "light" ? "Dark theme" : "Light theme"}
         onClick={() => (store.theme.value = store.theme.value === "light" ? "dark" : "light")}
       >
         <Icon name={store.theme.value === "light" ? "moon" : "sun"} />
@@ -104,7 +104,7 @@ export function Bar({ onFit }: { onFit: () => void }) {
                 role="menuitem"
                 onClick={() => {
                   setExporting(false);
-                  void store.exported(format);
+                  void store.download(format);
                 }}
               >
                 <b>{name}</b> <span>{use}</span>

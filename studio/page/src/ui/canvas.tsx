@@ -1,4 +1,4 @@
-// The middle: the scene, the pen over it, messages, and the error of a model that does not compile.
+// The middle: the scene, the pen, messages, and the error of a model that does not compile.
 
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
@@ -16,8 +16,8 @@ import { Pen } from "./pen";
 
 export let stage: Stage;
 export let drag: Drag;
-/** What is on the stage: of tests and of the page itself. */
-export const shown = { key: null as Key | null, what: "", detail: "", bests: 0 };
+/** The shape on the stage, for tests and for the page. */
+export const shown = { key: null as Key | null, role: "", detail: "", bests: 0 };
 
 export function Canvas() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -41,7 +41,7 @@ export function Canvas() {
       <canvas
         ref={canvas}
         tabIndex={0}
-        aria-label="The scene. Drag to look around, click a part to select it, drag the selected part to move it."
+        aria-label="The scene. Drag to turn the view, click a part to select it, drag the selected part to move it."
         onPointerDown={(event) => {
           down.current = at(event);
           if (event.button === 0 && drag.press(...at(event))) event.currentTarget.setPointerCapture(event.pointerId);
@@ -55,7 +55,7 @@ export function Canvas() {
           const from = down.current;
           const to = at(event);
           if (drag.release(event.shiftKey)) return;
-          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) clicked(...to);
+          if (from && Math.hypot(from[0] - to[0], from[1] - to[1]) < 4) onClick(...to);
         }}
       />
       <Pen />
@@ -65,34 +65,34 @@ export function Canvas() {
       <Problem />
       <Notices />
       <Offers />
-      {store.quiet.value !== "" && (
+      {store.dragNote.value !== "" && (
         <p class="reason" role="status">
-          {store.quiet.value}
+          {store.dragNote.value}
         </p>
       )}
     </main>
   );
 }
 
-function clicked(x: number, y: number): void {
+function onClick(x: number, y: number): void {
   if (store.compared.value.length > 0) return;
   const part = stage.partAt(x, y);
-  const name = part === null ? stage.thingAt(x, y) : null;
+  const name = part === null ? stage.objectAt(x, y) : null;
   store.select(part);
-  if (name !== null) store.thing.value = { name, mode: "translate" };
-  else if (part === null) store.thing.value = null;
+  if (name !== null) store.activeObject.value = { name, mode: "translate" };
+  else if (part === null) store.activeObject.value = null;
 }
 
-/** Keep the stage up to date with what the studio tells. */
+/** Keeps the stage up to date with the messages of the studio. */
 function follow(): void {
   store.onShape((shape, payload) => {
-    if (shape.what === "ghost") {
+    if (shape.role === "ghost") {
       stage.setSolid("target", shape, payload, store.target.value);
       store.shownTarget.value = shape.source ?? null;
       if (shape.note) store.note(shape.note);
-    } else if (shape.what === "obstacle") {
+    } else if (shape.role === "obstacle") {
       stage.setSolid(`obstacle ${shape.number}`, shape, payload, store.view.value?.ask.obstacles?.[shape.number] ?? null);
-    } else if (shape.what === "best" || shape.what === "moving") {
+    } else if (shape.role === "best" || shape.role === "moving") {
       put(shape, payload);
       drag.shown(shape);
     } else if (store.sameKey(shape.key, store.picked.value) && !store.isSearching.value) {
@@ -104,8 +104,8 @@ function follow(): void {
   const put = (shape: Parameters<Stage["show"]>[0], payload: ArrayBuffer) => {
     stage.show(shape, payload);
     shown.key = shape?.key ?? null;
-    shown.what = shape?.what ?? "";
-    shown.bests = shown.what !== "best" ? 0 : shown.bests + 1;
+    shown.role = shape?.role ?? "";
+    shown.bests = shown.role !== "best" ? 0 : shown.bests + 1;
     shown.detail = shape?.detail ?? "";
     remark();
   };
@@ -120,7 +120,7 @@ function follow(): void {
       (address) => falls.has(address),
     );
   };
-  // What is picked is shown: at once as it is in the gallery, then finely, with its choices.
+  // The active result is shown at once with the mesh of the gallery, then with the fine mesh and its choices.
   let last = "";
   effect(() => {
     const key = store.picked.value;
@@ -140,7 +140,7 @@ function follow(): void {
     if (store.kind.value === "structure") void store.tell({ kind: "judge", key });
   });
   effect(() => {
-    // A search that has ended without a result leaves the picked one.
+    // After a search without a result the active result is shown again.
     if (store.isSearching.value) last = "";
   });
   let model = "";
@@ -163,8 +163,8 @@ function follow(): void {
   });
   let rules = "";
   effect(() => {
-    // The rules of a drawing have changed: how well the picked result keeps them has, too.
-    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.held.map((one) => one.part)]);
+    // New rules of a drawing need a new report on the active result.
+    const now = JSON.stringify([store.view.value?.ask.rules, store.view.value?.held.map(({ part }) => part)]);
     const key = store.picked.peek();
     if (now !== rules && rules !== "" && key !== null && store.kind.peek() === "coloring") void store.tell({ kind: "describe", key });
     rules = now;
@@ -174,25 +174,25 @@ function follow(): void {
   });
   effect(() => {
     const { count, order } = store.growth.value;
-    stage.setGrowth(count, order, (store.described.value?.parts ?? []).map((one) => one.address));
+    stage.setGrowth(count, order, (store.described.value?.parts ?? []).map(({ address }) => address));
   });
   effect(() => stage.setSides(sideShapes.value));
-  // The difference of the picked result, asked for when it is looked at.
-  let asked = "";
+  // The difference of the active result is requested when it is shown.
+  let requested = "";
   effect(() => {
     const key = store.isSearching.value || !store.showDifference.value ? null : store.picked.value;
     const name = key === null ? "" : store.nameOf(key);
-    if (name === asked) return;
-    asked = name;
+    if (name === requested) return;
+    requested = name;
     store.difference.value = null;
     if (key !== null) void store.tell({ kind: "difference", key });
   });
   effect(() => {
     void store.theme.value;
-    const found = store.showDifference.value ? store.difference.value : null;
-    stage.setDifference(found?.header ?? null, found?.marks ?? new Uint8Array());
+    const difference = store.showDifference.value ? store.difference.value : null;
+    stage.setDifference(difference?.header ?? null, difference?.marks ?? new Uint8Array());
   });
-  effect(() => stage.setHandles(store.thing.value?.name ?? null, store.thing.value?.mode ?? "translate"));
+  effect(() => stage.setHandles(store.activeObject.value?.name ?? null, store.activeObject.value?.mode ?? "translate"));
   effect(() => stage.setGhostVisible(store.showGhost.value));
   effect(() => {
     document.documentElement.dataset.theme = store.theme.value;

@@ -1,15 +1,15 @@
-// Starred results side by side: their fine shapes, and their numbers over them.
+// Starred results side by side: fine shapes with numbers above them.
 
 import { computed, effect, signal } from "@preact/signals";
 import type { Shape } from "../messages";
 import * as store from "../store";
 import { fits, shapeOf } from "./gallery";
 
-/** Fine shapes of the compared results, as they come. */
+/** Fine shapes of the compared results that have arrived. */
 const fine = signal(new Map<string, [Shape, ArrayBuffer]>());
 
 store.onShape((shape, payload) => {
-  if (shape.what !== "result" || shape.detail !== "fine" || shape.key == null) return;
+  if (shape.role !== "result" || shape.detail !== "fine" || shape.key == null) return;
   const name = store.nameOf(shape.key);
   if (store.compared.value.some((key) => store.nameOf(key) === name)) fine.value = new Map(fine.value).set(name, [shape, payload]);
 });
@@ -21,8 +21,8 @@ effect(() => {
 
 export const sideShapes = computed(() =>
   store.compared.value.flatMap((key) => {
-    const found = fine.value.get(store.nameOf(key)) ?? shapeOf(store.nameOf(key));
-    return found === undefined ? [] : [found];
+    const shape = fine.value.get(store.nameOf(key)) ?? shapeOf(store.nameOf(key));
+    return shape === undefined ? [] : [shape];
   }),
 );
 
@@ -33,12 +33,12 @@ export function Sides() {
   return (
     <div class="sides" role="group" aria-label="Results side by side">
       {keys.map((key) => {
-        const place = results.findIndex((one) => store.sameKey(one.key, key));
-        const one = results[place];
+        const place = results.findIndex((result) => store.sameKey(result.key, key));
+        const outcome = results[place];
         return (
           <div key={store.nameOf(key)}>
-            <button class="side-name" title="Go on with this result" onClick={() => go(key)}>
-              <b>{place + 1}</b> {one && fits(one)}
+            <button class="side-name" title="Make this the active result" onClick={() => pick(key)}>
+              <b>{place + 1}</b> {outcome && fits(outcome)}
             </button>
           </div>
         );
@@ -47,7 +47,7 @@ export function Sides() {
   );
 }
 
-function go(key: (typeof store.compared.value)[number]): void {
+function pick(key: (typeof store.compared.value)[number]): void {
   store.compared.value = [];
   void store.tell({ kind: "pick", key });
 }

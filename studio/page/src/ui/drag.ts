@@ -1,5 +1,5 @@
-// A pointer that drags the selected part: in the plane through the held point that faces the camera. While the part cannot
-// follow, a line goes from it to the pointer, and a quiet line of text says why. Esc ends the drag with nothing changed.
+// Dragging the selected part in the plane through the grabbed point that faces the camera. While the part cannot follow, a
+// line leads from it to the pointer, and a line of text tells the reason. Esc ends the drag without a change.
 
 import type { Shape } from "../messages";
 import * as store from "../store";
@@ -9,41 +9,41 @@ import { type Stage, Vector3 } from "../view";
 const SLACK = 4;
 
 export class Drag {
-  private held: { part: string; grab: Vector3; from: [number, number]; isMoving: boolean } | null = null;
+  private grip: { part: string; grab: Vector3; from: [number, number]; isMoving: boolean } | null = null;
   private goal = new Vector3();
-  /** What was left to the pointer, as a share of the scene's size. */
+  /** The distance to the pointer, as a share of the scene's size. */
   left = 0;
 
   constructor(private readonly stage: Stage) {}
 
-  /** Whether a part is being moved. */
+  /** Whether a part moves with the pointer. */
   get isMoving(): boolean {
-    return this.held?.isMoving ?? false;
+    return this.grip?.isMoving ?? false;
   }
 
-  /** The pointer goes down; whether it holds the selected part, and not the camera. */
+  /** Grabs the selected part if the pointer goes down on it; returns whether it does. */
   press(x: number, y: number): boolean {
     const hit = store.tool.value === "look" && !store.isSearching.value ? this.stage.hitAt(x, y) : null;
     if (hit === null || hit.address !== store.part.value) return false;
     store.offers.value = [];
-    this.held = { part: hit.address, grab: hit.point, from: [x, y], isMoving: false };
+    this.grip = { part: hit.address, grab: hit.point, from: [x, y], isMoving: false };
     this.stage.setOrbiting(false);
     return true;
   }
 
-  /** The pointer moves; whether a part moves with it. */
+  /** Moves the grabbed part; returns whether a part moves with the pointer. */
   move(x: number, y: number): boolean {
-    const held = this.held;
-    if (held === null) return false;
-    held.isMoving ||= Math.hypot(x - held.from[0], y - held.from[1]) >= SLACK;
-    if (held.isMoving) {
-      this.goal = this.stage.across(x, y, held.grab);
+    const grip = this.grip;
+    if (grip === null) return false;
+    grip.isMoving ||= Math.hypot(x - grip.from[0], y - grip.from[1]) >= SLACK;
+    if (grip.isMoving) {
+      this.goal = this.stage.across(x, y, grip.grab);
       void this.tell("move");
     }
-    return held.isMoving;
+    return grip.isMoving;
   }
 
-  /** The pointer goes up; whether a part was moved. */
+  /** Releases the part; returns whether it was moved. */
   release(isFollowed: boolean): boolean {
     const wasMoving = this.isMoving;
     if (wasMoving) void this.end(isFollowed);
@@ -51,48 +51,48 @@ export class Drag {
     return wasMoving;
   }
 
-  /** Esc: the part goes back. */
+  /** Cancels the drag (Esc); the part returns to its place. */
   cancel(): void {
     if (!this.isMoving) return;
-    void this.tell("cancel").then(back);
+    void this.tell("cancel").then(showActive);
     this.forget();
   }
 
-  /** A shape of the part that moves has come. */
+  /** Follows a shape of the moving part that has arrived. */
   shown(shape: Shape): void {
     if (!this.isMoving || shape.held === null) return;
-    store.quiet.value = shape.note;
+    store.dragNote.value = shape.note;
     this.left = shape.left;
     this.stage.tether(shape.note === "" ? null : new Vector3(...shape.held), this.goal);
   }
 
   private async end(isFollowed: boolean): Promise<void> {
     const answer = await this.tell("end", isFollowed);
-    const found = answer?.kind === "dragged" ? answer : null;
-    store.offers.value = found?.offers ?? [];
-    store.hasDragged.value = (found?.changes.length ?? 0) > 0;
-    if (found === null || found.reason !== "") {
-      if (found !== null) store.note(found.reason);
-      if (found === null || found.changes.length === 0) back();
+    const outcome = answer?.kind === "dragged" ? answer : null;
+    store.offers.value = outcome?.offers ?? [];
+    store.hasDragged.value = (outcome?.changes.length ?? 0) > 0;
+    if (outcome === null || outcome.reason !== "") {
+      if (outcome !== null) store.note(outcome.reason);
+      if (outcome === null || outcome.changes.length === 0) showActive();
     }
   }
 
   private tell(phase: "move" | "end" | "cancel", follow = false): ReturnType<typeof store.tell> {
-    const { part, grab } = this.held!;
+    const { part, grab } = this.grip!;
     const along = this.stage.sight(this.goal).toArray();
     return store.tell({ kind: "drag", part, to: this.goal.toArray(), grab: grab.toArray(), along, phase, follow });
   }
 
   private forget(): void {
-    this.held = null;
-    store.quiet.value = "";
+    this.grip = null;
+    store.dragNote.value = "";
     this.stage.tether(null, null);
     this.stage.setOrbiting(store.tool.value === "look");
   }
 }
 
-/** The picked result is shown as it was. */
-function back(): void {
+/** Shows the active result again. */
+function showActive(): void {
   const key = store.picked.value;
   if (key !== null) void store.tell({ kind: "show", key, detail: "fine" });
 }

@@ -1,13 +1,13 @@
-// The middle, where a drawing is coloured: its picture, the region under the pointer, and the rule that is being made.
+// The middle for a drawing: its picture, the region under the pointer, and the rule that the user is making.
 
 import { useEffect, useRef } from "preact/hooks";
 import { easel, pictureOf, plan, regionAt } from "../pictures";
 import * as store from "../store";
-import { addRule, clicked, KINDS, ruling } from "./rules";
+import { addRule, clickRegion, KINDS, ruling } from "./rules";
 import { Notices, Problem } from "./notices";
 
 const MARGIN = 34;
-/** Where the picture lies in the canvas, CSS pixels: left, top, width, height. */
+/** The frame of the picture in the canvas, CSS pixels: left, top, width, height. */
 export const frame: { at: [number, number, number, number] } = { at: [0, 0, 1, 1] };
 
 export function Easel() {
@@ -40,17 +40,17 @@ export function Easel() {
     pen.fillRect(left, top, wide, high);
     pen.shadowColor = "transparent";
     pen.imageSmoothingQuality = "high";
-    pen.drawImage(shown ?? now.own, left, top, wide, high);
-    for (const one of marked) {
-      const edge = edgeOf(one);
+    pen.drawImage(shown ?? now.original, left, top, wide, high);
+    for (const region of marked) {
+      const edge = edgeOf(region);
       if (edge !== null) pen.drawImage(edge, left, top, wide, high);
     }
   };
   const edgeOf = (region: string): HTMLCanvasElement | null => {
-    const number = store.view.value?.model?.regions.findIndex((one) => one.name === region) ?? -1;
+    const number = store.view.value?.model?.regions.findIndex(({ name }) => name === region) ?? -1;
     if (now === null || number < 0) return null;
-    const kept = outline.current;
-    if (kept?.name === region && kept.of === now.labels) return kept.edge;
+    const last = outline.current;
+    if (last?.name === region && last.of === now.labels) return last.edge;
     const edge = edgeMap(now.labels, now.width, now.height, number);
     outline.current = { name: region, of: now.labels, edge };
     return edge;
@@ -77,11 +77,11 @@ export function Easel() {
         data-picture={name}
         onPointerMove={(event) => (store.hovered.value = at(event))}
         onPointerLeave={() => (store.hovered.value = null)}
-        onClick={(event) => clicked(at(event))}
+        onClick={(event) => clickRegion(at(event))}
       />
       {store.hovered.value !== null && rule === null && <div class="region-name">{store.hovered.value}</div>}
       {rule !== null && (
-        <div class="pen-bar" role="group" aria-label="A rule">
+        <div class="pen-bar" role="group" aria-label="New rule">
           <span>
             <b>{KINDS[rule.kind].name}</b>{" "}
             {rule.regions.length === 0 ? KINDS[rule.kind].ask : rule.regions.join(KINDS[rule.kind].sign)}
@@ -100,7 +100,7 @@ export function Easel() {
   );
 }
 
-/** The edge of a region in the accent's colour, two pixels wide with a light line beside it. */
+/** Draws the edge of a region in the accent colour, two pixels wide, with a light line beside it. */
 function edgeMap(labels: Uint16Array, width: number, height: number, number: number): HTMLCanvasElement {
   const page = document.createElement("canvas");
   page.width = width;
@@ -112,8 +112,8 @@ function edgeMap(labels: Uint16Array, width: number, height: number, number: num
       const here = labels[y * width + x] === number;
       let near = 3;
       for (let d = 1; d < 3; d++) {
-        const others = [x >= d ? -d : 0, x < width - d ? d : 0, y >= d ? -d * width : 0, y < height - d ? d * width : 0];
-        if (others.some((step) => (labels[y * width + x + step] === number) !== here)) near = Math.min(near, d);
+        const neighbours = [x >= d ? -d : 0, x < width - d ? d : 0, y >= d ? -d * width : 0, y < height - d ? d * width : 0];
+        if (neighbours.some((step) => (labels[y * width + x + step] === number) !== here)) near = Math.min(near, d);
       }
       if (near > 2) continue;
       const color = here ? [194, 87, 31, near === 1 ? 255 : 160] : [255, 255, 255, near === 1 ? 200 : 90];

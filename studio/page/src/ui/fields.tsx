@@ -1,17 +1,17 @@
-// Inputs that keep what is typed or dragged: what the studio tells meanwhile does not take it away.
+// Inputs that keep the user's text or position while messages of the studio arrive.
 
 import { useState } from "preact/hooks";
 
-interface Given {
+interface Properties {
   value: number | string | undefined;
-  /** Called while it changes. */
+  /** Called during a change. */
   onMove?: (text: string) => void;
-  /** Called when it has changed. */
+  /** Called at the end of a change. */
   onEnd: (text: string) => void;
   [attribute: string]: any;
 }
 
-export function Field({ value, onMove, onEnd, ...rest }: Given) {
+export function Field({ value, onMove, onEnd, ...rest }: Properties) {
   const [draft, setDraft] = useState<string | null>(null);
   return (
     <input
@@ -24,7 +24,7 @@ export function Field({ value, onMove, onEnd, ...rest }: Given) {
       onChange={(event) => {
         const text = event.currentTarget.value;
         onEnd(text);
-        // The answer brings the value; until then it stays as it was left.
+        // The input keeps its text until the answer brings the new value.
         setTimeout(() => setDraft((now) => (now === text ? null : now)), 400);
       }}
     />

@@ -7,12 +7,12 @@ import * as store from "../store";
 import { HEIGHT, later, thumbnail, WIDTH } from "../view";
 import { Icon } from "./icons";
 
-/** Shapes by result, and what waits for them. */
+/** Shapes by result, and functions that wait for them. */
 const shapes = new Map<string, [Shape, ArrayBuffer]>();
 const waiting = new Map<string, () => void>();
 
 store.onShape((shape, payload) => {
-  if (shape.what !== "result" || shape.key == null) return;
+  if (shape.role !== "result" || shape.key == null) return;
   const name = store.nameOf(shape.key);
   if (shape.detail !== "light" && shapes.has(name)) return;
   shapes.set(name, [shape, payload]);
@@ -21,10 +21,10 @@ store.onShape((shape, payload) => {
 
 export const shapeOf = (name: string): [Shape, ArrayBuffer] | undefined => shapes.get(name);
 
-/** How much of what is wanted a result covers, and how much of it is elsewhere; rounded to the worse side. */
-export function fits(one: Outcome): string {
-  if (one.covered === null || one.outside === null) return "";
-  return `${Math.floor(100 * one.covered + 1e-9)} % covered, ${Math.ceil(100 * one.outside - 1e-9)} % outside`;
+/** The share of the target that a result covers, and the share of the result outside; rounded to the worse side. */
+export function fits({ covered, outside }: Outcome): string {
+  if (covered === null || outside === null) return "";
+  return `${Math.floor(100 * covered + 1e-9)} % covered, ${Math.ceil(100 * outside - 1e-9)} % outside`;
 }
 
 export function Gallery() {
@@ -35,7 +35,7 @@ export function Gallery() {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (by === undefined) return;
     event.preventDefault();
-    const at = results.findIndex((one) => store.sameKey(one.key, view?.picked));
+    const at = results.findIndex(({ key }) => store.sameKey(key, view?.picked));
     const next = results[Math.min(Math.max(at + by, 0), results.length - 1)];
     if (next === undefined) return;
     void store.tell({ kind: "pick", key: next.key });
@@ -44,8 +44,8 @@ export function Gallery() {
   return (
     <div class="gallery" role="listbox" aria-label="Results" aria-orientation="horizontal" ref={strip} onKeyDown={move}>
       {results.length === 0 && <p class="quiet empty">Results appear here, the best first.</p>}
-      {results.map((one, place) => (
-        <Card key={store.nameOf(one.key)} outcome={one} number={place + 1} />
+      {results.map((outcome, place) => (
+        <Card key={store.nameOf(outcome.key)} outcome={outcome} number={place + 1} />
       ))}
     </div>
   );
@@ -62,13 +62,13 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
       if (canvas.current === null) return;
       const picture = pictureOf(name);
       if (picture !== undefined) {
-        fitted(canvas.current, picture);
+        drawFitted(canvas.current, picture);
         canvas.current.dataset.drawn = "yes";
         return;
       }
-      const found = shapes.get(name);
-      if (found === undefined) return;
-      thumbnail(canvas.current, found[0], found[1], theme, found[0].low, found[0].high);
+      const shape = shapes.get(name);
+      if (shape === undefined) return;
+      thumbnail(canvas.current, shape[0], shape[1], theme, shape[0].low, shape[0].high);
       canvas.current.dataset.drawn = "yes";
     };
     const wait = () => later(draw);
@@ -102,7 +102,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
         <button
           class="icon-button tiny star"
           aria-pressed={isStarred}
-          title={isStarred ? "Take the star away" : "Keep: starred results stay"}
+          title={isStarred ? "Remove the star" : "Star this result: a new search keeps it"}
           onClick={(event) => {
             event.stopPropagation();
             void store.tell({ kind: "star", key: outcome.key, on: !isStarred });
@@ -116,7 +116,7 @@ function Card({ outcome, number }: { outcome: Outcome; number: number }) {
 }
 
 /** Draws a picture whole, in the middle. */
-function fitted(canvas: HTMLCanvasElement, picture: ImageBitmap): void {
+function drawFitted(canvas: HTMLCanvasElement, picture: ImageBitmap): void {
   const pen = canvas.getContext("2d")!;
   const scale = Math.min(WIDTH / picture.width, HEIGHT / picture.height);
   const [wide, high] = [picture.width * scale, picture.height * scale];

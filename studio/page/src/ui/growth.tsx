@@ -1,4 +1,4 @@
-// The growth of the picked result: played, or scrubbed through; part by part where motion is not wanted.
+// The growth of the active result: an animation, a slider, or single steps if the user prefers reduced motion.
 
 import { effect, signal } from "@preact/signals";
 import { stage } from "./canvas";
@@ -6,8 +6,8 @@ import * as store from "../store";
 import type { Order } from "../view";
 import { Icon } from "./icons";
 
-/** Seconds of the whole. */
-const LONG = 4;
+/** Seconds of the whole animation. */
+const DURATION = 4;
 
 const isPlaying = signal(false);
 const isCalm = matchMedia("(prefers-reduced-motion: reduce)");
@@ -27,10 +27,10 @@ export function play(): void {
   }
   isPlaying.value = !isPlaying.value;
   if (!isPlaying.value) return;
-  const begun = performance.now() - (from >= all ? 0 : (1000 * LONG * from) / all);
+  const start = performance.now() - (from >= all ? 0 : (1000 * DURATION * from) / all);
   const step = (now: number) => {
     if (!isPlaying.value) return;
-    const count = Math.ceil((all * (now - begun)) / (1000 * LONG));
+    const count = Math.ceil((all * (now - start)) / (1000 * DURATION));
     show(Math.max(0, Math.min(count, all)));
     if (count < all) requestAnimationFrame(step);
     else isPlaying.value = false;
@@ -38,7 +38,7 @@ export function play(): void {
   requestAnimationFrame(step);
 }
 
-// Another shape is whole.
+// A new shape is shown as a whole.
 effect(() => {
   void [store.picked.value, store.isSearching.value];
   isPlaying.value = false;
@@ -55,7 +55,7 @@ export function Growth() {
     <div class="growth" role="group" aria-label="Growth">
       <button
         class="icon-button small"
-        title={isCalm.matches ? "One part more (Space)" : isPlaying.value ? "Pause (Space)" : "Play the growth (Space)"}
+        title={isCalm.matches ? "Show one more part (Space)" : isPlaying.value ? "Pause (Space)" : "Play the growth (Space)"}
         onClick={play}
       >
         <Icon name={isPlaying.value ? "pause" : "play"} />
@@ -65,7 +65,7 @@ export function Growth() {
         min={0}
         max={all}
         value={now}
-        aria-label="parts that are shown"
+        aria-label="Visible parts"
         aria-valuetext={`${now} of ${all} parts`}
         onInput={(event) => {
           isPlaying.value = false;
@@ -77,11 +77,11 @@ export function Growth() {
         {now} of {all}
       </output>
       <select
-        aria-label="order of growth"
+        aria-label="Order of growth"
         value={order}
         onChange={(event) => (store.growth.value = { count, order: event.currentTarget.value as Order })}
       >
-        <option value="emitted">as it runs</option>
+        <option value="emitted">order of the run</option>
         <option value="depth">outer calls first</option>
       </select>
     </div>

@@ -1,4 +1,4 @@
-// The right side: the part that is selected, its place in the source, its choices.
+// The right side: the selected part, its place in the source, its choices.
 
 import { useState } from "preact/hooks";
 import type { ChoiceInfo, Place } from "../messages";
@@ -12,23 +12,23 @@ const SHOWN = 150;
 
 export function Inspector() {
   const view = store.view.value;
-  const best = store.best.value;
+  const active = store.active.value;
   const level = store.level.value;
   const described = store.described.value;
-  if (view === null || best === null || described === null || !store.sameKey(described.key, best.key)) {
+  if (view === null || active === null || described === null || !store.sameKey(described.key, active.key)) {
     return (
       <aside class="side right" aria-label="Part">
         <section>
           <h2>Part</h2>
-          <p class="quiet">{best === null ? "Grow something, then click a part of it." : "…"}</p>
+          <p class="quiet">{active === null ? "Grow a result, then click a part." : "…"}</p>
         </section>
       </aside>
     );
   }
   const here = level ?? "";
-  const choices = described.choices.filter((one) => isBelow(one.address, here));
-  const count = described.parts.filter((one) => isBelow(one.address, here)).length;
-  const place = described.parts.find((one) => one.address === store.part.value)?.place ?? null;
+  const choices = described.choices.filter(({ address }) => isBelow(address, here));
+  const count = described.parts.filter(({ address }) => isBelow(address, here)).length;
+  const place = described.parts.find(({ address }) => address === store.part.value)?.place ?? null;
   return (
     <aside class="side right" aria-label="Part">
       <section>
@@ -50,14 +50,14 @@ export function Inspector() {
               class="button"
               aria-pressed={store.heldParts.value.has(here)}
               onClick={() => store.holdOrFree(here)}
-              title="Hold this part in what comes (H)"
+              title="Hold this part in further searches (H)"
             >
               <Icon name="pin" filled={store.heldParts.value.has(here)} /> {store.heldParts.value.has(here) ? "Free" : "Hold"}
             </button>
           </div>
         )}
         {here !== "" && (
-          <label class="row" title="How different the variants are from this part">
+          <label class="row" title="Difference between the variants and this part">
             <span>variants</span>
             <input
               type="range"
@@ -65,7 +65,7 @@ export function Inspector() {
               max={1}
               step={0.25}
               value={store.strength.value}
-              aria-label="how different variants are"
+              aria-label="Difference of variants"
               onInput={(event) => (store.strength.value = Number(event.currentTarget.value))}
             />
             <output>{["alike", "near", "some", "far", "unlike"][Math.round(4 * store.strength.value)]}</output>
@@ -75,7 +75,7 @@ export function Inspector() {
       {store.kind.value === "structure" && <Balance />}
       <section class="choices" aria-label="Choices">
         {grouped(choices.slice(0, SHOWN), here).map(([call, members]) => (
-          <div key={call} role="group" aria-label={call || "its own choices"}>
+          <div key={call} role="group" aria-label={call || "Choices of the part itself"}>
             {call !== "" && (
               <button
                 class="call"
@@ -87,12 +87,12 @@ export function Inspector() {
                 {call}
               </button>
             )}
-            {members.map((one) => (
-              <Choice key={one.address} choice={one} />
+            {members.map((choice) => (
+              <Choice key={choice.address} choice={choice} />
             ))}
           </div>
         ))}
-        {choices.length > SHOWN && <p class="quiet">{choices.length - SHOWN} more; select a smaller part.</p>}
+        {choices.length > SHOWN && <p class="quiet">{choices.length - SHOWN} more choices: select a smaller part to see them.</p>}
       </section>
     </aside>
   );
@@ -134,14 +134,14 @@ function Source({ place }: { place: Place }) {
   );
 }
 
-/** Choices by the call that makes them, named from the selection on; the selection's own first. */
+/** Groups choices by their calls, with names relative to the selection; the selection's own choices come first. */
 function grouped(choices: ChoiceInfo[], here: string): [string, ChoiceInfo[]][] {
-  const found = new Map<string, ChoiceInfo[]>([["", []]]);
-  for (const one of choices) {
-    const call = one.address.slice(here === "" ? 0 : here.length + 1).split("/").slice(0, -1).join("/");
-    found.set(call, [...(found.get(call) ?? []), one]);
+  const groups = new Map<string, ChoiceInfo[]>([["", []]]);
+  for (const choice of choices) {
+    const call = choice.address.slice(here === "" ? 0 : here.length + 1).split("/").slice(0, -1).join("/");
+    groups.set(call, [...(groups.get(call) ?? []), choice]);
   }
-  return [...found].filter(([, members]) => members.length > 0);
+  return [...groups].filter(([, members]) => members.length > 0);
 }
 
 function Choice({ choice }: { choice: ChoiceInfo }) {

@@ -1,4 +1,4 @@
-// Messages over the middle: what was refused, and the error of a model that does not compile.
+// Messages over the middle: failed commands, and the error of a model that does not compile.
 
 import * as store from "../store";
 import { Icon } from "./icons";
@@ -10,7 +10,7 @@ export function Problem() {
     <div class="problem" role="alert">
       <h3>{problem.place === null ? problem.code : `${problem.place.path.replace(/^.*\//, "")}:${problem.place.line}`}</h3>
       <pre>{problem.text}</pre>
-      <p>The last good shape stays. Save the file again to go on.</p>
+      <p>The last valid shape stays. Correct the file and save it again.</p>
     </div>
   );
 }
@@ -18,10 +18,10 @@ export function Problem() {
 export function Notices() {
   return (
     <div class="notices" aria-live="polite">
-      {store.notices.value.map((one) => (
-        <div key={one.id} class={one.isError ? "notice error" : "notice"}>
-          <pre>{one.text}</pre>
-          <button class="icon-button tiny" title="Dismiss" onClick={() => store.dismiss(one.id)}>
+      {store.notices.value.map((notice) => (
+        <div key={notice.id} class={notice.isError ? "notice error" : "notice"}>
+          <pre>{notice.text}</pre>
+          <button class="icon-button tiny" title="Dismiss" onClick={() => store.dismiss(notice.id)}>
             <Icon name="close" />
           </button>
         </div>

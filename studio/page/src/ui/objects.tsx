@@ -1,4 +1,4 @@
-// The objects of the scene beside its target, a row each: the floor, what to keep away from, light and camera of a sketch.
+// A row for each object of the scene beside its target: floor, obstacles, light and camera of a sketch.
 
 import { useRef, useState } from "preact/hooks";
 import * as store from "../store";
@@ -18,9 +18,9 @@ const NAMES: Record<Mode, [string, string]> = {
   rotate: ["turn", "Turn"],
 };
 
-/** What handles an object may have. */
+/** The buttons for the handles of an object. */
 export function Handles({ name }: { name: string }) {
-  const now = store.thing.value;
+  const now = store.activeObject.value;
   return (
     <>
       {MODES[kindOf(name)].map((mode) => {
@@ -31,7 +31,7 @@ export function Handles({ name }: { name: string }) {
             class="icon-button small"
             title={`${NAMES[mode][1]} the ${label(name)}`}
             aria-pressed={isOn}
-            onClick={() => (store.thing.value = isOn ? null : { name, mode })}
+            onClick={() => (store.activeObject.value = isOn ? null : { name, mode })}
           >
             <Icon name={NAMES[mode][0]} />
           </button>
@@ -55,7 +55,7 @@ export function Objects() {
   if (model?.draws) return null;
   const obstacles = ask.obstacles ?? [];
   const remove = (number: number) => {
-    store.thing.value = null;
+    store.activeObject.value = null;
     store.ask({ obstacles: obstacles.filter((_, k) => k !== number) });
   };
   const add = (source: string) => {
@@ -76,23 +76,23 @@ export function Objects() {
             <div class="menu narrow" role="menu" onMouseLeave={() => setAdding(false)}>
               {ask.floor == null && (
                 <button role="menuitem" onClick={() => add("floor")}>
-                  <b>Floor</b> <span>nothing below it</span>
+                  <b>Floor</b> <span>all parts stay above it</span>
                 </button>
               )}
               {["box", "ball", "column"].map((source) => (
                 <button key={source} role="menuitem" onClick={() => add(source)}>
-                  <b>{source[0].toUpperCase() + source.slice(1)}</b> <span>to keep away from</span>
+                  <b>{source[0].toUpperCase() + source.slice(1)}</b> <span>an obstacle</span>
                 </button>
               ))}
               <button role="menuitem" onClick={() => add("mesh")}>
-                <b>Mesh…</b> <span>to keep away from</span>
+                <b>Mesh…</b> <span>an obstacle</span>
               </button>
             </div>
           )}
         </div>
       </div>
       {ask.floor == null && obstacles.length === 0 && ask.sketch == null && (
-        <p class="quiet">Nothing but the target. Add a floor, or something to keep away from.</p>
+        <p class="quiet">The scene has only its target. Add a floor or an obstacle.</p>
       )}
       {ask.floor != null && (
         <Row name="floor" icon="floor" onRemove={() => store.ask({ floor: null })}>
@@ -105,8 +105,8 @@ export function Objects() {
           />
         </Row>
       )}
-      {obstacles.map((one, k) => (
-        <Row key={k} name={`obstacle ${k}`} icon={one.source === "ball" ? "ball" : "box"} onRemove={() => remove(k)} />
+      {obstacles.map((obstacle, k) => (
+        <Row key={k} name={`obstacle ${k}`} icon={obstacle.source === "ball" ? "ball" : "box"} onRemove={() => remove(k)} />
       ))}
       {ask.sketch?.kind === "shadow" && <Row name="light" icon="sun" />}
       {ask.sketch?.camera != null && (
@@ -121,10 +121,10 @@ export function Objects() {
         type="file"
         hidden
         accept=".obj,.stl,.ply,.glb,.gltf"
-        aria-label="A mesh to keep away from"
+        aria-label="A mesh as an obstacle"
         onChange={(event) => {
           const file = event.currentTarget.files?.[0];
-          if (file) void store.uploaded(file, true);
+          if (file) void store.upload(file, true);
           event.currentTarget.value = "";
         }}
       />
@@ -135,13 +135,13 @@ export function Objects() {
 function Row({ name, icon, onRemove, children }: { name: string; icon: string; onRemove?: () => void; children?: any }) {
   const text = label(name);
   return (
-    <div class={store.thing.value?.name === name ? "object selected" : "object"}>
+    <div class={store.activeObject.value?.name === name ? "object selected" : "object"}>
       <Icon name={icon} />
       <span>{text}</span>
       {children}
       <Handles name={name} />
       {onRemove && (
-        <button class="icon-button small" title={`Take the ${text} away`} onClick={onRemove}>
+        <button class="icon-button small" title={`Remove the ${text}`} onClick={onRemove}>
           <Icon name="close" />
         </button>
       )}

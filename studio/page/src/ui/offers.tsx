@@ -1,4 +1,4 @@
-// Changes of the model's file that explain the last drag, or arguments as defaults: shown as differences, written when accepted.
+// Offered changes of the model's file, shown as differences: numbers that explain the last drag, or arguments as defaults.
 
 import type { Offer } from "../messages";
 import * as store from "../store";
@@ -7,24 +7,24 @@ import { Icon } from "./icons";
 export function Offers() {
   return (
     <div class="offers" role="region" aria-label="Changes of the source">
-      {store.offers.value.map((one) => (
-        <details key={one.difference} class="notice offer">
-          <summary>{one.says}</summary>
+      {store.offers.value.map((offer) => (
+        <details key={offer.difference} class="notice offer">
+          <summary>{offer.label}</summary>
           <pre>
-            {one.difference
+            {offer.difference
               .split("\n")
               .slice(2)
               .map((line) => (
                 <span class={line.startsWith("+") ? "added" : line.startsWith("-") ? "removed" : ""}>{line + "\n"}</span>
               ))}
           </pre>
-          <button class="button" onClick={() => void accept(one)} title="Write this into the model's file">
-            Write it
+          <button class="button" onClick={() => void accept(offer)} title="Write this change into the model's file">
+            Write
           </button>
         </details>
       ))}
       {store.offers.value.length > 0 && (
-        <button class="icon-button tiny" title="Leave the file as it is" onClick={() => (store.offers.value = [])}>
+        <button class="icon-button tiny" title="Dismiss: leave the file unchanged" onClick={() => (store.offers.value = [])}>
           <Icon name="close" />
         </button>
       )}
@@ -34,7 +34,7 @@ export function Offers() {
 
 async function accept(offer: Offer): Promise<void> {
   store.offers.value = [];
-  // The file takes the place of the choices that the drag has changed, unless they change with it.
+  // The change of the file replaces the changed choices of the drag, so these are undone; other offers keep them.
   if (offer.is_instead && store.hasDragged.value) await store.tell({ kind: "undo" });
   await store.tell({ kind: "rewrite", difference: offer.difference });
 }

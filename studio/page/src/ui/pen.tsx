@@ -1,4 +1,4 @@
-// The pen: strokes over the view become a silhouette that is asked for, seen by the camera of that moment.
+// The pen: strokes over the view become a silhouette to grow into, seen by the present camera.
 
 import { useEffect, useRef } from "preact/hooks";
 import type { Difference, Eye, Sketch, Stroke } from "../messages";
@@ -6,7 +6,7 @@ import * as store from "../store";
 import { KINDS, pixels } from "../view";
 import { stage } from "./canvas";
 
-const near = (a: number[], b: number[]): boolean => a.every((one, k) => Math.abs(one - b[k]) < 1e-6 * (1 + Math.abs(one)));
+const near = (a: number[], b: number[]): boolean => a.every((number, k) => Math.abs(number - b[k]) < 1e-6 * (1 + Math.abs(number)));
 const sameEye = (a: Eye, b: Eye): boolean => near(a.position, b.position) && near(a.look_at, b.look_at);
 
 export function Pen() {
@@ -34,27 +34,28 @@ export function Pen() {
       pen.stroke();
     }
   };
-  const found = store.showDifference.value ? store.difference.value : null;
-  const isCompared = isSeen && found?.header.is_picture === true && found.header.low[0] === found.header.high[0];
+  const difference = store.showDifference.value ? store.difference.value : null;
+  const isCompared =
+    isSeen && difference?.header.is_picture === true && difference.header.low[0] === difference.header.high[0];
   useEffect(() => {
     redraw(isSeen && !isCompared ? sketch!.strokes : []);
-    if (isCompared) overlay(canvas.current!, found!.header, found!.marks);
-  }, [sketch, isSeen, isCompared, found, store.theme.value]);
+    if (isCompared) overlay(canvas.current!, difference!.header, difference!.marks);
+  }, [sketch, isSeen, isCompared, difference, store.theme.value]);
 
   const point = (event: PointerEvent): [number, number] => {
     const high = canvas.current!.clientHeight;
     return [event.offsetX / high, event.offsetY / high];
   };
-  const done = () => {
+  const finish = () => {
     const stroke = current.current;
     current.current = null;
     if (stroke === null) return;
     const { clientWidth, clientHeight } = canvas.current!;
-    const kept = isSeen ? sketch!.strokes : [];
+    const strokes = isSeen ? sketch!.strokes : [];
     const camera = isFlat ? null : stage.eye();
     const kind = isFlat ? "silhouette" : store.sketchKind.value;
-    const drawn: Sketch = { strokes: [...kept, stroke], aspect: clientWidth / clientHeight, camera, kind };
-    // The first stroke of a shadow puts the light where its shadow is seen.
+    const drawn: Sketch = { strokes: [...strokes, stroke], aspect: clientWidth / clientHeight, camera, kind };
+    // The first stroke of a shadow moves the light so that the camera sees the shadow.
     const light = kind === "shadow" && sketch?.kind !== "shadow" ? { light: stage.lightFromBehind() } : {};
     store.ask({ sketch: drawn, ...light });
   };
@@ -73,8 +74,8 @@ export function Pen() {
           current.current.points.push(point(event));
           redraw([...(isSeen ? sketch!.strokes : []), current.current]);
         }}
-        onPointerUp={done}
-        onPointerCancel={done}
+        onPointerUp={finish}
+        onPointerCancel={finish}
       />
       {isDrawing && (
         <div class="pen-bar" role="group" aria-label="Pen">
@@ -92,7 +93,7 @@ export function Pen() {
           </label>
           {!isFlat && (
             <select
-              aria-label="What the strokes are"
+              aria-label="Meaning of the strokes"
               value={sketch?.kind ?? store.sketchKind.value}
               onChange={(event) => {
                 store.sketchKind.value = event.currentTarget.value as "silhouette" | "shadow";
@@ -105,7 +106,7 @@ export function Pen() {
           )}
           {sketch?.camera != null && !isSeen && (
             <button class="text-button" onClick={() => stage.lookFrom(sketch.camera!)}>
-              back to its view
+              return to its view
             </button>
           )}
           <button class="text-button" disabled={sketch === null} onClick={() => store.ask({ sketch: null })}>
@@ -120,7 +121,7 @@ export function Pen() {
   );
 }
 
-/** The pixels of a picture over the view of its camera. */
+/** Draws the pixels of a difference over the view of its camera. */
 function overlay(page: HTMLCanvasElement, { size }: Difference, marks: Uint8Array): void {
   const small = new OffscreenCanvas(size[0], size[1]);
   small.getContext("2d")!.putImageData(new ImageData(pixels(marks, KINDS[store.theme.value], 190), size[0], size[1]), 0, 0);

@@ -1,13 +1,13 @@
-// The rules of a drawing: which there are, how far each is from being met, and a new one by clicking regions.
+// The rules of a drawing: a list with the miss of each rule, and new rules by clicking regions.
 
 import { signal } from "@preact/signals";
-import type { KeptRule, RuleAsk, RulesAsk } from "../messages";
+import type { RuleAsk, RuleResult, RulesAsk } from "../messages";
 import * as store from "../store";
 import { Icon } from "./icons";
 
 type Kind = RuleAsk["kind"];
 
-/** For each kind its name, what to click, what stands between its regions, and how many it needs. */
+/** For each kind: its name, a hint, the sign between its regions, and the least number of regions. */
 export const KINDS: Record<Kind, { name: string; ask: string; sign: string; least: number }> = {
   lighter: { name: "Lighter", ask: "click regions, the lightest first", sign: " › ", least: 2 },
   lightness: { name: "Steps", ask: "click shades, the lightest first: 15 units apart", sign: " › ", least: 2 },
@@ -16,17 +16,17 @@ export const KINDS: Record<Kind, { name: string; ask: string; sign: string; leas
   muted: { name: "Muted", ask: "click regions that stay near grey", sign: " · ", least: 1 },
 };
 
-/** The rule that is being made. */
+/** The rule that the user is making. */
 export const ruling = signal<{ kind: Kind; regions: string[]; most: number } | null>(null);
 
-export function asked(): RulesAsk {
+export function present(): RulesAsk {
   const view = store.view.value;
   return view?.ask.rules ?? view?.model?.rules ?? {};
 }
-const set = (rules: RuleAsk[]): void => store.ask({ rules: { ...asked(), rules } });
+const set = (rules: RuleAsk[]): void => store.ask({ rules: { ...present(), rules } });
 
-/** A region was clicked: it belongs to the rule that is being made, or is selected. */
-export function clicked(name: string | null): void {
+/** Adds a clicked region to the rule that the user is making, or selects the region. */
+export function clickRegion(name: string | null): void {
   const rule = ruling.value;
   if (rule === null) store.level.value = name === store.level.value ? null : name;
   else if (name !== null && !rule.regions.includes(name)) ruling.value = { ...rule, regions: [...rule.regions, name] };
@@ -36,34 +36,34 @@ export function addRule(): void {
   const rule = ruling.value;
   if (rule === null) return;
   ruling.value = null;
-  set([...(asked().rules ?? []), { kind: rule.kind, regions: rule.regions, ...(rule.kind === "muted" ? { most: rule.most } : {}) }]);
+  set([...(present().rules ?? []), { kind: rule.kind, regions: rule.regions, ...(rule.kind === "muted" ? { most: rule.most } : {}) }]);
 }
 
-/** How well the picked result keeps a rule: a row for each neighbouring pair, or for each region. */
-function rowsOf(rule: RuleAsk, kept: KeptRule[]): KeptRule[] {
-  const own = kept.filter((one) => one.kind === rule.kind);
+/** Selects the reports on a rule: one for each neighbouring pair, or for each region. */
+function reportsOn(rule: RuleAsk, reports: RuleResult[]): RuleResult[] {
+  const ofKind = reports.filter(({ kind }) => kind === rule.kind);
   if (rule.kind === "muted") {
-    const named = new Set((asked().rules ?? []).flatMap((one) => (one.kind === "muted" ? one.regions : [])));
-    return own.filter((one) => rule.regions.includes(one.first) || (rule.regions.includes("all") && !named.has(one.first)));
+    const named = new Set((present().rules ?? []).flatMap(({ kind, regions }) => (kind === "muted" ? regions : [])));
+    return ofKind.filter(({ first }) => rule.regions.includes(first) || (rule.regions.includes("all") && !named.has(first)));
   }
-  return own.filter((one) => {
-    const at = rule.regions.indexOf(one.first);
-    return at >= 0 && rule.regions[at + 1] === one.second;
+  return ofKind.filter(({ first, second }) => {
+    const at = rule.regions.indexOf(first);
+    return at >= 0 && rule.regions[at + 1] === second;
   });
 }
 
 export function Rules() {
   const region = store.level.value;
-  const all = asked().rules ?? [];
-  const about = all.filter((one) => !region || one.regions.includes(region));
-  const kept = store.palette.value?.kept ?? [];
-  const missed = kept.filter((one) => !one.holds).length;
+  const all = present().rules ?? [];
+  const visible = all.filter(({ regions }) => !region || regions.includes(region));
+  const reports = store.palette.value?.rules ?? [];
+  const missed = reports.filter(({ holds }) => !holds).length;
   return (
     <section class="rules" aria-label="Rules">
       <h2>{region ? `Rules of ${region}` : "Rules"}</h2>
-      {kept.length > 0 && !region && (
+      {reports.length > 0 && !region && (
         <p class={missed ? "verdict short" : "verdict"}>
-          {missed === 0 ? `all ${kept.length} hold` : `${missed} of ${kept.length} missed`}
+          {missed === 0 ? `all ${reports.length} hold` : `${missed} of ${reports.length} missed`}
         </p>
       )}
       {store.view.value?.note && <p class="warning">{plain(store.view.value.note)}</p>}
@@ -81,39 +81,40 @@ export function Rules() {
         ))}
       </div>
       <ul class="rows">
-        {about
-          .map((rule) => ({ rule, kept: rowsOf(rule, kept) }))
-          .sort((a, b) => worst(b.kept) - worst(a.kept))
-          .map(({ rule, kept }) => (
-            <Row key={`${rule.kind} ${rule.regions.join()}`} rule={rule} kept={kept} />
+        {visible
+          .map((rule) => ({ rule, own: reportsOn(rule, reports) }))
+          .sort((a, b) => worst(b.own) - worst(a.own))
+          .map(({ rule, own }) => (
+            <Row key={`${rule.kind} ${rule.regions.join()}`} rule={rule} reports={own} />
           ))}
       </ul>
     </section>
   );
 }
 
-/** How far a rule is missed; 0 where it holds, so that those stay in their order. */
-const worst = (kept: KeptRule[]): number => Math.max(0, ...kept.filter((one) => !one.holds).map((one) => one.residual));
+/** The largest miss of a rule; 0 if it holds, so that rules that hold keep their order. */
+const worst = (reports: RuleResult[]): number =>
+  Math.max(0, ...reports.filter(({ holds }) => !holds).map(({ residual }) => residual));
 
-function Row({ rule, kept }: { rule: RuleAsk; kept: KeptRule[] }) {
+function Row({ rule, reports }: { rule: RuleAsk; reports: RuleResult[] }) {
   const colors = store.palette.value?.colors ?? {};
-  const others = (asked().rules ?? []).filter((one) => one !== rule);
-  const far = Math.max(0, ...kept.map((one) => one.residual));
-  const missed = kept.filter((one) => !one.holds);
+  const rest = (present().rules ?? []).filter((other) => other !== rule);
+  const far = Math.max(0, ...reports.map(({ residual }) => residual));
+  const missed = reports.filter(({ holds }) => !holds);
   const sign = KINDS[rule.kind].sign;
   return (
-    <li class={missed.length > 0 ? "rule missed" : "rule"} title={kept.map((one) => plain(one.text)).join("\n")}>
+    <li class={missed.length > 0 ? "rule missed" : "rule"} title={reports.map(({ text }) => plain(text)).join("\n")}>
       <span class="kind">{KINDS[rule.kind].name}</span>
       <span class="chips" aria-hidden="true">
         {rule.regions.map((name) => (
           <Chip key={name} color={colors[name]} />
         ))}
       </span>
-      <span class={missed.length > 0 ? "far short" : "far"}>{kept.length === 0 ? "" : missed.length === 0 ? "holds" : `${far.toFixed(0)} off`}</span>
+      <span class={missed.length > 0 ? "far short" : "far"}>{reports.length === 0 ? "" : missed.length === 0 ? "holds" : `${far.toFixed(0)} off`}</span>
       <button
         class="icon-button tiny"
-        title={`Take away: ${KINDS[rule.kind].name}, ${rule.regions.join(", ")}`}
-        onClick={() => set(others)}
+        title={`Remove the rule: ${KINDS[rule.kind].name}, ${rule.regions.join(", ")}`}
+        onClick={() => set(rest)}
       >
         <Icon name="close" />
       </button>
@@ -125,16 +126,16 @@ function Row({ rule, kept }: { rule: RuleAsk; kept: KeptRule[] }) {
             min={0}
             max={100}
             value={rule.most}
-            aria-label={`How far from grey ${rule.regions.join(", ")} may be`}
+            aria-label={`Largest distance from grey of ${rule.regions.join(", ")}`}
             onChange={(event) => {
               const most = Number(event.currentTarget.value);
-              set((asked().rules ?? []).map((one) => (one === rule ? { ...rule, most } : one)));
+              set((present().rules ?? []).map((other) => (other === rule ? { ...rule, most } : other)));
             }}
           />
           <output>{rule.most}</output>
         </label>
       ) : null}
-      {missed.length > 0 && <span class="residual">{missed.map((one) => plain(one.text)).join("; ")}</span>}
+      {missed.length > 0 && <span class="residual">{missed.map(({ text }) => plain(text)).join("; ")}</span>}
     </li>
   );
 }

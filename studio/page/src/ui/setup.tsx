@@ -1,4 +1,4 @@
-// The left side: the model and its arguments, what to grow into, how to search.
+// The left side: the model and its arguments, the target, the settings of the search.
 
 import type { ModelInfo, Parameter, Settings, View } from "../messages";
 import * as store from "../store";
@@ -7,20 +7,20 @@ import { Field } from "./fields";
 import { Icon } from "./icons";
 import { Handles, Objects, title } from "./objects";
 
-const GROUPS: [string, (one: ModelInfo) => boolean][] = [
-  ["Yours", (one) => one.is_file],
-  ["Scenes", (one) => !one.is_file && one.kind === "scene"],
-  ["Structures that stand", (one) => !one.is_file && one.kind === "structure"],
-  ["Drawings to colour", (one) => one.kind === "coloring"],
+const GROUPS: [string, (model: ModelInfo) => boolean][] = [
+  ["Your models", ({ is_file }) => is_file],
+  ["Scenes", ({ is_file, kind }) => !is_file && kind === "scene"],
+  ["Structures", ({ is_file, kind }) => !is_file && kind === "structure"],
+  ["Drawings to colour", ({ kind }) => kind === "coloring"],
 ];
 
 export function Setup() {
   const view = store.view.value;
   if (view === null) return <aside class="side" aria-label="Model and target" />;
   const { model } = view;
-  // A drawing that was sent is not listed.
-  const isListed = model === null || view.models.some((one) => one.reference === model.reference);
-  const known = isListed ? view.models : [...view.models, model];
+  // The list has no uploaded drawings.
+  const isListed = model === null || view.models.some(({ reference }) => reference === model.reference);
+  const models = isListed ? view.models : [...view.models, model];
   return (
     <aside class="side" aria-label="Model and target">
       <section>
@@ -31,12 +31,12 @@ export function Setup() {
           onChange={(event) => void store.tell({ kind: "model", reference: event.currentTarget.value })}
         >
           {GROUPS.map(([name, isIn]) => {
-            const members = known.filter(isIn);
+            const members = models.filter(isIn);
             return members.length === 0 ? null : (
               <optgroup key={name} label={name}>
-                {members.map((one) => (
-                  <option key={one.reference} value={one.reference}>
-                    {title(one.reference)}
+                {members.map(({ reference }) => (
+                  <option key={reference} value={reference}>
+                    {title(reference)}
                   </option>
                 ))}
               </optgroup>
@@ -45,18 +45,18 @@ export function Setup() {
         </select>
         <p class="quiet">{view.model?.title}</p>
         {(view.model?.parameters ?? [])
-          .filter((one) => one.default !== null)
-          .map((one) => (
-            <Argument key={one.name} parameter={one} />
+          .filter((parameter) => parameter.default !== null)
+          .map((parameter) => (
+            <Argument key={parameter.name} parameter={parameter} />
           ))}
         {view.model?.is_file && isAnyChanged(view) && (
           <div class="actions">
-            <button class="button small" onClick={() => void store.propose()} title="Show how the model's file changes; nothing is written yet">
+            <button class="button small" onClick={() => void store.propose()} title="Show the change of the model's file without writing it">
               Make these the defaults
             </button>
           </div>
         )}
-        {store.kind.value === "coloring" && <Drop what="drawing" />}
+        {store.kind.value === "coloring" && <Drop kind="drawing" />}
       </section>
       {store.kind.value === "scene" && <Target />}
       {store.kind.value === "scene" && <Objects />}
@@ -65,13 +65,13 @@ export function Setup() {
   );
 }
 
-/** Whether an argument is not its default. */
-const isAnyChanged = ({ model, arguments: given }: View): boolean =>
-  (model?.parameters ?? []).some((one) => one.default !== null && (given[one.name] ?? one.default) !== one.default);
+/** Whether an argument differs from its default. */
+const isAnyChanged = ({ model, arguments: values }: View): boolean =>
+  (model?.parameters ?? []).some((parameter) => parameter.default !== null && (values[parameter.name] ?? parameter.default) !== parameter.default);
 
 function Argument({ parameter }: { parameter: Parameter }) {
   const value = store.view.value!.arguments[parameter.name] ?? parameter.default;
-  const set = (given: unknown) => void store.tell({ kind: "set", arguments: { [parameter.name]: given } });
+  const set = (argument: unknown) => void store.tell({ kind: "set", arguments: { [parameter.name]: argument } });
   const isWhole = Number.isInteger(parameter.default);
   if (typeof parameter.default === "boolean") {
     return (
@@ -102,23 +102,23 @@ function Target() {
   const target = store.target.value;
   const place = (source: string) => store.ask({ target: { source } });
   const isSketched = view.ask.sketch != null;
-  const own = target?.source.startsWith("upload:") ? [target.source] : [];
+  const uploads = target?.source.startsWith("upload:") ? [target.source] : [];
   return (
     <section>
       <h2>Grow into</h2>
       {isSketched ? (
         <div class="group">
-          <span>{view.ask.sketch?.kind === "shadow" ? "The shadow you drew" : "What you drew"}</span>
+          <span>{view.ask.sketch?.kind === "shadow" ? "The shadow you drew" : "The silhouette you drew"}</span>
           <button class="text-button" onClick={() => store.ask({ sketch: null })}>
             clear
           </button>
         </div>
       ) : view.model?.draws && target === null ? (
-        <p class="quiet">A drawing of its own. Draw with the pen to give it another.</p>
+        <p class="quiet">The model has its own drawing. Draw with the pen to replace it.</p>
       ) : (
         <select aria-label="Target" value={target?.source ?? ""} onChange={(event) => place(event.currentTarget.value)}>
           {target === null && <option value="">choose a target</option>}
-          {own.map((source) => (
+          {uploads.map((source) => (
             <option key={source} value={source}>
               your mesh
             </option>
@@ -130,7 +130,7 @@ function Target() {
               </option>
             ))}
           </optgroup>
-          <optgroup label="Ours">
+          <optgroup label="Gallery">
             {view.targets.map((source) => (
               <option key={source} value={source}>
                 {title(source)}
@@ -149,7 +149,7 @@ function Target() {
           )}
         </div>
       )}
-      <Drop what="mesh" />
+      <Drop kind="mesh" />
     </section>
   );
 }
@@ -161,7 +161,7 @@ function Search({ settings }: { settings: Settings }) {
   const { set } = store;
   const running = view.searching;
   const isScene = store.kind.value === "scene";
-  const cannot = view.model === null || (isScene && view.model.draws === null && store.target.value === null && !view.ask.sketch);
+  const isImpossible = view.model === null || (isScene && view.model.draws === null && store.target.value === null && !view.ask.sketch);
   const verb = store.kind.value === "coloring" ? "Colour" : "Grow";
   return (
     <section>
@@ -179,7 +179,7 @@ function Search({ settings }: { settings: Settings }) {
         <output>{settings.count}</output>
       </label>
       {isScene && (
-        <label class="row" title="Which of the results that were found: the best, or those that look most different">
+        <label class="row" title="Choose among the results of the search: the best, or the most different">
           <span>different</span>
           <Field
             type="range"
@@ -187,7 +187,7 @@ function Search({ settings }: { settings: Settings }) {
             max={1}
             step={0.25}
             value={settings.strength}
-            aria-label="how different"
+            aria-label="Difference of results"
             aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
             onEnd={(text) => set({ strength: Number(text) })}
           />
@@ -212,17 +212,17 @@ function Search({ settings }: { settings: Settings }) {
         <Field
           type="number"
           min={0}
-          placeholder="another each time"
+          placeholder="random"
           value={settings.seed ?? ""}
           onEnd={(text) => set({ seed: text === "" ? null : Number(text) })}
         />
       </label>
       {running === null ? (
-        <button class="primary" disabled={cannot} onClick={store.run} title={`${verb} (Enter)`}>
+        <button class="primary" disabled={isImpossible} onClick={store.run} title={`${verb} (Enter)`}>
           {store.heldParts.value.size > 0 ? `${verb} the rest` : verb}
         </button>
       ) : (
-        <button class="primary stop" onClick={store.stop} title="Stop and keep what is there (Esc)">
+        <button class="primary stop" onClick={store.stop} title="Stop and keep the results so far (Esc)">
           Stop
           <small>
             {running.seconds.toFixed(1)} s{running.best !== null && ` · best ${running.best.toFixed(1)}`}

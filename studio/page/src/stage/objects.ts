@@ -1,5 +1,5 @@
-// What is asked of a scene, as objects in it: the target and the obstacles as ghosts, the floor, the light of a shadow,
-// the camera of a sketch; and the handles that move the one that is selected.
+// Goals as objects of the scene: the target and the obstacles as ghosts, the floor, the light of a shadow, the camera of a
+// sketch; and the handles of the selected object.
 
 import {
   BufferAttribute,
@@ -20,11 +20,11 @@ import {
 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Ask, AskChange, Eye, Shape, TargetAsk } from "../messages";
-import { unpacked } from "./meshes";
+import { unpack } from "./meshes";
 
 export type Mode = "translate" | "scale" | "rotate";
 
-/** How an object is moved: what its handles may do. */
+/** The modes of the handles of each kind of object. */
 export const MODES: Record<string, Mode[]> = {
   target: ["translate", "scale", "rotate"],
   obstacle: ["translate", "scale", "rotate"],
@@ -37,7 +37,7 @@ export const kindOf = (name: string): string => name.split(" ")[0];
 export const numberOf = (name: string): number => Number(name.split(" ")[1] ?? 0);
 
 interface Solid {
-  asked: TargetAsk;
+  placement: TargetAsk;
   pivot: Vector3;
 }
 
@@ -47,7 +47,7 @@ interface Look {
   mark: number;
 }
 
-export class Things {
+export class SceneObjects {
   readonly group = new Group();
   readonly handles: TransformControls;
   private readonly solids = new Map<string, Solid>();
@@ -78,12 +78,12 @@ export class Things {
     this.handles.addEventListener("change", draw);
   }
 
-  /** Shows a solid where it is placed; an empty one takes it away. */
-  setSolid(name: string, header: Shape, payload: ArrayBuffer, asked: TargetAsk | null): void {
+  /** Shows a solid at its place; a shape without triangles removes it. */
+  setSolid(name: string, header: Shape, payload: ArrayBuffer, placement: TargetAsk | null): void {
     this.remove(name);
-    if (header.triangles === 0 || asked === null) return;
-    const { geometry } = unpacked(header, payload);
-    const turn = ((asked.turn ?? 0) * Math.PI) / 180;
+    if (header.triangles === 0 || placement === null) return;
+    const { geometry } = unpack(header, payload);
+    const turn = ((placement.turn ?? 0) * Math.PI) / 180;
     const pivot = new Vector3(...header.pivot);
     geometry.translate(-pivot.x, -pivot.y, -pivot.z).rotateY(-turn);
     const isTarget = kindOf(name) === "target";
@@ -95,7 +95,7 @@ export class Things {
     group.position.copy(pivot);
     group.rotation.set(0, turn, 0);
     group.visible = !isTarget || this.isGhostVisible;
-    this.solids.set(name, { asked, pivot });
+    this.solids.set(name, { placement, pivot });
     this.put(name, group);
   }
 
@@ -103,21 +103,21 @@ export class Things {
     return [...this.objects.keys()];
   }
 
-  /** Where a solid that is shown comes from. */
+  /** The source of a solid on the stage. */
   source(name: string): string | null {
-    return this.solids.get(name)?.asked.source ?? null;
+    return this.solids.get(name)?.placement.source ?? null;
   }
 
   triangles(name: string): number {
     return ((this.objects.get(name)?.children[0] as Mesh | undefined)?.geometry.index?.count ?? 0) / 3;
   }
 
-  /** Where the selected object stands. */
+  /** The position of the selected object. */
   get at(): Vector3 | null {
     return (this.selected !== null && this.objects.get(this.selected)?.position) || null;
   }
 
-  /** The objects that are asked for, and where the scene is. */
+  /** Updates the objects to the goals, around the scene. */
   update(ask: Ask, middle: Vector3, radius: number): void {
     this.ask = ask;
     this.middle.copy(middle);
@@ -150,9 +150,9 @@ export class Things {
 
   paint(look: Look): void {
     this.look = look;
-    for (const [name, one] of this.objects) {
+    for (const [name, object] of this.objects) {
       const color = kindOf(name) === "obstacle" ? look.obstacle : kindOf(name) === "target" ? look.ghost : look.mark;
-      if (kindOf(name) !== "light") one.traverse((part) => materialOf(part)?.color?.set(color));
+      if (kindOf(name) !== "light") object.traverse((part) => materialOf(part)?.color?.set(color));
     }
   }
 
@@ -162,7 +162,7 @@ export class Things {
     if (ghost !== undefined) ghost.visible = isVisible;
   }
 
-  /** Puts handles on an object, or takes them away. */
+  /** Attaches handles to an object; null removes them. */
   select(name: string | null, mode: Mode = "translate"): void {
     this.selected = name;
     this.mode = mode;
@@ -178,15 +178,15 @@ export class Things {
     this.handles.showY = true;
   }
 
-  /** The obstacle that a ray meets first. */
+  /** The obstacle, light or camera that a ray meets first. */
   hit(ray: Raycaster): string | null {
-    let found: string | null = null;
+    let first: string | null = null;
     let nearest = Infinity;
-    for (const [name, one] of this.objects) {
-      const distance = kindOf(name) === "target" ? undefined : ray.intersectObject(one.children[0] ?? one, false)[0]?.distance;
-      if (distance !== undefined && distance < nearest && kindOf(name) !== "floor") [found, nearest] = [name, distance];
+    for (const [name, object] of this.objects) {
+      const distance = kindOf(name) === "target" ? undefined : ray.intersectObject(object.children[0] ?? object, false)[0]?.distance;
+      if (distance !== undefined && distance < nearest && kindOf(name) !== "floor") [first, nearest] = [name, distance];
     }
-    return found;
+    return first;
   }
 
   private put(name: string, object: Object3D): void {
@@ -208,7 +208,7 @@ export class Things {
     this.solids.delete(name);
   }
 
-  /** The handles were let go: the ask as it now stands. */
+  /** Sends the new goals when the handles are released. */
   private place(): void {
     const name = this.selected;
     const object = name === null ? undefined : this.objects.get(name);
@@ -225,21 +225,21 @@ export class Things {
     } else {
       const solid = this.solids.get(name);
       if (solid === undefined) return;
-      const placed = this.placed(solid, object);
-      if (name === "target") this.onPlaced({ target: placed });
+      const placement = this.placementOf(solid, object);
+      if (name === "target") this.onPlaced({ target: placement });
       else {
-        const obstacles = (this.ask.obstacles ?? []).map((one, k) => (k === numberOf(name) ? placed : one));
+        const obstacles = (this.ask.obstacles ?? []).map((obstacle, k) => (k === numberOf(name) ? placement : obstacle));
         this.onPlaced({ obstacles });
       }
     }
   }
 
-  private placed({ asked, pivot }: Solid, { position, rotation, scale }: Object3D): TargetAsk {
-    const was = asked.scale ?? [1, 1, 1];
-    const moved = asked.move ?? [0, 0, 0];
-    const larger = (k: 0 | 1 | 2, by: number) => round(Math.max(was[k] * by, 1e-3));
+  private placementOf({ placement, pivot }: Solid, { position, rotation, scale }: Object3D): TargetAsk {
+    const before = placement.scale ?? [1, 1, 1];
+    const moved = placement.move ?? [0, 0, 0];
+    const larger = (k: 0 | 1 | 2, by: number) => round(Math.max(before[k] * by, 1e-3));
     return {
-      source: asked.source,
+      source: placement.source,
       move: [
         round(moved[0] + position.x - pivot.x),
         round(moved[1] + position.y - pivot.y),
@@ -251,7 +251,7 @@ export class Things {
   }
 }
 
-/** A camera as a pyramid of lines, as it would stand in the scene. */
+/** Draws a camera as a pyramid of lines at its place in the scene. */
 function eyeOf(eye: Eye, aspect: number, color: number): Object3D {
   const from = new Vector3(...eye.position);
   const ahead = new Vector3(...eye.look_at).sub(from);
@@ -273,7 +273,7 @@ function eyeOf(eye: Eye, aspect: number, color: number): Object3D {
       .addScaledVector(up, y * high)
       .toArray(),
   );
-  const lines = corners.flatMap((one, k) => [0, 0, 0, ...one, ...one, ...corners[(k + 1) % 4]]);
+  const lines = corners.flatMap((corner, k) => [0, 0, 0, ...corner, ...corner, ...corners[(k + 1) % 4]]);
   const holder = new Group();
   holder.add(segments(lines, color));
   holder.position.copy(from);

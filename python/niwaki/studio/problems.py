@@ -1,4 +1,4 @@
-"""What cannot be done, with the text that a window shows."""
+"""Errors as the messages that a window shows."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from niwaki.errors.source import Span
 from niwaki.studio.messages import Place, Problem
 
 
-class Refused(Exception):  # noqa: N818 - it is what happens to a command
-    """A command cannot be carried out; the window that asked is told why."""
+class CommandError(Exception):
+    """A command that cannot be carried out, with the message for its window."""
 
     def __init__(self, code: str, text: str) -> None:
         super().__init__(text)
@@ -19,15 +19,15 @@ class Refused(Exception):  # noqa: N818 - it is what happens to a command
 
 
 def problem(error: BaseException) -> Problem:
-    """An error as the page shows it: the shell's text, and the place if it has one.
+    """Describe an error for the page: the shell's text, and its place in a source file if it has one.
 
-    An error of the system has its own words. One that nobody expected is written to the terminal, for a report.
+    An error of the system keeps the system's words. An unexpected error is also written to the terminal, for a report.
     """
-    if isinstance(error, Refused):
+    if isinstance(error, CommandError):
         return error.problem
     if isinstance(error, OSError) and error.strerror:
         where = "" if error.filename is None else f": {error.filename}"
-        return Problem("system", f"the system refuses: {error.strerror}{where}")
+        return Problem("system", f"the system reports an error: {error.strerror}{where}")
     if not isinstance(error, NiwakiError):
         traceback.print_exception(error, file=sys.stderr)
         return Problem("failed", f"{type(error).__name__}: {error}")
@@ -39,7 +39,7 @@ def problem(error: BaseException) -> Problem:
 
 
 def placed(span: Span | None) -> Place | None:
-    """A span as plain data."""
+    """Convert a span to plain data."""
     if span is None:
         return None
     return Place(span.file.path, span.line, span.column, span.end_line, span.end_column)

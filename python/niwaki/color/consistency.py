@@ -1,9 +1,9 @@
-"""Whether rules can hold together, and, where they cannot, which ones contradict one another.
+"""Contradictions between rules: which rules cannot hold together, and how near they come.
 
 Every rule about lightness bounds a difference of two lightnesses, and black, white and held colours bound them from
-the ground: `L(a) - L(b) <= c`. Such bounds can be met together unless some cycle of them adds up to less than 0
-(Bellman 1958); that cycle is the list of rules to show. With each bound loosened by `slack`, the least slack for which
-no such cycle is left measures how near all rules can come to holding.
+the ground: `L(a) - L(b) <= c`. All bounds can hold unless a cycle of them adds up to less than 0 (Bellman 1958); the
+rules of that cycle contradict one another. When each bound is loosened by `slack`, the least slack without such a
+cycle tells how near all rules can come to holding.
 """
 
 from __future__ import annotations
@@ -15,19 +15,20 @@ from typing import Protocol
 from niwaki.color.lab import of_hex
 from niwaki.color.rule import LEAST, STEP, Rule
 
-#: The least difference of a rule about lightness, in units, for its order to be visible.
-LEFT = 0.1
-#: Held shades of one colour may differ by this much in a and b.
+#: The least difference in lightness, in units, at which an order is visible.
+LEAST_VISIBLE = 0.1
+#: The largest distance in a and b between held shades of one colour.
 CHROMA_APART = 15.0
+#: The name of lightness 0 among the regions.
 GROUND = ""
 
 
 class Rules(Protocol):
-    """Rules, and the colours that do not change, `#rrggbb` by region."""
+    """A set of rules, with the colours that do not change."""
 
     @property
     def held(self) -> dict[str, str]:
-        """The colours by region."""
+        """Colours that do not change, `#rrggbb` by region."""
         ...
 
     def __iter__(self) -> Iterator[Rule]:
@@ -37,25 +38,26 @@ class Rules(Protocol):
 
 @dataclass(frozen=True)
 class _Bound:
-    """`L(high) - L(low) <= most`, which may be loosened by `give` before the rule's order is gone; 0 for facts."""
+    """`L(high) - L(low) <= most`; `give` is the slack at which the rule loses its order, 0 for facts."""
 
     high: str
     low: str
     most: float
     give: float
-    why: str
+    reason: str
 
     def loose(self, slack: float | None) -> float:
-        """The bound, looser by `slack` if it is a rule's; by all that it can give where that is None."""
+        """Loosen the bound of a rule by `slack`, or by `give` if `slack` is None."""
         if slack is None:
             return self.most + self.give
         return self.most + (slack if self.give else 0.0)
 
 
 def least_slack(rules: Rules) -> tuple[float, list[str]]:
-    """The largest miss that the best lightnesses leave, in CIELAB units, and the rules that force it.
+    """Find the largest miss that the best lightnesses leave, in CIELAB units, and the rules that force it.
 
-    A `lightness` rule misses by its distance from 15, a `lighter` one by its shortfall. 0 where all can hold.
+    A `lightness` rule misses by its distance from 15, a `lighter` rule by its shortfall. The miss is 0 where all rules
+    can hold.
     """
     bounds = list(_bounds(rules))
     if not _cycle(bounds, 0.0):
@@ -68,7 +70,7 @@ def least_slack(rules: Rules) -> tuple[float, list[str]]:
 
 
 def contradiction(rules: Rules) -> list[str]:
-    """Rules that cannot hold together even roughly; none where they can."""
+    """List rules that cannot hold together even roughly; the list is empty if there are none."""
     for rule in rules:
         if rule.first == rule.second:
             return [f"{rule}"]
@@ -80,47 +82,47 @@ def _bounds(rules: Rules) -> Iterator[_Bound]:
     for name in sorted(seen):
         if name in rules.held:
             light = of_hex(rules.held[name])[0]
-            why = f"`{name}` is held at {rules.held[name]} (lightness {light:.0f})"
-            yield _Bound(name, GROUND, light, 0.0, why)
-            yield _Bound(GROUND, name, -light, 0.0, why)
+            reason = f"`{name}` is held at {rules.held[name]} (lightness {light:.0f})"
+            yield _Bound(name, GROUND, light, 0.0, reason)
+            yield _Bound(GROUND, name, -light, 0.0, reason)
         else:
             yield _Bound(name, GROUND, 100.0, 0.0, f"`{name}` is no lighter than white")
             yield _Bound(GROUND, name, 0.0, 0.0, f"`{name}` is no darker than black")
     for rule in rules:
         if rule.kind == "lightness":
-            yield _Bound(rule.first, rule.second, STEP, STEP - LEFT, str(rule))
-            yield _Bound(rule.second, rule.first, -STEP, STEP - LEFT, str(rule))
+            yield _Bound(rule.first, rule.second, STEP, STEP - LEAST_VISIBLE, str(rule))
+            yield _Bound(rule.second, rule.first, -STEP, STEP - LEAST_VISIBLE, str(rule))
         elif rule.kind == "lighter":
-            yield _Bound(rule.second, rule.first, -LEAST, LEAST - LEFT, str(rule))
+            yield _Bound(rule.second, rule.first, -LEAST, LEAST - LEAST_VISIBLE, str(rule))
 
 
 def _cycle(bounds: list[_Bound], slack: float | None) -> list[str]:
-    """The reasons of a cycle of bounds that adds up to less than 0; none if there is no such cycle."""
-    names = {GROUND} | {name for one in bounds for name in (one.high, one.low)}
+    """List the reasons of a cycle of bounds that adds up to less than 0; empty without such a cycle."""
+    names = {GROUND} | {name for bound in bounds for name in (bound.high, bound.low)}
     best = dict.fromkeys(names, 0.0)
-    came: dict[str, _Bound] = {}
+    previous: dict[str, _Bound] = {}
     last = None
     for _ in range(len(names) + 1):
         last = None
-        for one in bounds:
-            reached = best[one.low] + one.loose(slack)
-            if reached < best[one.high] - 1e-12:
-                best[one.high], came[one.high], last = reached, one, one.high
+        for bound in bounds:
+            reached = best[bound.low] + bound.loose(slack)
+            if reached < best[bound.high] - 1e-12:
+                best[bound.high], previous[bound.high], last = reached, bound, bound.high
         if last is None:
             return []
     assert last is not None
     for _ in range(len(names)):
-        last = came[last].low
-    found, at = [], last
+        last = previous[last].low
+    reasons, region = [], last
     while True:
-        found.append(came[at].why)
-        at = came[at].low
-        if at == last:
-            return list(dict.fromkeys(reversed(found)))
+        reasons.append(previous[region].reason)
+        region = previous[region].low
+        if region == last:
+            return list(dict.fromkeys(reversed(reasons)))
 
 
 def _chroma(rules: Rules) -> list[str]:
-    """A held colour that is tied as a shade to another held one, or to a muted region, and is not like it."""
+    """List the rules that tie a held colour to another held colour or to a muted region which it does not match."""
     muted = {rule.first: rule for rule in rules if rule.kind == "muted"}
     ties = [rule for rule in rules if rule.kind == "same-chroma"]
     for start in rules.held:

@@ -1,8 +1,8 @@
-"""Which files of Python may be run for a stored run: those that were named at the start, and with `--trust` others.
+"""Permissions of Python files: the files that the worker may run for the host functions of a stored run.
 
-A stored run has its model inside, and needs no file. Only host functions are Python, and stay in the model's file: one
-that was named at the start is run as it is, since a person named it; one that is only named in the run is run with
-`--trust`, where its bytes are those of then (`niwaki.shell.trust`). Each host function is compared with the one that
+A stored run contains its model and needs no file for it. Only host functions are Python and stay in the model's file. A
+file that was named at the start may run, because a person named it. A file that only the run names may run with
+`--trust` if its bytes have not changed (`niwaki.shell.trust`). Each host function is compared with the function that
 was called.
 """
 
@@ -16,15 +16,15 @@ from niwaki.errors import InputError
 from niwaki.inputs.modules import modules as run_modules
 from niwaki.inputs.modules import prefer
 from niwaki.shell.trust import hosts, trusted
-from niwaki.studio.refused import Refused
+from niwaki.studio.problems import CommandError
 from niwaki.studio.worker import models
 from niwaki.studio.worker.loading import loading
 
 _trust: list[bool] = [False]
 
 
-def take(words: Sequence[str]) -> None:
-    """What the studio was started with: references of files, and `--trust`."""
+def configure(words: Sequence[str]) -> None:
+    """Set the permissions from the words of the command line: references of files, and `--trust`."""
     _trust[0] = "--trust" in words
     for reference in words:
         if reference != "--trust":
@@ -32,12 +32,12 @@ def take(words: Sequence[str]) -> None:
 
 
 def modules(data: dict[str, Any]) -> tuple[str, ...]:
-    """The modules whose host functions a stored run may call; runs their file where that is allowed.
+    """Return the modules whose host functions a stored run may call; run their file if that is allowed.
 
     Raises
     ------
-    Refused
-        `untrusted-file`, in the studio's words.
+    CommandError
+        `untrusted-file`.
     InputError
         `changed-model-file`.
     """
@@ -47,7 +47,7 @@ def modules(data: dict[str, Any]) -> tuple[str, ...]:
     named = Path(str(data["model"]).rpartition(":")[0])
     reference = models.named.get(named.resolve())
     if reference is not None:
-        # Run at most once for each state of the file.
+        # The file is run at most once for each of its states.
         models.reference(reference)
         prefer(named.resolve())
         return tuple(sorted(module for module in needed if run_modules(module)))
@@ -59,6 +59,6 @@ def modules(data: dict[str, Any]) -> tuple[str, ...]:
             raise
         text = (
             f"this result calls Python functions of {named}, which was not named when the studio was started.\n"
-            f"Read that file; then start the studio with it, or with `--trust`, which runs it where it is unchanged."
+            f"Read that file; then start the studio with it, or with `--trust`, which runs the file if it is unchanged."
         )
-        raise Refused(error.code, text) from None
+        raise CommandError(error.code, text) from None
