@@ -7,7 +7,7 @@ use arbitrary::Unstructured;
 use niwaki_geom::Mat3;
 use niwaki_vm::builtins::builtins;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::value::{Class, ClassKind, Dict, Range, Record, Value, equal, order, repr, same, str_of};
+use niwaki_vm::value::{Class, ClassKind, Dict, Range, Record, Value, equal, order, repr, identical, str_of};
 use std::sync::Arc;
 
 /// Whole numbers that count elements are seldom larger: a list of 2^26 elements takes a second.
@@ -45,7 +45,7 @@ pub fn check(bytes: &[u8]) {
 
 /// What every value can be asked.
 fn look_at(value: &Value, others: &[Value]) {
-    assert!(same(value, &value.clone()), "{value:?} is not itself");
+    assert!(identical(value, &value.clone()), "{value:?} is not itself");
     let _ = (repr(value), str_of(value));
     for other in others {
         let there = equal(value, other).ok();

@@ -1,7 +1,7 @@
-//! Machine code: a module to write functions into, and the memory that finished functions are in.
+//! Machine code: the module that functions are written into, and the memory that holds finished functions.
 //!
-//! Cranelift writes the instructions. Memory is written first and made executable afterwards: it is never both at once.
-//! What the functions compute is the business of the crates that write them: densities (`grad`), models (`vm`).
+//! Cranelift emits the instructions. Memory is first written and then made executable: it is never both at
+//! once. The crates that write the functions decide what they compute: densities (`grad`), models (`vm`).
 
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_jit::{JITBuilder, JITModule};
@@ -12,23 +12,25 @@ pub use cranelift_frontend as frontend;
 pub use cranelift_jit as jit;
 pub use cranelift_module as module;
 
-/// Errors of compilation: a processor that Cranelift does not know, memory that may not be executed.
-pub type Written<T> = Result<T, Box<dyn std::error::Error>>;
+/// The result of a step of compilation. It fails for a processor that Cranelift does not know, and for memory
+/// that may not be executed.
+pub type CompileResult<T> = Result<T, Box<dyn std::error::Error>>;
 
-/// How much is done to make the code quick.
+/// The amount of optimisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// Registers are allocated, no more: for code whose instructions are in their best order already.
+    /// Registers are allocated and nothing else happens: for code whose instructions are in their best order
+    /// already.
     Plain,
-    /// Common parts are computed once, and constants where they are known.
+    /// Common subexpressions are computed once, and known constants are folded.
     Quick,
 }
 
-/// An empty module for the processor that this program runs on.
+/// Creates an empty module for the processor that this program runs on.
 ///
 /// # Errors
 /// A processor that Cranelift does not know.
-pub fn module(effort: Effort) -> Written<JITModule> {
+pub fn module(effort: Effort) -> CompileResult<JITModule> {
     let mut flags = settings::builder();
     let level = match effort {
         Effort::Plain => "none",
@@ -58,16 +60,15 @@ unsafe impl Send for Memory {}
 unsafe impl Sync for Memory {}
 
 impl Memory {
-    /// Ends the writing: the functions can be called from now on.
-    ///
+    /// Finishes the writing: from now on the functions can be called.
     /// # Errors
     /// Memory that may not be executed.
-    pub fn finish(mut module: JITModule) -> Written<Memory> {
+    pub fn finish(mut module: JITModule) -> CompileResult<Memory> {
         module.finalize_definitions()?;
         Ok(Memory(Some(module)))
     }
 
-    /// Where a function of the module begins. It can be called as long as the memory exists.
+    /// Returns the address of a function of the module. It can be called as long as the memory exists.
     pub fn address(&self, function: FuncId) -> *const u8 {
         self.0.as_ref().map_or(std::ptr::null(), |module| module.get_finalized_function(function))
     }
@@ -77,7 +78,7 @@ impl Drop for Memory {
     #[allow(unsafe_code)]
     fn drop(&mut self) {
         if let Some(module) = self.0.take() {
-            // SAFETY: who calls a function keeps its memory.
+            // SAFETY: callers of a function keep its memory alive.
             unsafe { module.free_memory() };
         }
     }

@@ -24,7 +24,7 @@ use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::kept::{Proposed, fits};
 use niwaki_vm::machine::state::{FutureId, State};
 use niwaki_vm::machine::{Machine, Stop};
-use niwaki_vm::value::{Value, same};
+use niwaki_vm::value::{Value, identical};
 use std::collections::HashMap;
 
 /// A choice.
@@ -195,7 +195,7 @@ impl PartialRun {
     /// The share of its choices that `old` did not make.
     pub fn renewed(&self, old: &PartialRun) -> f64 {
         let before: HashMap<u128, &Value> = old.choices().map(|c| (c.address, &c.value)).collect();
-        let is_new = |c: &&Choice| !before.get(&c.address).is_some_and(|value| same(&c.value, value));
+        let is_new = |c: &&Choice| !before.get(&c.address).is_some_and(|value| identical(&c.value, value));
         let all = self.choices().count();
         if all == 0 { 0.0 } else { self.choices().filter(is_new).count() as f64 / all as f64 }
     }

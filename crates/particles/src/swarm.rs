@@ -55,7 +55,7 @@ impl Swarm {
         let tasks = if serial || n <= BATCH || threads == 1 {
             vec![own]
         } else {
-            let apart = task.program.apart(threads).into_iter();
+            let apart = task.program.copies_for_threads(threads).into_iter();
             apart.map(|program| Task { program: Arc::new(program), ..own.clone() }).collect()
         };
         let (rest, copies, resident) = (Rest::default(), Copies::default(), Resident::default());

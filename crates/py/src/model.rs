@@ -12,7 +12,7 @@ use niwaki_vm::core::parse::parse;
 use niwaki_vm::core::{Module, Name};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Limits;
-use niwaki_vm::passes::{Kept, compile, compile_keeping};
+use niwaki_vm::passes::{Scope, compile, compile_with_scope};
 use niwaki_vm::value::Value;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
@@ -48,7 +48,7 @@ impl PyProgram {
 
     /// The program compiled so that these variables can be read at choices; otherwise it is the same.
     pub fn keeping(&self, py: Python<'_>, names: &[Name]) -> PyResult<Arc<Program>> {
-        let compiled = compile_keeping(&self.module, self.data.clone(), Kept::Names(names));
+        let compiled = compile_with_scope(&self.module, self.data.clone(), Scope::Names(names));
         compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))
     }
 
@@ -68,7 +68,7 @@ impl PyProgram {
         if let Some(known) = self.observed.get() {
             return Ok(known.clone());
         }
-        let compiled = compile_keeping(&self.module, self.data.clone(), Kept::All);
+        let compiled = compile_with_scope(&self.module, self.data.clone(), Scope::All);
         let program = compiled.map(Arc::new).map_err(|e| faults::uncompiled(py, e.to_string()))?;
         Ok(self.observed.get_or_init(|| program).clone())
     }

@@ -17,7 +17,7 @@ use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::Call;
 use niwaki_vm::machine::state::State;
-use niwaki_vm::value::{Value, equal, hash, repr, same};
+use niwaki_vm::value::{Value, equal, hash, identical, repr};
 use std::collections::HashMap;
 
 /// A choice with its readable address.
@@ -203,7 +203,7 @@ impl Answers<f64> for Replay<'_> {
     fn query(&mut self, at: &At<'_, f64>, key: &Value, value: &Value) -> Result<(), Fault> {
         let line = at.site.span.line;
         let alike = self.written.entry(hash(key)).or_default();
-        let is_it = |other: &Value| same(other, key) || equal(other, key).unwrap_or(false);
+        let is_it = |other: &Value| identical(other, key) || equal(other, key).unwrap_or(false);
         let first = alike.iter().find(|(other, _)| is_it(other)).map(|(_, line)| *line);
         alike.push((key.clone(), line));
         if let Some(first) = first {

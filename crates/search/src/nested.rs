@@ -17,7 +17,7 @@ use niwaki_run::weights::Normalised;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::{Limits, Together};
-use niwaki_vm::value::{Closure, Value, same};
+use niwaki_vm::value::{Closure, Value, identical};
 use std::any::Any;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -158,7 +158,9 @@ impl Known {
     fn find(&self, constant: u16, args: &[Value]) -> Option<(Value, u64)> {
         let known = self.0.try_lock().ok()?;
         let is_it = |(c, given, ..): &&Answered| {
-            *c == constant && given.len() == args.len() && given.iter().zip(args).all(|(a, b)| same(a, b))
+            *c == constant
+                && given.len() == args.len()
+                && given.iter().zip(args).all(|(a, b)| identical(a, b))
         };
         known.iter().find(is_it).map(|(_, _, answer, steps)| (answer.clone(), *steps))
     }

@@ -1,8 +1,8 @@
 //! A fault: why a run stopped, as data.
 //!
 //! The code is the key of the message table on the Python side; the message is complete and uses the model's
-//! terms ("list index 5 is out of range: the list has 3 elements"). The machine adds where it happened: the model's
-//! own call stack.
+//! terms ("list index 5 is out of range: the list has 3 elements"). The machine adds the model's own call
+//! stack, which says where the fault happened.
 //!
 //! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
 //! instruction returns one.
@@ -21,16 +21,17 @@ pub struct Details {
     pub code: &'static str,
     /// One sentence, lower case, with the actual and the expected value.
     pub message: String,
-    /// The name that the message is about, where it is looked up: an address, a pattern.
+    /// The name that the message is about, if the message table looks it up: an address, a pattern.
     pub subject: Option<String>,
-    /// What to do instead, where that is known.
+    /// A hint for a correction, if there is one.
     pub help: Option<String>,
-    /// The call that has no result for its arguments, where that makes the run *invalid*: see
-    /// [`crate::machine::invalid`].
+    /// The call that has no result for its arguments and so makes the run *invalid*: see
+    /// [`crate::machine::invalid`]. `None` for faults that do not make a run invalid.
     pub invalid: Option<InvalidCall>,
 }
 
-/// A call of a distribution, a shape or a host function that has no result for its arguments, although they are of the right kinds.
+/// A call of a distribution, a shape or a host function that has no result, although its arguments are of the
+/// right kinds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InvalidCall {
     /// The name of the distribution's family, of the shape or of the function.
@@ -67,16 +68,16 @@ macro_rules! kinds {
             #[cold]
             pub fn $name(message: impl Into<String>) -> Fault { Fault::new($code, message) })*
 
-            /// Every code that a pure operation can raise.
+            /// All codes that a pure operation can raise.
             pub const CODES: &'static [&'static str] = &[$($code),*];
         }
     };
 }
 
 kinds! {
-    /// An operation has an operand of a kind that it does not take.
+    /// An operation has an operand of a kind that it does not accept.
     type_mismatch = "type-mismatch";
-    /// A future was read that is not forced.
+    /// An operation reads a future that was not forced.
     not_forced = "future-not-forced";
     /// A position outside a list, tuple, string, range or vector.
     list_index = "list-index";
@@ -92,13 +93,13 @@ kinds! {
     argument_count = "argument-count";
     /// `a, b = xs` with another number of elements.
     unpack_length = "unpack-length";
-    /// A distribution's parameter.
+    /// A distribution has a parameter outside of its range.
     bad_parameter = "bad-parameter";
-    /// A shape's measure.
+    /// A shape has a measure outside of its range.
     bad_shape = "bad-shape";
-    /// A value larger than a run may hold.
+    /// A value is larger than a run may hold.
     memory_budget = "memory-budget";
-    /// A comparison that visits more elements than a run may spend on one step.
+    /// A comparison visits more elements than a run may spend on one step.
     step_budget = "step-budget";
     /// A dictionary has no such key.
     missing_key = "missing-key";
@@ -125,40 +126,40 @@ impl Fault {
         Fault(Box::new(Details { code, message: message.into(), subject: None, help: None, invalid: None }))
     }
 
-    /// An operation without a derivative, of a number that varies with the continuous choices.
+    /// An operation without a derivative gets a number that varies with the continuous choices.
     #[cold]
-    pub fn no_derivative(what: &str) -> Fault {
+    pub fn no_derivative(operation: &str) -> Fault {
         Fault::new(
             "no-derivative",
-            format!("{what} has no derivative, and the number depends on the continuous choices"),
+            format!("{operation} has no derivative, and the number depends on the continuous choices"),
         )
         .with_help(
             "keep it out of what the score depends on, or use `mh()` or particles, which need no derivative",
         )
     }
 
-    /// The same fault, making the run invalid by that call.
+    /// Marks the run as invalid because of a call.
     #[cold]
     pub fn invalid_by(mut self, call: InvalidCall) -> Fault {
         self.0.invalid = Some(call);
         self
     }
 
-    /// The same fault, making the run invalid as another one does, which is its cause.
+    /// Marks the run as invalid by the same call as another fault, which is the cause of this one.
     #[cold]
     pub fn caused_by(mut self, cause: &Fault) -> Fault {
         self.0.invalid.clone_from(&cause.invalid);
         self
     }
 
-    /// The same fault, about that name.
+    /// Names the subject of the fault: see [`Details::subject`].
     #[cold]
     pub fn about(mut self, subject: impl Into<String>) -> Fault {
         self.0.subject = Some(subject.into());
         self
     }
 
-    /// The same fault with help.
+    /// Adds a hint for a correction.
     #[cold]
     pub fn with_help(mut self, help: impl Into<String>) -> Fault {
         self.0.help = Some(help.into());

@@ -1,7 +1,7 @@
 //! The machine that runs a procedural model: a compiler from core form to bytecode, and an interpreter whose
 //! activation records are trace nodes.
 //!
-//! * [`core`]: what a model is after names are resolved, as text and as types;
+//! * [`core`]: a model after names are resolved, as text and as types;
 //! * [`passes`]: core form to bytecode;
 //! * [`code`]: bytecode, its verifier and disassembler;
 //! * [`value`]: the contents of registers; [`builtins`]: the functions on values; [`fault`]: faults of a run;

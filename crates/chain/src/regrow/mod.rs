@@ -48,7 +48,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::part::{Part, Piece};
 use niwaki_vm::machine::kept::{Change, Trace};
-use niwaki_vm::value::{Value, same};
+use niwaki_vm::value::{Value, identical};
 use pick::Picked;
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -240,7 +240,9 @@ impl ChainMove for Regrow {
         }
         let values = set.grown[set.weights.index(rng.uniform())].values(&block);
         let is_same = values.len() == held.len()
-            && values.iter().all(|(address, value)| held.get(address).is_some_and(|old| same(old, value)));
+            && values
+                .iter()
+                .all(|(address, value)| held.get(address).is_some_and(|old| identical(old, value)));
         chain.last = Decision { same: is_same, accepted: !is_same, log_ratio };
         chain.count_many(chain.last);
         if is_same {
@@ -353,7 +355,7 @@ impl Walk {
             } else {
                 log = f64::NEG_INFINITY;
             }
-            if log > f64::NEG_INFINITY && !same(&grown.result(), &returned) {
+            if log > f64::NEG_INFINITY && !identical(&grown.result(), &returned) {
                 log += self.answer(machine, with, grown, &score)?;
             } else if self.barriers.is_some() && grown.barriers != barriers {
                 log = f64::NEG_INFINITY;
@@ -391,7 +393,7 @@ impl Walk {
             && trace.drawn_anew().iter().all(|(address, old)| {
                 // The one value of a delta is drawn again whenever its activation runs.
                 let now = || trace.numbers().find(|n| trace.address(program, *n) == *address);
-                is_own(address) || now().is_some_and(|n| same(trace.choice(program, n).0, old))
+                is_own(address) || now().is_some_and(|n| identical(trace.choice(program, n).0, old))
             });
         let barriers = self.state.primitives as i64 + trace.totals().factors + changed.factors;
         let fits = self.barriers.is_none_or(|n| barriers == n as i64);

@@ -19,7 +19,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::state::State;
-use niwaki_vm::value::{Value, same};
+use niwaki_vm::value::{Value, identical};
 use std::collections::HashMap;
 
 /// Resampling follows where the effective sample size is below this share of the particles.
@@ -128,7 +128,8 @@ impl Chooser for Grow<'_> {
             let others = turn::others(dist, &chosen.value)?;
             self.seen.turnable += u64::from(!others.is_empty());
             if let Some((_, _, other)) = turned {
-                self.seen.log_turn = others.iter().find(|(value, _)| same(value, other)).map(|(_, log)| *log);
+                self.seen.log_turn =
+                    others.iter().find(|(value, _)| identical(value, other)).map(|(_, log)| *log);
             }
         }
         Ok(Some(chosen))

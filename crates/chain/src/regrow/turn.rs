@@ -8,7 +8,7 @@ use niwaki_math::{Dist, Stream, Support};
 use niwaki_run::record::log_density;
 use niwaki_run::weights::index;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::value::{Value, same};
+use niwaki_vm::value::{Value, identical};
 
 /// A longer list of values counts as whole numbers.
 const SHORT: i64 = 64;
@@ -21,7 +21,7 @@ pub(super) fn others(dist: &Dist, value: &Value) -> Result<Others, Fault> {
     let (listed, candidates): (bool, Vec<Value>) = match (dist.support().in_bounds(), value) {
         (_, Value::Bool(b)) => (true, vec![Value::Bool(!b)]),
         (Support::Integers { lo, hi: Some(hi) }, Value::Int(_)) if hi.saturating_sub(lo) < SHORT => {
-            (true, (lo..=hi).map(Value::Int).filter(|other| !same(other, value)).collect())
+            (true, (lo..=hi).map(Value::Int).filter(|other| !identical(other, value)).collect())
         }
         (_, Value::Int(k)) => {
             (false, [k.checked_sub(1), k.checked_add(1)].into_iter().flatten().map(Value::Int).collect())

@@ -25,7 +25,7 @@ use crate::density::Density;
 use crate::kernels;
 use crate::operation::Op;
 use layout::Layout;
-use niwaki_native::{Memory, Written};
+use niwaki_native::{CompileResult, Memory};
 use std::sync::Arc;
 use write::Writer;
 
@@ -64,7 +64,7 @@ struct Routine {
 }
 
 impl Routine {
-    fn slope(density: &Density, layout: &Layout) -> Written<Routine> {
+    fn slope(density: &Density, layout: &Layout) -> CompileResult<Routine> {
         let mut writer = Writer::new(density, layout)?;
         writer.write_slope()?;
         let roll = writer.write_roll()?;
@@ -74,7 +74,7 @@ impl Routine {
         Ok(Routine { steps, roll, _code: code })
     }
 
-    fn rest(density: &Density, layout: &Layout) -> Written<Routine> {
+    fn rest(density: &Density, layout: &Layout) -> CompileResult<Routine> {
         let mut writer = Writer::new(density, layout)?;
         writer.write_rest()?;
         let (steps, code, _) = writer.finish(None)?;

@@ -8,7 +8,7 @@ use super::code::Code;
 use super::layout::Layout;
 use super::write::{Writer, guards_hold};
 use crate::graph::small;
-use niwaki_native::Written;
+use niwaki_native::CompileResult;
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{BlockArg, InstBuilder, Value};
@@ -23,7 +23,7 @@ pub(super) type Entry =
 
 impl Writer<'_> {
     /// The loop, where the gradient is small enough.
-    pub(super) fn write_roll(&mut self) -> Written<Option<FuncId>> {
+    pub(super) fn write_roll(&mut self) -> CompileResult<Option<FuncId>> {
         let (density, layout) = (self.density, self.layout);
         let program = &layout.slope;
         if density.dim() > COORDINATES || !program.batches.is_empty() || program.segments.len() > 1 {

@@ -12,7 +12,7 @@ use niwaki_native::codegen::ir::{AbiParam, InstBuilder, Signature, Type, UserFun
 use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext};
 use niwaki_native::jit::JITModule;
 use niwaki_native::module::{FuncId, Linkage, Module};
-use niwaki_native::{Effort, Memory, Written, module};
+use niwaki_native::{CompileResult, Effort, Memory, module};
 
 /// A step whose function has no address yet.
 enum Planned {
@@ -33,7 +33,7 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(density: &'a Density, layout: &'a Layout) -> Written<Writer<'a>> {
+    pub(super) fn new(density: &'a Density, layout: &'a Layout) -> CompileResult<Writer<'a>> {
         Ok(Writer {
             module: module(Effort::Plain)?,
             density,
@@ -46,7 +46,7 @@ impl<'a> Writer<'a> {
     }
 
     /// The gradient, with the guards.
-    pub(super) fn write_slope(&mut self) -> Written<()> {
+    pub(super) fn write_slope(&mut self) -> CompileResult<()> {
         let (density, layout) = (self.density, self.layout);
         let graph = density.graph();
         let mut outputs: Vec<Vec<u32>> = vec![Vec::new(); graph.len()];
@@ -79,7 +79,7 @@ impl<'a> Writer<'a> {
     }
 
     /// What the value needs in addition to the gradient.
-    pub(super) fn write_rest(&mut self) -> Written<()> {
+    pub(super) fn write_rest(&mut self) -> CompileResult<()> {
         let (density, layout) = (self.density, self.layout);
         self.write_program(&layout.rest, &vec![Vec::new(); density.graph().len()])?;
         let value = density.value();
@@ -92,7 +92,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn write_program(&mut self, program: &'a Program, outputs: &[Vec<u32>]) -> Written<()> {
+    fn write_program(&mut self, program: &'a Program, outputs: &[Vec<u32>]) -> CompileResult<()> {
         let (density, layout) = (self.density, self.layout);
         let graph = density.graph();
         let mut mine = vec![false; graph.len()];
@@ -147,7 +147,7 @@ impl<'a> Writer<'a> {
     }
 
     /// A function of `(x, g, scratch)`, run next.
-    fn plan_code(&mut self, body: impl FnOnce(&mut Code<'_, '_>)) -> Written<()> {
+    fn plan_code(&mut self, body: impl FnOnce(&mut Code<'_, '_>)) -> CompileResult<()> {
         let pointer = self.module.target_config().pointer_type();
         let id = self.function(&[pointer; 3], None, |code, _| {
             body(code);
@@ -163,7 +163,7 @@ impl<'a> Writer<'a> {
         parameters: &[Type],
         result: Option<Type>,
         body: impl FnOnce(&mut Code<'_, '_>, &[Value]),
-    ) -> Written<FuncId> {
+    ) -> CompileResult<FuncId> {
         let mut signature = Signature::new(self.module.target_config().default_call_conv);
         signature.params.extend(parameters.iter().map(|ty| AbiParam::new(*ty)));
         signature.returns.extend(result.map(AbiParam::new));
@@ -190,7 +190,10 @@ impl<'a> Writer<'a> {
     }
 
     /// The steps, and the memory that they run in, with the address of one more function.
-    pub(super) fn finish(self, other: Option<FuncId>) -> Written<(Vec<Step>, Memory, Option<*const u8>)> {
+    pub(super) fn finish(
+        self,
+        other: Option<FuncId>,
+    ) -> CompileResult<(Vec<Step>, Memory, Option<*const u8>)> {
         let Writer { module, plan, .. } = self;
         let code = Memory::finish(module)?;
         let steps = plan.into_iter().map(|step| match step {

@@ -13,7 +13,7 @@ use niwaki_propose::user::User;
 use niwaki_run::run::Run;
 use niwaki_run::select::Selection;
 use niwaki_vm::core::Name;
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 
 /// Programs by number, and for each what is proposed: a pattern and a function of variables in scope.
 const GUIDED: [(usize, &[(&str, &str)]); 7] = [
@@ -68,7 +68,7 @@ fn guided(text: &str, parts: &[(&str, &str)]) -> (Task, Proposal) {
     };
     let parts: Vec<(Selection, Arc<User>)> = parts.iter().map(own).collect();
     let names: Vec<Name> = parts.iter().flat_map(|(_, user)| user.variables().cloned()).collect();
-    let program = compile_keeping(&parse(text).unwrap(), vec![], Kept::Names(&names)).unwrap();
+    let program = compile_with_scope(&parse(text).unwrap(), vec![], Scope::Names(&names)).unwrap();
     let kernels =
         parts.into_iter().map(|(on, user)| Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(user)))));
     (Task::new(Arc::new(program)), Kernel::Cycle(kernels.collect()).proposal().unwrap())

@@ -29,7 +29,7 @@ use niwaki_run::{Failure, Task};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
-use niwaki_vm::value::{Value, repr, same};
+use niwaki_vm::value::{Value, identical, repr};
 use serde_json::json;
 use std::collections::HashMap;
 
@@ -103,7 +103,7 @@ fn equal(a: &Value, b: &Value) -> bool {
         Value::Bool(b) => Value::Int(i64::from(*b)),
         other => other.clone(),
     };
-    same(&number(a), &number(b))
+    identical(&number(a), &number(b))
 }
 
 /// The unnormalised law of the program's value given held choices: log of each value's sum.
@@ -397,7 +397,7 @@ fn what_is_held_is_in_every_run_to_the_bit() {
     let locked = hold(&task, held.clone()).expect("a lock");
     let has = |run: &Run| {
         let values = values(&locked, run);
-        held.iter().all(|(path, value)| values.get(path).is_some_and(|own| same(own, value)))
+        held.iter().all(|(path, value)| values.get(path).is_some_and(|own| identical(own, value)))
     };
     let found = smc(&locked, &Settings::default(), &mut |_| true).expect("particles");
     let mut alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);

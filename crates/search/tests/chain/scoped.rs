@@ -15,7 +15,7 @@ use niwaki_run::Task;
 use niwaki_run::select::Selection;
 use niwaki_vm::core::Name;
 use niwaki_vm::core::parse::parse;
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 use std::sync::Arc;
 
 /// What it is, the program, a pattern and the proposal for the choices that match it.
@@ -98,8 +98,8 @@ const PROGRAMS: [(&str, &str, &str, &str); 6] = [
 fn case(text: &str, pattern: &str, function: &str) -> (Task, Kernel) {
     let user = User::new(task(&format!(r#"(module (fn "q" {function}) (entry "q"))"#))).expect("a proposal");
     let names: Vec<Name> = user.variables().cloned().collect();
-    let program =
-        compile_keeping(&parse(text).expect("core form"), vec![], Kept::Names(&names)).expect("a program");
+    let program = compile_with_scope(&parse(text).expect("core form"), vec![], Scope::Names(&names))
+        .expect("a program");
     let on = Selection { sites: vec![vec![pattern.into()]], ..Selection::default() };
     let own = Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(Arc::new(user)))));
     (Task::new(Arc::new(program)), Kernel::Cycle(vec![Kernel::PRIOR, own.clone(), own]))
@@ -146,7 +146,8 @@ fn to_keep_variables_changes_no_chain() {
         assert_eq!(states(&kept), states(&task(text)), "{name}");
     }
     for (name, text) in PROGRAMS.map(|program| (program.0, program.1)).iter().chain(OF_THE_MACHINE) {
-        let all = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+        let all =
+            compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
         let all = Task::new(Arc::new(all));
         assert_eq!(states(&all), states(&task(text)), "{name}");
     }

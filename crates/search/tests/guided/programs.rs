@@ -3,7 +3,7 @@
 use niwaki_geom::{Drawing, Page, SketchSpec, match_drawing};
 use niwaki_run::Task;
 use niwaki_vm::core::parse::parse;
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 use std::sync::Arc;
 
 /// Each with a name. Those that emit are scored by how well they draw [`page`].
@@ -90,7 +90,7 @@ pub fn page(sigma: f64) -> Arc<dyn SketchSpec> {
 
 /// The task of a program, compiled so that a guide can read all variables.
 pub fn task(text: &str) -> Task {
-    let program = compile_keeping(&parse(text).expect("a module"), vec![], Kept::All).expect("a program");
+    let program = compile_with_scope(&parse(text).expect("a module"), vec![], Scope::All).expect("a program");
     let sketches = if text.contains("emit") { vec![page(0.6)] } else { vec![] };
     Task { sketches, ..Task::new(Arc::new(program)) }
 }

@@ -1,4 +1,4 @@
-//! Conversions, rounding and the small functions of numbers that every model uses.
+//! Conversions, rounding, and small functions of numbers that every model uses.
 
 use super::answer::{Answer, less, unfit};
 use crate::fault::Fault;
@@ -22,7 +22,8 @@ pub(super) fn whole<S: Scalar>(name: &str, value: &Value<S>) -> Result<i64, Faul
     }
 }
 
-/// A number read as Python reads one: spaces around it, underscores between digits.
+/// The digits of a number as Python reads them: spaces around the number and underscores between digits are
+/// allowed.
 fn digits(text: &str) -> Option<String> {
     let text = text.trim();
     let between = |at: usize| {
@@ -34,13 +35,14 @@ fn digits(text: &str) -> Option<String> {
     (!misplaced).then(|| text.replace('_', ""))
 }
 
-/// `int(x)`: of a real, its whole part; of text, the number that it spells.
+/// `int(x)`: the whole part of a real, or the number that a text spells.
 pub fn int<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     match args.first() {
         None => Ok(Value::Int(0)),
         Some(Value::Str(text)) => {
-            let read = digits(text).and_then(|text| text.parse().ok());
-            read.map(Value::Int)
+            let number = digits(text).and_then(|text| text.parse().ok());
+            number
+                .map(Value::Int)
                 .ok_or_else(|| Fault::bad_text(format!("{} is not an int in text", print::quoted(text))))
         }
         Some(value) => match Number::of(value) {
@@ -51,13 +53,14 @@ pub fn int<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     }
 }
 
-/// `float(x)`: of text, the number that it spells.
+/// `float(x)`: for text, the number that it spells.
 pub fn float<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     match args.first() {
         None => Ok(Value::real(0.0)),
         Some(Value::Str(text)) => {
-            let read = digits(text).and_then(|text| text.parse().ok());
-            read.map(Value::real)
+            let number = digits(text).and_then(|text| text.parse().ok());
+            number
+                .map(Value::real)
                 .ok_or_else(|| Fault::bad_text(format!("{} is not a float in text", print::quoted(text))))
         }
         Some(value) => real("float", value).map(Value::Real),
@@ -76,7 +79,7 @@ pub fn abs<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     }
 }
 
-/// `round(x)` gives an int, `round(x, digits)` a float; ties go to the even neighbour.
+/// `round(x)` returns an int and `round(x, digits)` a float; ties go to the even neighbour.
 pub fn round<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let digits = match args.get(1) {
         None | Some(Value::None) => None,
@@ -102,7 +105,7 @@ pub fn round<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     }
 }
 
-/// `clip(x, lo, hi)`: `x`, or the bound that it is beyond.
+/// `clip(x, lo, hi)`: `x` if it is within the bounds, else the nearer bound.
 pub fn clip<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let [x, lo, hi] = args else { return Err(Fault::argument_count("`clip` takes 3 arguments")) };
     if let (Some(a), Some(b), Some(c)) = (Number::of(x), Number::of(lo), Number::of(hi)) {
@@ -140,7 +143,7 @@ mod tests {
     use crate::builtins::tests::{V, call, code};
 
     #[test]
-    fn conversions_are_pythons() {
+    fn conversions_agree_with_python() {
         assert_eq!(call("int", &[V::real(-2.9)]), Ok(V::Int(-2)));
         assert_eq!(call("int", &[V::str(" 1_000 ")]), Ok(V::Int(1000)));
         assert_eq!(call("float", &[V::str("-1e-3")]), Ok(V::real(-0.001)));
@@ -169,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn small_functions() {
+    fn small_functions_agree_with_their_definitions() {
         assert_eq!(call("clip", &[V::real(3.5), V::Int(0), V::Int(2)]), Ok(V::Int(2)));
         assert_eq!(call("clip", &[V::real(-0.5), V::Int(0), V::Int(2)]), Ok(V::Int(0)));
         assert_eq!(call("lerp", &[V::real(1.0), V::real(3.0), V::real(0.25)]), Ok(V::real(1.5)));

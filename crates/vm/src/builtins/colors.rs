@@ -1,4 +1,4 @@
-//! Colours: vectors of three sRGB parts, made from and read as HSV and CIELAB.
+//! Colours: vectors of three sRGB components, converted from and to HSV and CIELAB.
 
 use super::answer::Answer;
 use super::arithmetic::real;

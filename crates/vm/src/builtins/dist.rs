@@ -7,28 +7,28 @@ use crate::value::index::{iter_get, iter_len};
 use crate::value::numbers::Number;
 use crate::value::{Dist, Draw, Family, Param, Scalar, Value};
 
-/// Most components of one mixture after nested mixtures are flattened.
-const COMPONENTS: usize = 1 << 16;
+/// The most components of one mixture after nested mixtures are flattened.
+const MAX_COMPONENTS: usize = 1 << 16;
 
-/// A distribution of a family from its parameters in order.
+/// A distribution of a family, from its parameters in order.
 #[inline]
 pub fn make_dist<S: Scalar>(family: Family, args: &[Value<S>]) -> Result<Dist<S>, Fault> {
     let param = |at: usize| to_param(family, at, &args[at]);
     let result = match (family, args.len()) {
         (Family::Mixture, 2) => Dist::new(family, &flattened([param(0)?, param(1)?])?),
-        // One and two parameters, the usual cases, need no allocation.
+        // One or two parameters, the usual cases, need no allocation.
         (_, 1) => Dist::new(family, &[param(0)?]),
         (_, 2) => Dist::new(family, &[param(0)?, param(1)?]),
         (_, count) => Dist::new(family, &(0..count).map(param).collect::<Result<Vec<_>, _>>()?),
     };
-    result.map_err(|bad| {
-        let fault = Fault::bad_parameter(bad.to_string());
-        if bad.out_of_range { fault.of_call(family.name(), args) } else { fault }
+    result.map_err(|error| {
+        let fault = Fault::bad_parameter(error.to_string());
+        if error.out_of_range { fault.of_call(family.name(), args) } else { fault }
     })
 }
 
 /// The distribution of two numbers in order, for the most frequent families. `None` for any other family, for
-/// anything but numbers and for numbers that do not fit: [`make_dist`] then gives the fault.
+/// values that are not numbers, and for numbers that do not fit: [`make_dist`] then raises the fault.
 #[inline(always)]
 pub fn quick_dist<S: Scalar>(family: Family, a: &Value<S>, b: &Value<S>) -> Option<Dist<S>> {
     let number = |value: &Value<S>| match value {
@@ -39,7 +39,7 @@ pub fn quick_dist<S: Scalar>(family: Family, a: &Value<S>, b: &Value<S>) -> Opti
     Dist::of_reals(family, number(a)?, number(b)?)
 }
 
-/// A parameter as the families read it: numbers, rows of numbers, distributions.
+/// Converts a parameter to the form that families read: numbers, rows of numbers, distributions.
 #[inline]
 fn to_param<S: Scalar>(family: Family, at: usize, value: &Value<S>) -> Result<Param<S>, Fault> {
     if family == Family::Delta {
@@ -52,7 +52,7 @@ fn to_param<S: Scalar>(family: Family, at: usize, value: &Value<S>) -> Result<Pa
         Value::Vector(v) => Ok(Param::Vector(v.components().to_vec())),
         Value::Rotation(r) => Ok(Param::Matrix(r.chunks(3).map(<[S]>::to_vec).collect())),
         Value::Tuple(_) | Value::List(_) | Value::Record(_) => {
-            in_a_row(value).ok_or_else(|| unusable(family, at, value))
+            to_sequence_param(value).ok_or_else(|| unusable(family, at, value))
         }
         _ => Err(unusable(family, at, value)),
     }
@@ -84,7 +84,7 @@ fn numbers<S: Scalar>(value: &Value<S>) -> Option<Vec<S>> {
     }
 }
 
-fn in_a_row<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
+fn to_sequence_param<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
     match iter_get(value, 0) {
         Value::Dist(_) => {
             let dist = |item| if let Value::Dist(dist) = item { Some((*dist).clone()) } else { None };
@@ -97,8 +97,8 @@ fn in_a_row<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
     }
 }
 
-/// Flattens mixtures inside a mixture, with the product of the weights: the same
-/// distribution, but never nested, so that scoring and dropping one needs no host stack.
+/// Flattens mixtures inside of a mixture, with the product of the weights. The distribution stays the same, but
+/// it is never nested, so that scoring and dropping it need no host stack.
 fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
     let [Param::Vector(weights), Param::Dists(dists)] = &params else { return Ok(params) };
     if weights.len() != dists.len() || !dists.iter().any(|dist| matches!(dist, Dist::Mixture(_))) {
@@ -108,9 +108,9 @@ fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
     for (weight, dist) in weights.iter().zip(dists) {
         match dist {
             Dist::Mixture(inner) => {
-                let given = inner.weights.given();
-                let total = given.iter().fold(S::from_f64(0.0), |total, w| total + *w);
-                flat_weights.extend(given.iter().map(|w| *weight * *w / total));
+                let inner_weights = inner.weights.given();
+                let total = inner_weights.iter().fold(S::from_f64(0.0), |total, w| total + *w);
+                flat_weights.extend(inner_weights.iter().map(|w| *weight * *w / total));
                 flat.extend(inner.components.iter().cloned());
             }
             other => {
@@ -118,14 +118,16 @@ fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
                 flat.push(other.clone());
             }
         }
-        if flat.len() > COMPONENTS {
-            return Err(Fault::memory_budget(format!("a mixture of more than {COMPONENTS} distributions")));
+        if flat.len() > MAX_COMPONENTS {
+            return Err(Fault::memory_budget(format!(
+                "a mixture of more than {MAX_COMPONENTS} distributions"
+            )));
         }
     }
     Ok([Param::Vector(flat_weights), Param::Dists(flat)])
 }
 
-/// A draw as a value; a vector becomes a tuple.
+/// Converts a draw to a value; a vector becomes a tuple.
 #[inline(always)]
 pub fn draw_to_value<S: Scalar>(draw: Draw<S>) -> Value<S> {
     match draw {
@@ -152,7 +154,7 @@ fn vector_value<S: Scalar>(xs: &[S]) -> Value<S> {
     Value::tuple(xs.iter().copied().map(Value::Real).collect())
 }
 
-/// A value as a draw; `None` for a value that no distribution yields.
+/// Converts a value to a draw; `None` for a value that no distribution yields.
 #[inline(always)]
 pub fn value_to_draw<S: Scalar>(value: &Value<S>) -> Option<Draw<S>> {
     match value {
@@ -193,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn quick_dist_gives_the_same_distributions_and_refuses_the_same_numbers() {
+    fn quick_dist_and_make_dist_agree() {
         let numbers = [-1.0, 0.0, 0.5, 2.0, f64::MAX, f64::MIN, f64::INFINITY, f64::NAN];
         for family in [Family::Gaussian, Family::LogNormal, Family::Uniform, Family::Gamma, Family::Beta] {
             for (a, b) in numbers.iter().flat_map(|a| numbers.iter().map(move |b| (*a, *b))) {
@@ -243,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn draws_and_values_lead_to_each_other() {
+    fn draws_survive_a_conversion_to_values_and_back() {
         for draw in [Draw::Bool(true), Draw::Int(-4), Draw::Real(0.5), Draw::Vector([0.25, 0.75].into())] {
             assert_eq!(value_to_draw(&draw_to_value(draw.clone())), Some(draw));
         }

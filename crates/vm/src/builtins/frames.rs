@@ -1,22 +1,23 @@
 //! Places to look from: the word `look`.
 //!
-//! A frame is a position and two unit directions at right angles. What lies in the plane is given by pairs: its z is 0.
+//! A frame is a position and two unit directions at right angles. Points and directions in the plane are pairs:
+//! their z is 0.
 
 use super::answer::{Answer, unfit};
 use super::vectors::{length, parts};
 use crate::fault::Fault;
 use crate::value::{Scalar, Value, Vector};
 
-/// Above this cosine a direction is too close to the y axis for that axis to be up.
+/// The cosine above which a direction is too close to the y axis for that axis to be up.
 const STEEP: f64 = 0.9;
 
-/// Below this sine two directions lie along one line.
-const ALONG: f64 = 1e-9;
+/// The sine below which two directions are parallel.
+const PARALLEL: f64 = 1e-9;
 
-/// A point or direction, and whether it lies in the plane.
+/// A point or direction, and whether it is in the plane.
 #[inline]
 fn triple<S: Scalar>(value: &Value<S>) -> Result<([S; 3], bool), Fault> {
-    // The pairs of flat models, without a copy.
+    // The pairs of flat models need no copy.
     if let Value::Tuple(pair) = value
         && let [Value::Real(x), Value::Real(y)] = pair.items()
     {
@@ -37,13 +38,14 @@ fn unit<S: Scalar>(v: [S; 3]) -> Result<[S; 3], Fault> {
     Ok(v.map(|x| x / length))
 }
 
-/// `look(position, forward, up)`: the position and the two directions of its frame, vectors of three.
+/// `look(position, forward, up)`: the position and the two directions of the frame, as vectors of three
+/// components.
 pub fn look<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let vectors = frame(args)?.map(|v| Value::vector(&v));
     Ok(Value::tuple(vectors.into()))
 }
 
-/// The faults of [`look`], where nothing reads its frame.
+/// Raises the faults of [`look`], for calls whose frame nobody reads.
 pub fn check<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     frame(args).map(|_| Value::None)
 }
@@ -60,7 +62,7 @@ fn frame<S: Scalar>(args: &[Value<S>]) -> Result<[[S; 3]; 3], Fault> {
     };
     let along = up[0] * forward[0] + up[1] * forward[1] + up[2] * forward[2];
     let across = [0, 1, 2].map(|k| up[k] - along * forward[k]);
-    if length(&across).value() < ALONG {
+    if length(&across).value() < PARALLEL {
         return Err(Fault::bad_argument("`look`: `up` lies along `forward`"));
     }
     Ok([center, forward, unit(across)?])
@@ -80,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn up_is_chosen_and_made_perpendicular() {
+    fn up_has_a_default_and_is_perpendicular() {
         let (plane, space) = (reals([1.0, 2.0]), reals([1.0, 2.0, 3.0]));
         let flat = frame(&[plane.clone(), reals([0.0, 2.0])]);
         assert_eq!(flat, [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);

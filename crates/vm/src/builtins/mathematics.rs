@@ -1,8 +1,8 @@
-//! Python's `math`: the same functions, the same refusals.
+//! Python's `math`: the same functions with the same domains.
 //!
-//! `math` never returns NaN or an infinity for an ordinary argument: outside the domain it raises `ValueError`
-//! (here `math-domain`), beyond the largest float `OverflowError` (`float-overflow`). Source: Python library
-//! reference, `math`, "CPython implementation detail".
+//! For an ordinary argument, `math` never returns NaN or an infinity. Outside of the domain it raises
+//! `ValueError` (here `math-domain`), and beyond the largest float `OverflowError` (`float-overflow`). Source:
+//! Python library reference, `math`, "CPython implementation detail".
 
 use super::answer::{Answer, unfit};
 use super::arithmetic::{real, whole, with_sign};
@@ -43,7 +43,7 @@ macro_rules! functions {
 }
 
 functions! {
-    /// Square root.
+    /// The square root.
     sqrt sqrt false;
     /// e to the power x.
     exp exp true;
@@ -51,17 +51,17 @@ functions! {
     log1p ln_1p false;
     /// `exp(x) - 1`.
     expm1 exp_m1 true;
-    /// Sine of radians.
+    /// The sine of an angle in radians.
     sin sin false;
-    /// Cosine of radians.
+    /// The cosine of an angle in radians.
     cos cos false;
-    /// Tangent of radians.
+    /// The tangent of an angle in radians.
     tan tan false;
-    /// Radians, in [-pi/2, pi/2].
+    /// The arcsine in radians, in [-pi/2, pi/2].
     asin asin false;
-    /// Radians, in [0, pi].
+    /// The arccosine in radians, in [0, pi].
     acos acos false;
-    /// Radians, in [-pi/2, pi/2].
+    /// The arctangent in radians, in [-pi/2, pi/2].
     atan atan false;
     /// Hyperbolic sine.
     sinh sinh true;
@@ -69,7 +69,7 @@ functions! {
     cosh cosh true;
     /// Hyperbolic tangent.
     tanh tanh false;
-    /// The size of a number, as a float.
+    /// The absolute value of a number, as a float.
     fabs abs false;
     /// The error function.
     erf erf false;
@@ -101,7 +101,7 @@ pub fn log10<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     checked("log10", x, log, false)
 }
 
-/// Angle of the point (x, y), radians, in [-pi, pi]: `atan2(y, x)`.
+/// `atan2(y, x)`: the angle of the point (x, y) in radians, in [-pi, pi].
 pub fn atan2<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::Real(real("atan2", &args[0])?.atan2(real("atan2", &args[1])?)))
 }
@@ -115,14 +115,14 @@ pub fn hypot<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     })))
 }
 
-/// A number rounded to a whole one by a function that changes `lo` below and `hi` above the result.
+/// Rounds a number to a whole number with a function that changes at `lo` below and `hi` above the result.
 pub(super) fn stepped<S: Scalar>(x: S, round: fn(f64) -> f64, lo: f64, hi: f64) -> Result<i64, Fault> {
     let whole = round(x.value());
     pin(x, whole + lo, whole + hi);
     numbers::to_int(whole)
 }
 
-/// A number without its decimals.
+/// The whole part of a number.
 pub(super) fn truncated<S: Scalar>(x: S) -> Result<i64, Fault> {
     let whole = x.value().trunc();
     let reaches = |side: bool| f64::from(u8::from(side));
@@ -147,17 +147,17 @@ pub fn ceil<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     to_whole("ceil", &args[0], |x| stepped(x, f64::ceil, -1.0, 0.0))
 }
 
-/// The int part of x.
+/// The whole part of x.
 pub fn trunc<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     to_whole("trunc", &args[0], truncated)
 }
 
-/// Radians to degrees.
+/// Converts radians to degrees.
 pub fn degrees<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::Real(real("degrees", &args[0])? * S::from_f64(180.0 / std::f64::consts::PI)))
 }
 
-/// Degrees to radians.
+/// Converts degrees to radians.
 pub fn radians<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::Real(real("radians", &args[0])? * S::from_f64(std::f64::consts::PI / 180.0)))
 }
@@ -167,7 +167,7 @@ pub fn copysign<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::Real(with_sign(real("copysign", &args[0])?, real("copysign", &args[1])?)))
 }
 
-/// Remainder with the sign of x (where `%` has the sign of y).
+/// The remainder with the sign of x (`%` has the sign of y).
 pub fn fmod<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (x, y) = (real("fmod", &args[0])?, real("fmod", &args[1])?);
     let (a, b) = (x.value(), y.value());
@@ -189,7 +189,7 @@ pub fn fmod<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     )))
 }
 
-/// `math.pow(x, y)`: always a float, where `**` of ints is an int.
+/// `math.pow(x, y)`: always a float, while `**` of ints is an int.
 pub fn math_pow<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (x, y) = (real("pow", &args[0])?, real("pow", &args[1])?);
     let (base, exponent) = (x.value(), y.value());
@@ -211,17 +211,17 @@ macro_rules! predicates {
 }
 
 mod predicates {
-    //! Tests of a float, named as those of `f64`.
+    //! Tests of a float, named after those of `f64`.
     use crate::builtins::answer::Answer;
     use crate::builtins::arithmetic::real;
     use crate::value::{Scalar, Value};
 
     predicates! {
-        /// Neither infinite nor NaN.
+        /// Whether a float is neither infinite nor NaN.
         is_finite;
-        /// NaN.
+        /// Whether a float is NaN.
         is_nan;
-        /// Infinite.
+        /// Whether a float is infinite.
         is_infinite;
     }
 }
@@ -249,11 +249,11 @@ pub fn factorial<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     if n < 0 {
         return Err(Fault::math_domain(format!("factorial({n}) is not defined")));
     }
-    // 21! does not fit any more.
+    // 21! does not fit in 64 bits.
     fitting("factorial", (n < 21).then(|| (2..=n).product()))
 }
 
-/// Number of subsets of k of n elements.
+/// The number of subsets with k elements of a set with n elements.
 pub fn comb<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (n, k) = (whole("comb", &args[0])?, whole("comb", &args[1])?);
     if n < 0 || k < 0 {
@@ -290,7 +290,7 @@ mod tests {
     use crate::builtins::tests::{V, call, code};
 
     #[test]
-    fn what_math_refuses_is_refused() {
+    fn arguments_outside_of_the_domain_are_faults() {
         let domain =
             [("sqrt", -1.0), ("log", 0.0), ("log", -1.0), ("log1p", -1.0), ("log2", 0.0), ("asin", 1.1)];
         for (name, x) in domain {
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn known_values() {
+    fn functions_have_their_known_values() {
         let cases: &[(&str, &[f64], f64)] = &[
             ("sqrt", &[2.25], 1.5),
             ("log", &[8.0, 2.0], 3.0),
@@ -328,8 +328,8 @@ mod tests {
         ];
         for (name, args, expected) in cases {
             let args: Vec<V> = args.iter().map(|x| V::real(*x)).collect();
-            let Ok(V::Real(found)) = call(name, &args) else { panic!("{name}") };
-            assert!((found - expected).abs() <= 1e-15 * expected.abs(), "{name} {found}");
+            let Ok(V::Real(result)) = call(name, &args) else { panic!("{name}") };
+            assert!((result - expected).abs() <= 1e-15 * expected.abs(), "{name} {result}");
         }
         assert_eq!(call("floor", &[V::real(-1.5)]), Ok(V::Int(-2)));
         assert_eq!(call("ceil", &[V::real(-1.5)]), Ok(V::Int(-1)));

@@ -1,5 +1,5 @@
-//! The built-in functions of the language, by number: one table, in the order of the files beside it. The words for shapes come
-//! last, from the table of solids.
+//! The built-in functions of the language, by number. There is one table, in the order of the files in this
+//! folder; the words for shapes come last, from the table of solids.
 //!
 //! - [`arithmetic`]: conversions, rounding, small functions of numbers
 //! - [`mathematics`]: Python's `math`
@@ -10,8 +10,9 @@
 //! - [`colors`], [`polygons`]: colours and polygons of the plane
 //! - [`dist`]: distributions from values
 //!
-//! The operators (`add`, `lt`, `index`, ...) are in the table as well, so that any of them can be a function value.
-//! Mathematics goes through [`Scalar`], so a recording scalar sees it.
+//! The table also contains the operators (`add`, `lt`, `index`, ...), so that each of them can be a function
+//! value.
+//! All mathematics uses [`Scalar`], so that a recording scalar can record it.
 
 pub mod answer;
 pub mod arithmetic;
@@ -40,16 +41,16 @@ pub use dist::{draw_to_value, make_dist, quick_dist, value_to_draw};
 pub struct Builtin<S: Scalar = f64> {
     /// Its name in core form.
     pub name: &'static str,
-    /// Fewest arguments.
+    /// The minimum number of arguments.
     pub min_args: usize,
-    /// Most arguments; `usize::MAX` for any number.
+    /// The maximum number of arguments; `usize::MAX` for any number.
     pub max_args: usize,
-    /// What it does. It does not check the number of arguments: see [`Builtin::call`].
+    /// The implementation. It does not check the number of arguments: see [`Builtin::call`].
     pub run: fn(&[Value<S>]) -> Answer<S>,
 }
 
 impl<S: Scalar> Builtin<S> {
-    /// Checks the number of arguments, then runs.
+    /// Checks the number of arguments and runs the implementation.
     #[inline]
     pub fn call(&self, args: &[Value<S>]) -> Answer<S> {
         if (self.min_args..=self.max_args).contains(&args.len()) {
@@ -59,26 +60,26 @@ impl<S: Scalar> Builtin<S> {
     }
 
     #[cold]
-    fn wrong_count(&self, found: usize) -> Fault {
+    fn wrong_count(&self, count: usize) -> Fault {
         let expected = match (self.min_args, self.max_args) {
             (least, usize::MAX) => format!("at least {least}"),
             (least, most) if least == most => least.to_string(),
             (least, most) => format!("{least} to {most}"),
         };
         let name = self.name;
-        Fault::argument_count(format!("`{name}` takes {expected} arguments, found {found}"))
+        Fault::argument_count(format!("`{name}` takes {expected} arguments, found {count}"))
     }
 }
 
-/// Number of a built-in function.
+/// The number of a built-in function.
 pub fn builtin_id(name: &str) -> Option<u16> {
     Table::<f64>::ALL.iter().position(|builtin| builtin.name == name).map(|at| at as u16)
 }
 
-/// The built-in function with a number from [`builtin_id`].
+/// The built-in function with a number that [`builtin_id`] returned.
 ///
 /// # Panics
-/// For any other number.
+/// The number does not belong to a function.
 #[inline]
 pub fn builtin<S: Scalar>(id: u16) -> &'static Builtin<S> {
     &Table::<S>::ALL[usize::from(id)]
@@ -89,12 +90,12 @@ pub fn builtins<S: Scalar>() -> &'static [Builtin<S>] {
     Table::<S>::ALL
 }
 
-/// The word `mesh`, of a mesh that was read before: the first two arguments are not read.
+/// The word `mesh` for a mesh that was read before; the first two arguments are ignored.
 pub fn placed_mesh<S: Scalar>(mesh: &Arc<TriMesh>, args: &[Value<S>]) -> Answer<S> {
-    shapes::made::<S, niwaki_geom::solids::mesh::MeshWord<S>>(args, Some(mesh))
+    shapes::build::<S, niwaki_geom::solids::mesh::MeshWord<S>>(args, Some(mesh))
 }
 
-/// Carries the table of each scalar.
+/// The type that carries the table of each scalar.
 struct Table<S>(std::marker::PhantomData<S>);
 
 const ANY: usize = usize::MAX;
@@ -110,10 +111,10 @@ macro_rules! table {
     };
 }
 
-/// The elements of the one argument, or the arguments themselves.
-fn one_or_many<S: Scalar>(args: &[Value<S>]) -> Result<Vec<Value<S>>, Fault> {
+/// The elements of the only argument, or the arguments themselves if there are several.
+fn elements_or_arguments<S: Scalar>(args: &[Value<S>]) -> Result<Vec<Value<S>>, Fault> {
     match args {
-        [one] => index::iter_all(one),
+        [sequence] => index::iter_all(sequence),
         many => Ok(many.to_vec()),
     }
 }
@@ -203,8 +204,8 @@ niwaki_geom::words_of_solids! {
     "smooth_abs" 2 2 soft::smooth_abs;
 
     "sum" 1 2 sequences::sum;
-    "min" 1 ANY |a| sequences::extreme("min", &one_or_many(a)?, None);
-    "max" 1 ANY |a| sequences::extreme("max", &one_or_many(a)?, None);
+    "min" 1 ANY |a| sequences::extreme("min", &elements_or_arguments(a)?, None);
+    "max" 1 ANY |a| sequences::extreme("max", &elements_or_arguments(a)?, None);
     "argmin_by" 2 2 |a| sequences::extreme("min", &index::iter_all(&a[0])?, Some(&index::iter_all(&a[1])?));
     "argmax_by" 2 2 |a| sequences::extreme("max", &index::iter_all(&a[0])?, Some(&index::iter_all(&a[1])?));
     "sorted" 1 2 sequences::sorted;
@@ -275,7 +276,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn names_are_unique_and_numbers_lead_back() {
+    fn names_are_unique() {
         let all = builtins::<f64>();
         for (at, builtin) in all.iter().enumerate() {
             assert_eq!(builtin_id(builtin.name), Some(at as u16), "{}", builtin.name);
@@ -285,10 +286,10 @@ pub(crate) mod tests {
         assert_eq!(code("sqrt", &[]), "argument-count");
     }
 
-    /// No function accepts a future that is not forced, except the few that read no element.
+    /// No function accepts a future that is not forced, except for the few that read no element.
     #[test]
-    fn functions_do_not_look_at_futures() {
-        let passing = [
+    fn functions_refuse_futures() {
+        let accepting = [
             "is_none",
             "append",
             "reversed",
@@ -302,7 +303,7 @@ pub(crate) mod tests {
         ];
         for future in [V::Future(1), V::returned(V::Int(1))] {
             let plain = [V::Int(1), V::real(0.5), V::str("x"), ints([3, 1]), V::vector(&[1.0, 0.0, 0.0])];
-            for builtin in builtins::<f64>().iter().filter(|b| !passing.contains(&b.name)) {
+            for builtin in builtins::<f64>().iter().filter(|b| !accepting.contains(&b.name)) {
                 for (count, other) in
                     (1..=builtin.max_args.min(4)).flat_map(|n| plain.iter().map(move |p| (n, p)))
                 {
@@ -317,7 +318,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// No kind of argument makes a function panic: every function, every kind, every number of arguments up to four.
+    /// The claim: no arguments make a function panic. All functions are tried with arguments of all kinds, up
+    /// to four.
     #[test]
     fn any_arguments_give_an_answer_or_a_fault() {
         let samples = [

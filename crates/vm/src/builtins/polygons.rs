@@ -8,16 +8,16 @@ use crate::value::index::{iter_get, iter_len};
 use crate::value::{Scalar, Value};
 use niwaki_math::polygon::{self, Point};
 
-/// A point of two numbers.
+/// Reads a point of two numbers.
 fn point<S: Scalar>(name: &str, value: &Value<S>) -> Result<Point<S>, Fault> {
     let v = parts(name, value)?;
     v.components().try_into().map_err(|_| {
-        let found = v.components().len();
-        Fault::type_mismatch(format!("`{name}` takes points of 2 numbers, found {found}"))
+        let count = v.components().len();
+        Fault::type_mismatch(format!("`{name}` takes points of 2 numbers, found {count}"))
     })
 }
 
-/// The corners of a polygon.
+/// Reads the corners of a polygon.
 fn corners<S: Scalar>(name: &str, value: &Value<S>) -> Result<Vec<Point<S>>, Fault> {
     if !matches!(value, Value::Tuple(_) | Value::List(_)) {
         return Err(unfit(name, "a polygon: a list or tuple of points", value));
@@ -42,7 +42,7 @@ pub fn contains<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::Bool(polygon::contains(&corners(name, &args[0])?, point(name, &args[1])?)))
 }
 
-/// `polygon_distance(polygon, point)`: to the boundary.
+/// `polygon_distance(polygon, point)`: the distance to the boundary.
 pub fn distance<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let name = "polygon_distance";
     Ok(Value::Real(polygon::boundary_distance(&corners(name, &args[0])?, point(name, &args[1])?)))

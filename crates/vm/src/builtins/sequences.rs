@@ -1,4 +1,4 @@
-//! Making, ordering and folding sequences.
+//! Functions that build, order and fold sequences.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::value::index::{iter_all, iter_len};
 use crate::value::numbers::Number;
 use crate::value::{Range, Scalar, Tuple, Value, ops};
 
-/// `sum(xs)` or `sum(xs, start)`: from the int 0, left to right.
+/// `sum(xs)` or `sum(xs, start)`: added from left to right, beginning with the int 0.
 pub fn sum<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let mut total = args.get(1).cloned().unwrap_or(Value::Int(0));
     if matches!(total, Value::Str(_)) {
@@ -21,7 +21,7 @@ pub fn sum<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(total)
 }
 
-/// The first of the least (`min`) or greatest (`max`) items, by their own order or by that of their keys.
+/// The first of the least (`min`) or greatest (`max`) items, in the order of the items or of their keys.
 pub fn extreme<S: Scalar>(name: &str, items: &[Value<S>], keys: Option<&[Value<S>]>) -> Answer<S> {
     let keys = keys.unwrap_or(items);
     if keys.len() != items.len() {
@@ -29,7 +29,8 @@ pub fn extreme<S: Scalar>(name: &str, items: &[Value<S>], keys: Option<&[Value<S
         return Err(Fault::bad_argument(format!("`{name}` has {keys} keys for {items} elements")));
     }
     if std::ptr::eq(keys, items) && items.iter().any(|item| matches!(item, Value::Real(x) if x.varies())) {
-        // Recorded as one operation, which has a slope on either side; comparing would add a guard for the winner.
+        // The result is recorded as one operation, which has a slope on either side. A comparison would add a
+        // guard for the winner.
         let numbers: Option<Vec<S>> = items.iter().map(|item| Number::of(item).map(Number::real)).collect();
         if let Some(best) =
             numbers.and_then(|x| x.into_iter().reduce(if name == "min" { S::min } else { S::max }))
@@ -66,10 +67,10 @@ pub fn sorted_by<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::list(order.into_iter().map(|at| items[at].clone()).collect()))
 }
 
-/// Positions in ascending (or descending) order of the keys; equal keys stay in their order, also in reverse.
+/// The positions in ascending (or descending) order of the keys. Equal keys keep their order, also in reverse.
 ///
-/// A merge sort of our own: it uses only `<`, may stop at a fault, and accepts NaN, for which the standard
-/// library's sort may panic.
+/// This is a merge sort of our own: it uses only `<`, may stop at a fault, and accepts NaN, for which the
+/// standard library's sort may panic.
 fn stable_order<S: Scalar>(keys: &[Value<S>], reverse: bool) -> Result<Vec<usize>, Fault> {
     let before =
         |a: usize, b: usize| if reverse { less(&keys[b], &keys[a]) } else { less(&keys[a], &keys[b]) };
@@ -98,7 +99,7 @@ fn stable_order<S: Scalar>(keys: &[Value<S>], reverse: bool) -> Result<Vec<usize
     Ok(order)
 }
 
-/// Whether an element has that truth value; those after it are not read.
+/// Whether an element has the truth value `truth`; later elements are not read.
 pub fn has<S: Scalar>(items: &Value<S>, truth: bool) -> Result<bool, Fault> {
     for item in iter_all(items)? {
         if ops::truth(&item)? == truth {
@@ -126,7 +127,7 @@ pub fn enumerate<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::list(pairs.collect()))
 }
 
-/// `zip(xs, ys, ...)`, as a list of tuples; as long as the shortest.
+/// `zip(xs, ys, ...)`, as a list of tuples that is as long as the shortest sequence.
 pub fn zip<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let columns: Vec<Vec<Value<S>>> = args.iter().map(iter_all).collect::<Result<_, _>>()?;
     let rows = columns.iter().map(Vec::len).min().unwrap_or(0);
@@ -134,7 +135,7 @@ pub fn zip<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     Ok(Value::list((0..rows).map(row).collect()))
 }
 
-/// `zip(xs, ys, ..., strict=True)`: all of one length.
+/// `zip(xs, ys, ..., strict=True)`: all sequences must have the same length.
 pub fn zip_strict<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     for pair in args.windows(2) {
         let (first, second) = (iter_len(&pair[0])?, iter_len(&pair[1])?);
@@ -207,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_of_equals_wins() {
+    fn min_and_max_return_the_first_of_equals() {
         let text = |value: V| format!("{value:?}");
         assert_eq!(text(call("max", &[V::Int(1), V::real(1.0), V::Bool(true)]).unwrap()), "1");
         assert_eq!(text(call("min", &[V::list(vec![V::real(1.0), V::Int(1)])]).unwrap()), "1.0");
@@ -216,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn folds_and_pairs() {
+    fn folds_and_pairs_agree_with_python() {
         assert_eq!(format!("{:?}", call("sum", &[V::list(vec![])]).unwrap()), "0");
         assert_eq!(call("sum", &[reals([0.1; 10])]), Ok(V::real(0.999_999_999_999_999_9)));
         assert_eq!(call("sum", &[V::list(vec![ints([1]), ints([2])]), V::list(vec![])]), Ok(ints([1, 2])));

@@ -1,7 +1,8 @@
-//! Shapes from values: the words that `niwaki_geom`'s solids describe. Models and plain Python runs both use this file.
+//! Shapes from values: the words that the solids of `niwaki_geom` describe. Models and plain Python runs both
+//! use this file.
 //!
-//! A scene is made of plain numbers: a recording scalar gives only its value here. Where the shape is it may note
-//! ([`Scalar::note`]).
+//! A scene consists of plain numbers: a recording scalar contributes only its value. It may note the places of
+//! shapes ([`Scalar::note`]).
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -16,29 +17,29 @@ use super::arithmetic::{real, whole};
 use super::vectors::three;
 use crate::fault::Fault;
 use crate::value::index::{iter_all, iter_get, iter_len};
-use crate::value::{Scalar, Value, same};
+use crate::value::{Scalar, Value, identical};
 
-/// One word's arguments; those left out are `None`.
-struct Given<'a, S: Scalar> {
+/// The arguments of a call of a word; omitted arguments are `None`.
+struct WordCall<'a, S: Scalar> {
     word: &'static Description,
     args: &'a [Value<S>],
-    /// A mesh that was read before: the first two arguments are not read.
+    /// A mesh that was read before; then the first two arguments are ignored.
     mesh: Option<&'a Arc<TriMesh>>,
 }
 
-impl<S: Scalar> Given<'_, S> {
-    fn given(&self, at: usize) -> Option<&Value<S>> {
+impl<S: Scalar> WordCall<'_, S> {
+    fn argument(&self, at: usize) -> Option<&Value<S>> {
         self.args.get(at).filter(|arg| !matches!(arg, Value::None))
     }
 
     #[inline]
-    fn needed(&self, at: usize) -> Result<&Value<S>, Fault> {
-        self.given(at).ok_or_else(|| {
+    fn required(&self, at: usize) -> Result<&Value<S>, Fault> {
+        self.argument(at).ok_or_else(|| {
             Fault::bad_argument(format!("argument {} of `{}` cannot be None", at + 1, self.word.name))
         })
     }
 
-    /// Reads an argument, or a part of one; what is wrong with it names the parameter.
+    /// Reads an argument or a part of an argument; a fault names the parameter.
     #[inline]
     fn read<T>(
         &self,
@@ -57,37 +58,37 @@ impl<S: Scalar> Given<'_, S> {
         Fault::new(fault.code, fault.message.replacen(&word, &named, 1))
     }
 
-    /// The parts of a tuple, list or record of `count`.
-    fn several(&self, at: usize, count: usize, expected: &str) -> Result<Vec<Value<S>>, Fault> {
-        let arg = self.needed(at)?;
-        let several = matches!(arg, Value::Tuple(_) | Value::List(_) | Value::Record(_));
-        if !several || iter_len(arg)? != count {
+    /// The parts of a tuple, list or record that must have `count` parts.
+    fn parts_of(&self, at: usize, count: usize, expected: &str) -> Result<Vec<Value<S>>, Fault> {
+        let arg = self.required(at)?;
+        let has_parts = matches!(arg, Value::Tuple(_) | Value::List(_) | Value::Record(_));
+        if !has_parts || iter_len(arg)? != count {
             return Err(self.named(at, &unfit(self.word.name, expected, arg)));
         }
         iter_all(arg)
     }
 }
 
-impl<S: Scalar> Arguments<S> for Given<'_, S> {
+impl<S: Scalar> Arguments<S> for WordCall<'_, S> {
     type Fault = Fault;
 
     #[inline]
     fn is_given(&self, at: usize) -> bool {
-        self.given(at).is_some()
+        self.argument(at).is_some()
     }
 
     #[inline]
     fn real(&self, at: usize) -> Result<S, Fault> {
-        self.read(at, self.needed(at)?, real)
+        self.read(at, self.required(at)?, real)
     }
 
     #[inline]
     fn three(&self, at: usize) -> Result<[S; 3], Fault> {
-        self.read(at, self.needed(at)?, three)
+        self.read(at, self.required(at)?, three)
     }
 
     fn rows(&self, at: usize) -> Result<[[S; 3]; 3], Fault> {
-        let arg = self.needed(at)?;
+        let arg = self.required(at)?;
         if let Value::Rotation(r) = arg {
             return Ok([[r[0], r[1], r[2]], [r[3], r[4], r[5]], [r[6], r[7], r[8]]]);
         }
@@ -102,12 +103,12 @@ impl<S: Scalar> Arguments<S> for Given<'_, S> {
     }
 
     fn letter(&self, at: usize) -> Result<usize, Fault> {
-        let arg = self.needed(at)?;
-        let found = match arg {
+        let arg = self.required(at)?;
+        let position = match arg {
             Value::Str(text) => ["x", "y", "z"].iter().position(|letter| *letter == &**text),
             _ => None,
         };
-        found.ok_or_else(|| {
+        position.ok_or_else(|| {
             let shown = crate::value::repr(arg).unwrap_or_default();
             let word = self.word.name;
             Fault::bad_shape(format!("an axis of `{word}` is {shown}, expected \"x\", \"y\" or \"z\""))
@@ -115,31 +116,31 @@ impl<S: Scalar> Arguments<S> for Given<'_, S> {
     }
 
     fn axis(&self, at: usize) -> Result<[S; 3], Fault> {
-        match self.needed(at)? {
+        match self.required(at)? {
             Value::Str(_) => Ok(Vec3::AXES[self.letter(at)?].to_array().map(S::from_f64)),
             direction => self.read(at, direction, three),
         }
     }
 
     fn frame(&self, at: usize) -> Result<([S; 3], Frame), Fault> {
-        let parts = self.several(at, 4, "a frame (center, forward, up, radius)")?;
+        let parts = self.parts_of(at, 4, "a frame (center, forward, up, radius)")?;
         let middle = self.read(at, &parts[0], three)?;
         let [forward, up] = [self.read(at, &parts[1], point)?, self.read(at, &parts[2], point)?];
-        let radius = self.read(at, &parts[3], measured)?;
+        let radius = self.read(at, &parts[3], length)?;
         Ok((middle, Frame { center: Vec3::from(middle.map(Scalar::value)), forward, up, radius }))
     }
 
     fn bark(&self, at: usize) -> Result<Bark, Fault> {
-        let parts = self.several(at, 4, "a piece of bark (low, low_radius, high, high_radius)")?;
+        let parts = self.parts_of(at, 4, "a piece of bark (low, low_radius, high, high_radius)")?;
         let place = |part: usize| self.read(at, &parts[part], point);
-        let radius = |part: usize| self.read(at, &parts[part], measured);
+        let radius = |part: usize| self.read(at, &parts[part], length);
         Ok(Bark { low: place(0)?, low_radius: radius(1)?, high: place(2)?, high_radius: radius(3)? })
     }
 
     fn mesh(&self, at: usize) -> Result<Arc<TriMesh>, Fault> {
         match self.mesh {
             Some(mesh) => Ok(Arc::clone(mesh)),
-            None => kept_mesh(self, self.needed(at)?, self.needed(at + 1)?),
+            None => cached_mesh(self, self.required(at)?, self.required(at + 1)?),
         }
     }
 }
@@ -148,9 +149,9 @@ fn point<S: Scalar>(word: &str, value: &Value<S>) -> Result<Vec3, Fault> {
     three(word, value).map(|parts| Vec3::from(parts.map(Scalar::value)))
 }
 
-/// A length within an argument. Whether there is such a shape depends on its sign, so a recording holds only where the sign
-/// stays: the comparison notes that.
-fn measured<S: Scalar>(word: &str, value: &Value<S>) -> Result<f64, Fault> {
+/// Reads a length within an argument. The sign decides whether there is such a shape, so a recording is valid
+/// only while the sign stays: the comparison records that.
+fn length<S: Scalar>(word: &str, value: &Value<S>) -> Result<f64, Fault> {
     let measure = real(word, value)?;
     let _ = measure > S::from_f64(0.0);
     Ok(measure.value())
@@ -162,56 +163,58 @@ where
     Solid: From<W::Solid>,
 {
     let (min_args, max_args) = W::DESCRIPTION.counts();
-    Builtin { name: W::DESCRIPTION.name, min_args, max_args, run: |args| made::<S, W>(args, None) }
+    Builtin { name: W::DESCRIPTION.name, min_args, max_args, run: |args| build::<S, W>(args, None) }
 }
 
-/// The shape of a call; `mesh` is that of a word whose first two arguments were read before.
-pub(super) fn made<S: Scalar, W: Word<S>>(args: &[Value<S>], mesh: Option<&Arc<TriMesh>>) -> Answer<S>
+/// Builds the shape of a call. `mesh` is the mesh of a word whose first two arguments were read before.
+pub(super) fn build<S: Scalar, W: Word<S>>(args: &[Value<S>], mesh: Option<&Arc<TriMesh>>) -> Answer<S>
 where
     Solid: From<W::Solid>,
 {
-    let (word, called) = (W::DESCRIPTION.name, W::read(&Given { word: &W::DESCRIPTION, args, mesh })?);
-    let made =
-        called.solid().and_then(|(solid, placement)| Shape::new(solid.into(), placement, called.look()));
-    let shape = made.map_err(|error| refused(error).of_call(word, args))?;
-    S::note(shape.address(), || called.at().concat());
+    let (word, parsed) = (W::DESCRIPTION.name, W::read(&WordCall { word: &W::DESCRIPTION, args, mesh })?);
+    let shape =
+        parsed.solid().and_then(|(solid, placement)| Shape::new(solid.into(), placement, parsed.look()));
+    let shape = shape.map_err(|error| bad_shape(error).of_call(word, args))?;
+    S::note(shape.address(), || parsed.at().concat());
     Ok(Value::Shape(shape))
 }
 
-/// The faults of the geometry crate keep their messages. They are about measures and places: the kinds of arguments were
-/// checked before.
-fn refused(error: GeomError) -> Fault {
+/// Converts a fault of the geometry crate, and keeps its message. Such faults concern measures and places: the
+/// kinds of arguments were checked before.
+fn bad_shape(error: GeomError) -> Fault {
     Fault::bad_shape(error.message)
 }
 
-/// Meshes that a thread keeps, newest last.
-const KEPT: usize = 16;
+/// The most meshes that a thread caches, newest last.
+const CACHED_MESHES: usize = 16;
 
-/// The data that a mesh was made of, and the mesh.
-type Kept = (Box<dyn Any>, Arc<TriMesh>);
+/// The data of a mesh, and the mesh.
+type CachedMesh = (Box<dyn Any>, Arc<TriMesh>);
 
 thread_local! {
-    /// A model places the same mesh again and again; its vertices are constants. They are compared by identity, so a
-    /// hit costs nothing, and the mesh is shared by all shapes that place it.
-    static MESHES: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
+    /// Meshes that models of this thread placed before. A model places the same mesh again and again, and its
+    /// vertices are constants. They are compared by identity, so a hit costs nothing, and all shapes that place
+    /// a mesh share it.
+    static MESHES: RefCell<Vec<CachedMesh>> = const { RefCell::new(Vec::new()) };
 }
 
-fn kept_mesh<S: Scalar>(
-    given: &Given<'_, S>,
+fn cached_mesh<S: Scalar>(
+    call: &WordCall<'_, S>,
     vertices: &Value<S>,
     faces: &Value<S>,
 ) -> Result<Arc<TriMesh>, Fault> {
     MESHES.with_borrow_mut(|meshes| {
-        let is_it = |kept: &Kept| {
-            kept.0
+        let is_match = |cached: &CachedMesh| {
+            cached
+                .0
                 .downcast_ref()
-                .is_some_and(|(v, f): &(Value<S>, Value<S>)| same(v, vertices) && same(f, faces))
+                .is_some_and(|(v, f): &(Value<S>, Value<S>)| identical(v, vertices) && identical(f, faces))
         };
-        if let Some((_, mesh)) = meshes.iter().find(|kept| is_it(kept)) {
+        if let Some((_, mesh)) = meshes.iter().find(|cached| is_match(cached)) {
             return Ok(Arc::clone(mesh));
         }
-        let mesh = Arc::new(read_mesh(given, vertices, faces)?);
-        if meshes.len() == KEPT {
+        let mesh = Arc::new(read_mesh(call, vertices, faces)?);
+        if meshes.len() == CACHED_MESHES {
             meshes.remove(0);
         }
         meshes.push((Box::new((vertices.clone(), faces.clone())), Arc::clone(&mesh)));
@@ -220,14 +223,14 @@ fn kept_mesh<S: Scalar>(
 }
 
 fn read_mesh<S: Scalar>(
-    given: &Given<'_, S>,
+    call: &WordCall<'_, S>,
     vertices: &Value<S>,
     faces: &Value<S>,
 ) -> Result<TriMesh, Fault> {
-    let invalid = |fault: Fault| fault.of_call(given.word.name, given.args);
-    let points = iter_all(vertices)?.iter().map(|v| given.read(0, v, point)).collect::<Result<_, _>>()?;
+    let invalid = |fault: Fault| fault.of_call(call.word.name, call.args);
+    let points = iter_all(vertices)?.iter().map(|v| call.read(0, v, point)).collect::<Result<_, _>>()?;
     let corner = |value: &Value<S>| {
-        let n = given.read(1, value, whole)?;
+        let n = call.read(1, value, whole)?;
         let missing = |_| invalid(Fault::bad_shape(format!("a face of `mesh` names vertex {n}")));
         u32::try_from(n).map_err(missing)
     };
@@ -238,7 +241,7 @@ fn read_mesh<S: Scalar>(
         })
     };
     let triangles = iter_all(faces)?.iter().map(face).collect::<Result<_, _>>()?;
-    TriMesh::new(points, triangles).map_err(|error| invalid(refused(error)))
+    TriMesh::new(points, triangles).map_err(|error| invalid(bad_shape(error)))
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
-//! Soft constraints as log scores, and bends without corners, each with a width above 0.
+//! Soft constraints as log scores, and smooth versions of functions with corners. Each has a width above 0.
 //!
-//! All but `softeq` (dissertation eq. 4.1) are made of `sqrt(d^2 + width^2)`, which has derivatives of every order and
-//! no branch: a recorded graph holds for every argument. The same formulas as in the package's `words/soft.py`.
+//! All except `softeq` (dissertation eq. 4.1) are built from `sqrt(d^2 + width^2)`. This root has derivatives
+//! of every order and no branch, so a recorded graph holds for all arguments. The package's `words/soft.py` has
+//! the same formulas.
 
 use super::answer::Answer;
 use super::arithmetic::real;
@@ -11,18 +12,18 @@ use crate::value::{Scalar, Value, print};
 /// `ln(2 pi) / 2`.
 const HALF_LOG_TAU: f64 = 0.918_938_533_204_672_8;
 
-/// The last argument, above 0 and finite.
+/// Reads the last argument, which must be above 0 and finite.
 fn width<S: Scalar>(name: &str, value: &Value<S>) -> Result<S, Fault> {
     let width = real(name, value)?;
     if width.value() > 0.0 && width.is_finite() {
         return Ok(width);
     }
-    let found = print::float(width.value());
-    Err(Fault::bad_argument(format!("the width of `{name}` is {found}: it must be above 0")))
+    let shown = print::float(width.value());
+    Err(Fault::bad_argument(format!("the width of `{name}` is {shown}: it must be above 0")))
 }
 
-/// Two numbers and a width.
-fn three<S: Scalar>(name: &str, args: &[Value<S>]) -> Result<[S; 3], Fault> {
+/// Reads two numbers and a width.
+fn two_and_width<S: Scalar>(name: &str, args: &[Value<S>]) -> Result<[S; 3], Fault> {
     Ok([real(name, &args[0])?, real(name, &args[1])?, width(name, &args[2])?])
 }
 
@@ -35,32 +36,32 @@ fn shortfall<S: Scalar>(d: S) -> S {
 
 /// `softeq(a, b, width)`: the log of a normal density of `a - b`.
 pub fn softeq<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let [a, b, width] = three("softeq", args)?;
+    let [a, b, width] = two_and_width("softeq", args)?;
     let z = (a - b) / width;
     Ok(Value::Real(S::from_f64(-0.5) * z * z - width.ln() - S::from_f64(HALF_LOG_TAU)))
 }
 
 /// `soft_at_least(a, b, width)`.
 pub fn soft_at_least<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let [a, b, width] = three("soft_at_least", args)?;
+    let [a, b, width] = two_and_width("soft_at_least", args)?;
     Ok(Value::Real(shortfall((b - a) / width)))
 }
 
 /// `soft_at_most(a, b, width)`.
 pub fn soft_at_most<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let [a, b, width] = three("soft_at_most", args)?;
+    let [a, b, width] = two_and_width("soft_at_most", args)?;
     Ok(Value::Real(shortfall((a - b) / width)))
 }
 
 /// `smooth_max(a, b, width)`.
 pub fn smooth_max<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let [a, b, width] = three("smooth_max", args)?;
+    let [a, b, width] = two_and_width("smooth_max", args)?;
     Ok(Value::Real(S::from_f64(0.5) * (a + b + ((a - b) * (a - b) + width * width).sqrt())))
 }
 
 /// `smooth_min(a, b, width)`.
 pub fn smooth_min<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let [a, b, width] = three("smooth_min", args)?;
+    let [a, b, width] = two_and_width("smooth_min", args)?;
     Ok(Value::Real(S::from_f64(0.5) * (a + b - ((a - b) * (a - b) + width * width).sqrt())))
 }
 
@@ -72,7 +73,7 @@ pub fn smooth_abs<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
 
 #[cfg(test)]
 mod tests {
-    //! The values of each function far from its bend and at it.
+    //! The claim: each function has the right values far from its bend and at its bend.
     use crate::builtins::tests::{V, call, code};
 
     fn of(name: &str, args: &[f64]) -> f64 {

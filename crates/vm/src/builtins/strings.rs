@@ -25,23 +25,23 @@ pub fn repr<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     print::repr(&args[0]).and_then(text)
 }
 
-/// `format(x, spec, conversion)`: one hole of an f-string; the conversion is `""`, `"r"` or `"s"`.
+/// `format(x, spec, conversion)`: one field of an f-string. The conversion is `""`, `"r"` or `"s"`.
 pub fn format<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let string = |at: usize| match args.get(at) {
         None => Ok(""),
         Some(Value::Str(text)) => Ok(&**text),
         Some(other) => Err(unfit("format", "a str as specification", other)),
     };
-    let (given, conversion) = (string(1)?, string(2)?);
+    let (specification, conversion) = (string(1)?, string(2)?);
     let converted = match conversion {
         "r" => repr(&args[..1])?,
         "s" => str(&args[..1])?,
         _ => args[0].clone(),
     };
-    spec::format(&converted, given).and_then(text)
+    spec::format(&converted, specification).and_then(text)
 }
 
-/// The parts of an f-string, joined.
+/// Joins the parts of an f-string.
 pub fn fstr<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let mut out = String::new();
     for part in args {
@@ -61,20 +61,21 @@ fn within_budget(len: usize) -> Result<(), Fault> {
     Err(Fault::memory_budget("the text has more than 67108864 characters"))
 }
 
-/// `x.name(args)` for a value that is not a record: the arguments are the value, the name, and the rest.
+/// `x.name(args)` for a value that is not a record. The arguments are the value, the name, and the method's
+/// arguments.
 pub fn method<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let (value, rest) = (&args[0], &args[2..]);
     let Value::Str(name) = &args[1] else { return Err(unfit("method", "a name", &args[1])) };
     rest.first().map_or(Ok(()), |item| item.refuse_futures("looked for"))?;
-    let found = match value {
-        Value::Str(own) => of_text(own, name, rest),
+    let answer = match value {
+        Value::Str(text) => of_text(text, name, rest),
         Value::Dict(dict) => of_dict(dict, name, rest),
         Value::List(_) | Value::Tuple(_) | Value::Record(_) | Value::Range(_) => {
             of_sequence(value, name, rest)
         }
         _ => None,
     };
-    found.unwrap_or_else(|| {
+    answer.unwrap_or_else(|| {
         let count = rest.len();
         let with = if count == 0 { String::new() } else { format!(" with {count} arguments") };
         Err(Fault::missing_method(format!("{} has no method `{}`{with}", value.described(), &**name)))
@@ -85,8 +86,8 @@ fn of_sequence<S: Scalar>(value: &Value<S>, name: &str, rest: &[Value<S>]) -> Op
     let [item] = rest else { return None };
     let places = || -> Result<Vec<usize>, Fault> {
         let mut places = Vec::new();
-        for (at, own) in iter_all(value)?.iter().enumerate() {
-            if equal(own, item)? {
+        for (at, item_) in iter_all(value)?.iter().enumerate() {
+            if equal(item_, item)? {
                 places.push(at);
             }
         }
@@ -120,34 +121,35 @@ fn of_dict<S: Scalar>(dict: &Arc<Dict<S>>, name: &str, rest: &[Value<S>]) -> Opt
     }
 }
 
-fn of_text<S: Scalar>(own: &Text, name: &str, rest: &[Value<S>]) -> Option<Answer<S>> {
+fn of_text<S: Scalar>(text_: &Text, name: &str, rest: &[Value<S>]) -> Option<Answer<S>> {
     let strings: Vec<&str> =
         rest.iter().map_while(|arg| if let Value::Str(text) = arg { Some(&**text) } else { None }).collect();
     let list = |parts: Vec<&str>| Ok(Value::list(parts.into_iter().map(Value::str).collect()));
     Some(match (name, &strings[..], rest) {
-        ("upper", _, []) => text(own.to_uppercase()),
-        ("lower", _, []) => text(own.to_lowercase()),
-        ("strip", _, [] | [Value::None]) => text(own.trim().to_string()),
-        ("strip", [chars], [_]) => text(own.trim_matches(|c| chars.contains(c)).to_string()),
-        ("split", _, [] | [Value::None]) => list(own.split_whitespace().collect()),
+        ("upper", _, []) => text(text_.to_uppercase()),
+        ("lower", _, []) => text(text_.to_lowercase()),
+        ("strip", _, [] | [Value::None]) => text(text_.trim().to_string()),
+        ("strip", [chars], [_]) => text(text_.trim_matches(|c| chars.contains(c)).to_string()),
+        ("split", _, [] | [Value::None]) => list(text_.split_whitespace().collect()),
         ("split", [""], [_]) => Err(Fault::bad_argument("`split` with an empty separator")),
-        ("split", [by], [_]) => list(own.split(by).collect()),
-        ("join", _, [parts]) => joined(own, parts),
+        ("split", [by], [_]) => list(text_.split(by).collect()),
+        ("join", _, [parts]) => joined(text_, parts),
         ("replace", [old, new], [_, _]) => {
-            let grown = own.matches(old).count().saturating_mul(new.len());
-            within_budget(own.len().saturating_add(grown)).and_then(|()| text(own.replace(old, new)))
+            let grown = text_.matches(old).count().saturating_mul(new.len());
+            within_budget(text_.len().saturating_add(grown)).and_then(|()| text(text_.replace(old, new)))
         }
-        ("startswith", [start], [_]) => Ok(Value::Bool(own.starts_with(start))),
-        ("endswith", [end], [_]) => Ok(Value::Bool(own.ends_with(end))),
+        ("startswith", [start], [_]) => Ok(Value::Bool(text_.starts_with(start))),
+        ("endswith", [end], [_]) => Ok(Value::Bool(text_.ends_with(end))),
         ("startswith" | "endswith", _, [Value::Tuple(choices)]) => {
-            let each = choices.items().iter().map(|choice| of_text(own, name, std::slice::from_ref(choice)));
+            let each =
+                choices.items().iter().map(|choice| of_text(text_, name, std::slice::from_ref(choice)));
             let answers: Option<Result<Vec<Value<S>>, Fault>> = each.collect();
             answers?.map(|answers| Value::Bool(answers.contains(&Value::Bool(true))))
         }
-        ("count", [""], [_]) => Ok(Value::Int(own.chars_len() as i64 + 1)),
-        ("count", [part], [_]) => Ok(Value::Int(own.matches(part).count() as i64)),
-        ("index", [part], [_]) => match own.find(part) {
-            Some(byte) => Ok(Value::Int(own[..byte].chars().count() as i64)),
+        ("count", [""], [_]) => Ok(Value::Int(text_.chars_len() as i64 + 1)),
+        ("count", [part], [_]) => Ok(Value::Int(text_.matches(part).count() as i64)),
+        ("index", [part], [_]) => match text_.find(part) {
+            Some(byte) => Ok(Value::Int(text_[..byte].chars().count() as i64)),
             None => Err(Fault::missing_element(format!("{} is not in the str", print::quoted(part)))),
         },
         ("replace" | "startswith" | "endswith" | "split" | "strip" | "count" | "index", _, [first, ..])
@@ -175,11 +177,11 @@ fn joined<S: Scalar>(between: &str, parts: &Value<S>) -> Answer<S> {
     text(out)
 }
 
-/// True for a name that some built-in value has as a method.
+/// True for a name of a method of a built-in value.
 pub fn is_method(name: &str) -> bool {
     const NAMES: &str =
         "index count upper lower strip split join replace startswith endswith get keys values items";
-    NAMES.split(' ').any(|own| own == name)
+    NAMES.split(' ').any(|method| method == name)
 }
 
 #[cfg(test)]
@@ -197,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_of_text() {
+    fn methods_of_text_agree_with_python() {
         let s = || V::str(" a,b,,a ");
         let list = |parts: &[&str]| V::list(parts.iter().copied().map(V::str).collect());
         assert_eq!(method(s(), "strip", &[]), Ok(V::str("a,b,,a")));
@@ -219,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_of_sequences_and_dictionaries() {
+    fn methods_of_sequences_and_dictionaries_agree_with_python() {
         assert_eq!(method(ints([3, 1, 3]), "count", &[V::real(3.0)]), Ok(V::Int(2)));
         assert_eq!(method(ints([3, 1, 3]), "index", &[V::Int(1)]), Ok(V::Int(1)));
         assert_eq!(method(ints([3]), "index", &[V::Int(1)]), Err("missing-element"));
@@ -232,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn f_strings() {
+    fn f_strings_agree_with_python() {
         let hole = call("format", &[V::real(2.0 / 3.0), V::str(".2f"), V::str("")]).unwrap();
         assert_eq!(call("fstr", &[V::str("x="), hole]), Ok(V::str("x=0.67")));
         assert_eq!(call("format", &[V::str("a"), V::str(">5"), V::str("r")]), Ok(V::str("  'a'")));

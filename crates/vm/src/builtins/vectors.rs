@@ -1,7 +1,7 @@
-//! Points, directions and rotations. Right-handed, angles in radians.
+//! Points, directions and rotations. Coordinates are right-handed, angles are in radians.
 //!
 //! A tuple or list of two to four numbers is accepted as a vector. The rotation about a unit axis (x, y, z) by
-//! an angle with cosine c and sine s is Rodrigues' formula, written out: `(1 - c) a a^T + c I + s [a]_x`.
+//! an angle with cosine c and sine s is Rodrigues' formula, expanded: `(1 - c) a a^T + c I + s [a]_x`.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::value::index::{iter_get, iter_len};
 use crate::value::{Scalar, Value, Vector};
 
-/// A vector from a vector, tuple or list of two to four numbers.
+/// Reads a vector from a vector, tuple or list of two to four numbers.
 pub(super) fn parts<S: Scalar>(name: &str, value: &Value<S>) -> Result<Vector<S>, Fault> {
     if let Value::Vector(v) = value {
         return Ok(**v);
@@ -21,19 +21,19 @@ pub(super) fn parts<S: Scalar>(name: &str, value: &Value<S>) -> Result<Vector<S>
     if !(2..=4).contains(&count) {
         return Err(unfit(name, "a vector or 2 to 4 numbers in a tuple or list", value));
     }
-    let mut own = [S::from_f64(0.0); 4];
-    for (at, part) in own.iter_mut().enumerate().take(count) {
+    let mut components = [S::from_f64(0.0); 4];
+    for (at, part) in components.iter_mut().enumerate().take(count) {
         *part = real(name, &iter_get(value, at))?;
     }
-    Ok(Vector::new(&own[..count]))
+    Ok(Vector::new(&components[..count]))
 }
 
-/// The three components of a vector.
+/// Reads the three components of a vector.
 pub(super) fn three<S: Scalar>(name: &str, value: &Value<S>) -> Result<[S; 3], Fault> {
     let v = parts(name, value)?;
     v.components().try_into().map_err(|_| {
-        let found = v.components().len();
-        Fault::type_mismatch(format!("`{name}` takes vectors of 3 components, found {found}"))
+        let count = v.components().len();
+        Fault::type_mismatch(format!("`{name}` takes vectors of 3 components, found {count}"))
     })
 }
 
@@ -45,10 +45,10 @@ fn product<S: Scalar>(name: &str, v: &[S], w: &[S]) -> Result<S, Fault> {
     Ok(v.iter().zip(w).fold(S::from_f64(0.0), |sum, (x, y)| sum + *x * *y))
 }
 
-/// `vec(x, y)`, `vec(x, y, z)`, `vec(x, y, z, w)`; `None` leaves a component out.
+/// `vec(x, y)`, `vec(x, y, z)`, `vec(x, y, z, w)`; a `None` omits a component.
 pub fn vec<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
-    let given = args.iter().filter(|arg| !matches!(arg, Value::None));
-    let parts: Vec<S> = given.map(|arg| real("vec", arg)).collect::<Result<_, _>>()?;
+    let numbers = args.iter().filter(|arg| !matches!(arg, Value::None));
+    let parts: Vec<S> = numbers.map(|arg| real("vec", arg)).collect::<Result<_, _>>()?;
     if parts.len() < 2 {
         return Err(Fault::bad_argument("`vec` takes 2 to 4 numbers"));
     }
@@ -84,7 +84,7 @@ fn unit<S: Scalar>(name: &str, v: &Vector<S>) -> Result<Vector<S>, Fault> {
     Ok(v.map(|x| x / length))
 }
 
-/// The vector of length one in the same direction.
+/// The vector of length one in the direction of a vector.
 pub fn normalize<S: Scalar>(args: &[Value<S>]) -> Answer<S> {
     let v = unit("normalize", &parts("normalize", &args[0])?)?;
     Ok(Value::Vector(Arc::new(v)))
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn products_and_lengths() {
+    fn products_and_lengths_agree_with_their_definitions() {
         let (x, y) = (v3(1.0, 0.0, 0.0), V::tuple(vec![V::Int(0), V::Int(1), V::Int(0)]));
         assert_eq!(call("cross", &[x.clone(), y.clone()]), Ok(v3(0.0, 0.0, 1.0)));
         assert_eq!(call("dot", &[x.clone(), y.clone()]), Ok(V::real(0.0)));

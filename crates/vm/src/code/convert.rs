@@ -1,4 +1,5 @@
-//! A program for another scalar: the same instructions, its constants as constants of that scalar.
+//! Conversion of a program to another scalar: the instructions stay the same, and constants become constants of
+//! that scalar.
 
 use super::entries::Entries;
 use super::{Function, Program};
@@ -7,7 +8,7 @@ use niwaki_math::Scalar;
 use std::sync::Arc;
 
 impl Program<f64> {
-    /// The program for another scalar, such as the recording one.
+    /// The program over another scalar, such as the recording scalar.
     pub fn over<S: Scalar>(&self) -> Program<S> {
         let function = |f: &Function<f64>| Function {
             name: f.name.clone(),
@@ -37,20 +38,21 @@ impl Program<f64> {
             classes: self.classes.clone(),
             functions: self.functions.iter().map(function).collect(),
             entry: self.entry,
-            others: Vec::new(),
+            constants_of_copies: Vec::new(),
         }
     }
 }
 
 impl<S: Scalar> Program<S> {
-    /// The same program for each of so many threads: each copy has its own classes and small constants, whose references
-    /// are counted at every step, so that processors do not wait for each other's counts. Large constants are shared.
-    pub fn apart(&self, threads: usize) -> Vec<Program<S>> {
+    /// Copies of the program for threads. Each copy has its own classes and small constants, whose references
+    /// are counted at every step, so that processors do not wait for each other's counts. Large constants are
+    /// shared.
+    pub fn copies_for_threads(&self, threads: usize) -> Vec<Program<S>> {
         let mut copies: Vec<Program<S>> = (0..threads).map(|_| self.copy()).collect();
         let small = |value: &&Value<S>| matches!(value, Value::Str(_) | Value::Dist(_) | Value::Function(_));
         let constants = copies.iter().chain([self]).flat_map(|program| &program.functions);
         let all: Vec<Value<S>> = constants.flat_map(|f| &f.constants).filter(small).cloned().collect();
-        copies.iter_mut().for_each(|copy| copy.others.clone_from(&all));
+        copies.iter_mut().for_each(|copy| copy.constants_of_copies.clone_from(&all));
         copies
     }
 
@@ -72,7 +74,8 @@ impl<S: Scalar> Program<S> {
 }
 
 impl<S: Scalar> Value<S> {
-    /// The same value over another kind of number. For constants and arguments: it recurses as deep as they nest.
+    /// The value over another kind of number. For constants and arguments only: it recurses as deep as they
+    /// nest.
     pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Value<T> {
         let all = |items: &mut dyn Iterator<Item = &Value<S>>| {
             items.map(|item| item.convert(number)).collect::<Vec<_>>()
@@ -106,7 +109,7 @@ impl<S: Scalar> Value<S> {
             }
             Value::Rotation(r) => Value::Rotation(Arc::new(r.map(number))),
             Value::Shape(shape) => {
-                // Another shape may have had its address.
+                // An earlier shape may have had the same address.
                 T::note(shape.address(), Vec::new);
                 Value::Shape(shape.clone())
             }

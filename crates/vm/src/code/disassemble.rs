@@ -4,7 +4,7 @@ use super::{Args, Function, Mode, Op, Program, SiteKind};
 use niwaki_math::Scalar;
 use std::fmt::Write;
 
-/// The whole program, function by function.
+/// The text of a whole program, function by function.
 pub fn disassemble<S: Scalar>(program: &Program<S>) -> String {
     let mut out = String::new();
     for (i, f) in program.functions.iter().enumerate() {

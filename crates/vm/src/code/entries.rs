@@ -1,14 +1,16 @@
-//! Where machine code may begin in a function, and what was made for it so far. Who makes it is unknown here.
+//! The places of a function where machine code may begin, and the code that was made so far. This module does
+//! not know who makes the code.
 
 use super::routine::Routine;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Most combinations of kinds that have code of their own.
+/// The most combinations of kinds that have code of their own at a place.
 const ROUTINES: usize = 3;
 
-/// Uses after which it is known whether the code is worth its calls, and the fewest instructions that a use must carry
-/// out on average: a call costs about as much as these. A vector that was made counts as eight.
+/// The number of uses after which the code is judged, and the fewest instructions that a use must run on
+/// average to be worth its call: a call costs about as much as these. A vector that the code makes counts as
+/// eight instructions.
 const TRIAL: u32 = 256;
 const WORTH: u64 = 8;
 
@@ -21,29 +23,29 @@ static BYTES: AtomicUsize = AtomicUsize::new(0);
 /// The places of one function where machine code may begin. Copies of a program share them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Entries {
-    /// For each instruction, the number of its entry from one on; zero for none.
+    /// The number of the entry of each instruction, from one on; zero for none.
     numbers: Arc<[u16]>,
     all: Arc<[Entry]>,
 }
 
 impl Entries {
-    /// At those instructions of a function of so many, ascending; what is made after so many visits, and where that is said by a
-    /// thread of its own.
-    pub fn at_places(places: Vec<u32>, instructions: usize, visits: u32, is_apart: bool) -> Entries {
+    /// Entries at the given instructions, ascending, of a function with `instructions` instructions. Code is
+    /// made after `visits` visits, by a thread of its own if `in_background`.
+    pub fn at_places(places: Vec<u32>, instructions: usize, visits: u32, in_background: bool) -> Entries {
         let mut numbers = vec![0; if places.is_empty() { 0 } else { instructions }];
         for (k, pc) in places.iter().enumerate() {
             numbers[*pc as usize] = k as u16 + 1;
         }
-        let all = places.into_iter().map(|pc| Entry::new(pc, visits, is_apart));
+        let all = places.into_iter().map(|pc| Entry::new(pc, visits, in_background));
         Entries { numbers: numbers.into(), all: all.collect() }
     }
 
-    /// Bytes of their code.
+    /// Bytes of the code of all entries.
     pub fn bytes(&self) -> usize {
         self.all.iter().map(Entry::bytes).sum()
     }
 
-    /// The one at an instruction.
+    /// The entry at an instruction.
     #[inline]
     pub fn at(&self, pc: usize) -> Option<&Entry> {
         match self.numbers.get(pc) {
@@ -53,15 +55,15 @@ impl Entries {
     }
 }
 
-/// One such place.
+/// A place of a function where machine code may begin.
 #[derive(Debug)]
 pub(crate) struct Entry {
     pc: u32,
-    /// How many visits there are before code is made.
+    /// The number of visits before code is made.
     after: u32,
-    /// Whether a thread of its own makes it, while the run goes on.
-    is_apart: bool,
-    /// Whether it is not worth while to look here.
+    /// Whether a thread of its own makes the code, while the run continues.
+    in_background: bool,
+    /// Whether the machine no longer looks here for code.
     is_closed: AtomicBool,
     visits: AtomicU32,
     uses: AtomicU32,
@@ -71,11 +73,11 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    fn new(pc: u32, after: u32, is_apart: bool) -> Entry {
+    fn new(pc: u32, after: u32, in_background: bool) -> Entry {
         Entry {
             pc,
             after,
-            is_apart,
+            in_background,
             is_closed: AtomicBool::new(false),
             visits: AtomicU32::new(0),
             uses: AtomicU32::new(0),
@@ -85,7 +87,7 @@ impl Entry {
         }
     }
 
-    /// Whether there is code here, or may be some day.
+    /// Whether there is code here, or may be later.
     #[inline]
     pub fn is_open(&self) -> bool {
         !self.is_closed.load(Ordering::Relaxed)
@@ -95,7 +97,7 @@ impl Entry {
         self.is_closed.store(true, Ordering::Relaxed);
     }
 
-    /// The code that there is, one piece for each combination of kinds.
+    /// The pieces of code that exist, one for each combination of kinds.
     #[inline]
     pub fn routines(&self) -> impl Iterator<Item = &Routine> {
         self.routines.iter().map_while(OnceLock::get)
@@ -105,7 +107,7 @@ impl Entry {
         self.routines().map(Routine::bytes).sum()
     }
 
-    /// Counts a visit that found no code for its kinds; whether to write it now.
+    /// Counts a visit that found no code for its kinds, and returns whether to write it now.
     #[inline]
     pub fn is_due(&self) -> bool {
         let visits = self.visits.fetch_add(1, Ordering::Relaxed) + 1;
@@ -117,16 +119,16 @@ impl Entry {
         self.pc as usize
     }
 
-    /// Whether a thread of its own makes the code, while the run goes on.
-    pub fn is_apart(&self) -> bool {
-        self.is_apart
+    /// Whether a thread of its own makes the code, while the run continues.
+    pub fn in_background(&self) -> bool {
+        self.in_background
     }
 
-    /// Claims the place for one more piece of code; false where somebody else writes one, who writes the same, and where there
-    /// are as many as there may be.
+    /// Claims the place for one more piece of code. Returns `false` if another thread writes one, which will be
+    /// the same, or if the place is full.
     pub fn claim(&self) -> bool {
         if !self.routines.iter().any(|routine| routine.get().is_none()) {
-            // As many kinds come here as nobody expects of a loop.
+            // More kinds come here than a loop should have: the place is not worth its code.
             if self.uses.load(Ordering::Relaxed) < TRIAL {
                 self.close();
             }
@@ -135,12 +137,12 @@ impl Entry {
         !self.is_written.swap(true, Ordering::Acquire)
     }
 
-    /// Gives the claim back.
+    /// Releases the claim.
     pub fn give_back(&self) {
         self.is_written.store(false, Ordering::Release);
     }
 
-    /// Puts a piece of code here, and gives the claim back. Where there is none to be had, nobody looks here again.
+    /// Stores a piece of code here, and releases the claim. `None` closes the place: there can be no code.
     pub fn put(&self, routine: Option<Routine>) {
         let free = self.routines.iter().find(|routine| routine.get().is_none());
         if let (Some(routine), Some(free)) = (routine, free) {
@@ -152,7 +154,7 @@ impl Entry {
         self.give_back();
     }
 
-    /// Notes how many instructions a use carried out, while that is of interest.
+    /// Records how many instructions a use ran, until the code is judged.
     #[inline]
     pub fn note(&self, done: u64) {
         if self.uses.load(Ordering::Relaxed) >= TRIAL {
@@ -171,7 +173,7 @@ impl Drop for Entry {
     }
 }
 
-/// Whether the programs of the process have as much machine code as they may have.
+/// Whether the programs of the process have reached the limit on machine code.
 pub(crate) fn is_full() -> bool {
     BYTES.load(Ordering::Relaxed) > MOST_BYTES
 }

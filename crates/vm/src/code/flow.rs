@@ -1,4 +1,5 @@
-//! What instructions read and write, where they lead, and which registers are live where.
+//! The flow of data and control: the registers that instructions read and write, their successors, and
+//! liveness.
 
 use super::function::Function;
 use super::op::Op;
@@ -38,7 +39,7 @@ impl Bits {
     }
 }
 
-/// The registers that an instruction reads, and those that it writes.
+/// The registers that an instruction reads, and the registers that it writes.
 pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Operand>, Vec<Operand>) {
     let run = |a: Args| f.operands[a.range()].to_vec();
     match *op {
@@ -88,7 +89,7 @@ pub(crate) fn reads_and_writes<S: Scalar>(f: &Function<S>, op: &Op) -> (Vec<Oper
     }
 }
 
-/// The instructions that may follow the one at `at`.
+/// The instructions that may follow the instruction at `at`.
 pub(crate) fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
     match *op {
         Op::Jump { target } => (Some(target as usize), None),
@@ -101,7 +102,8 @@ pub(crate) fn successors(op: &Op, at: usize) -> (Option<usize>, Option<usize>) {
     }
 }
 
-/// Which of the `registers` registers of one class are live before each instruction, and before the end.
+/// The registers of one class that are live before each instruction, and before the end. The class has
+/// `registers` registers.
 pub(crate) fn live_before<S: Scalar>(f: &Function<S>, of: Place, registers: usize) -> Vec<Bits> {
     let effects: Vec<_> = f
         .code
@@ -130,11 +132,11 @@ pub(crate) fn live_before<S: Scalar>(f: &Function<S>, of: Place, registers: usiz
     }
 }
 
-/// What is live after an instruction.
+/// The registers that are live after an instruction.
 pub(crate) fn after<S: Scalar>(f: &Function<S>, before: &[Bits], at: usize) -> Bits {
     let mut live = Bits { of: before[at].of, words: vec![0; before[at].words.len()] };
-    let (one, two) = successors(&f.code[at], at);
-    one.into_iter().chain(two).for_each(|next| live.join(&before[next]));
+    let (first, second) = successors(&f.code[at], at);
+    first.into_iter().chain(second).for_each(|next| live.join(&before[next]));
     live
 }
 

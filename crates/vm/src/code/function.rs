@@ -8,14 +8,15 @@ use crate::core::{Name, Span};
 use crate::value::{Census, Class, Value};
 use niwaki_math::Scalar;
 
-/// How activations of a function are stored.
+/// The ways to store the activations of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// It can reach no effect: no node, registers on the machine's scratch stack.
+    /// The function can reach no effect: it has no node, and its registers are on the machine's scratch stack.
     Pure,
-    /// It can suspend: a node.
+    /// The function can suspend: its activation is a node.
     Node,
-    /// A lifted loop: a node without code that holds what the loop iterates over and what its iterations capture.
+    /// A lifted loop: a node without code that holds the sequence to iterate over and the captures of the
+    /// iterations.
     Loop,
     /// One iteration of a lifted loop: a node whose parent is the loop's node.
     Iteration,
@@ -28,29 +29,31 @@ pub struct Function<S: Scalar = f64> {
     pub name: Name,
     /// Number of the source file.
     pub file: u32,
-    /// Where it is defined.
+    /// The place of its definition.
     pub span: Span,
-    /// How its activations are stored.
+    /// The way in which its activations are stored.
     pub mode: Mode,
     /// Number of parameters.
     pub params: u16,
-    /// Values of the last parameters when left out: constants, or (`Node`/`Scratch` index) a captured register.
+    /// Values of the last parameters when a caller omits them: constants, or captured registers.
     pub defaults: Vec<Operand>,
     /// Captured values, placed in the registers after the parameters.
     pub captures: u16,
-    /// Registers of a node (of a loop node for an iteration's captures: see [`Loop`](super::Loop)).
+    /// Number of registers of a node.
     pub node_registers: u16,
-    /// Scratch registers.
+    /// Number of scratch registers.
     pub scratch_registers: u16,
-    /// The instructions; from `body` on, slices of those before.
+    /// The instructions; from index `body` on, slices of the instructions before.
     pub code: Vec<Op>,
-    /// How many instructions there are without slices.
+    /// Number of instructions without slices.
     pub body: u32,
-    /// Where an activation is entered of which one parameter (or capture, after the parameters) has changed.
+    /// The instruction where an activation is entered when one of its parameters (or captures, which follow the
+    /// parameters) has changed.
     pub inputs: Vec<u32>,
-    /// Where an iteration is entered when one register of the loop node above has changed, by its number.
+    /// The instruction where an iteration is entered when one register of the loop node above has changed, by
+    /// the register's number.
     pub outers: Vec<u32>,
-    /// Where each instruction comes from.
+    /// The place in the source of each instruction.
     pub spans: Vec<Span>,
     /// Operand lists.
     pub operands: Vec<Operand>,
@@ -62,10 +65,10 @@ pub struct Function<S: Scalar = f64> {
     pub sites: Vec<Site>,
     /// Readable names of the parameters.
     pub parameters: Vec<Name>,
-    /// Where machine code may begin.
+    /// The places where machine code may begin.
     pub(crate) native: Entries,
-    /// Variables that can be read at choices, where the program was compiled to keep some: site by site, each site's
-    /// in the order in which they were last assigned.
+    /// Variables that can be read at choices, if the program was compiled to keep some: site by site, and for
+    /// each site in the order in which they were last assigned.
     pub scope: Vec<Visible>,
 }
 
@@ -82,11 +85,11 @@ impl<S: Scalar> Function<S> {
 pub struct Visible {
     /// The choice.
     pub site: SiteId,
-    /// The variable's name in the model's source; empty for where the program looks from.
+    /// The variable's name in the model's source; empty for the place that the program looks from.
     pub name: Name,
-    /// Where its value is: never in scratch.
+    /// The register or constant with the value: never a scratch register.
     pub at: Operand,
-    /// Its value flows into an angle, or comes from one.
+    /// Whether the value flows into an angle, or comes from an angle.
     pub is_angle: bool,
 }
 
@@ -99,26 +102,27 @@ pub struct Program<S: Scalar = f64> {
     pub classes: Vec<std::sync::Arc<Class>>,
     /// Functions by number.
     pub functions: Vec<Function<S>>,
-    /// Where a run starts.
+    /// The function where a run starts.
     pub entry: FunctionId,
-    /// Of a copy for a thread: the constants of all copies. A particle may hold those of the thread that ran it before.
-    pub(crate) others: Vec<Value<S>>,
+    /// In a copy for a thread: the constants of all copies. A particle may hold constants of the copy that ran
+    /// it before.
+    pub(crate) constants_of_copies: Vec<Value<S>>,
 }
 
 impl<S: Scalar> Program<S> {
-    /// Its constants, which are not counted as what a run holds.
+    /// Excludes the program's constants from a census: they do not count as memory of a run.
     pub fn leave_out(&self, census: &mut Census<'_, S>) {
         let constants = self.functions.iter().flat_map(|f| &f.constants);
-        constants.chain(&self.others).for_each(|value| census.leave_out(value));
+        constants.chain(&self.constants_of_copies).for_each(|value| census.leave_out(value));
     }
 
-    /// Whether it has memoised functions: calls that several activations share.
+    /// Whether the program has memoised functions: calls that several activations share.
     pub fn memoises(&self) -> bool {
         let mut sites = self.functions.iter().flat_map(|f| &f.sites);
         sites.any(|site| matches!(site.kind, SiteKind::Memoise { .. }))
     }
 
-    /// Bytes of the machine code that there is by now.
+    /// Bytes of the machine code that was written so far.
     pub fn machine_code(&self) -> usize {
         self.functions.iter().map(|f| f.native.bytes()).sum()
     }

@@ -1,4 +1,4 @@
-//! What machine code knows of a register: its name, and the kind of value that it holds.
+//! The properties of registers that machine code knows: the register's name, and the kind of its value.
 
 use crate::value::Value;
 use niwaki_math::Scalar;
@@ -6,11 +6,11 @@ use niwaki_math::Scalar;
 /// A register, as seen from the activation where the code begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Reg {
-    /// Of the activation.
+    /// A register of the activation.
     Node(u16),
-    /// Of the loop node above it.
+    /// A register of the loop node above the activation.
     Outer(u16),
-    /// Of the machine, counted from the first one of the function where the code begins.
+    /// A register of the machine, counted from the first register of the function where the code begins.
     Scratch(u32),
 }
 
@@ -19,7 +19,7 @@ pub(crate) enum Reg {
 pub(crate) enum Kind {
     /// `None`.
     None,
-    /// Not assigned yet.
+    /// A variable that is not assigned yet.
     Unset,
     /// A truth value: one or zero in a register of the processor.
     Bool,
@@ -29,22 +29,22 @@ pub(crate) enum Kind {
     Real,
     /// A range: its address, its first number and its step.
     Range,
-    /// Anything shared: the address of the register, or of the element, that holds it. The code reads it and never
-    /// changes it.
+    /// Any other shared value: the address of the register, or of the element, that holds it. The code reads
+    /// the value and never changes it.
     Object(Form),
-    /// A vector, tuple or range that the code made: one number for each part, and no object in memory yet. Registers
-    /// with the same number hold the same one.
-    Fresh { made: Made, parts: Parts, number: u16 },
-    /// Something else that machine code never looks at.
+    /// A vector, tuple or range that the code made: one number for each part, without an object in memory so
+    /// far. Registers with the same number hold the same value.
+    Fresh { form: FreshForm, parts: Parts, number: u16 },
+    /// Any other value that machine code never reads.
     Opaque,
 }
 
-/// What a value is that the code made.
+/// The form of a value that the code made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) enum Made {
+pub(crate) enum FreshForm {
     Vector,
     Tuple,
-    /// Its first number, its end, its step.
+    /// A range: its first number, its end and its step.
     Range,
 }
 
@@ -59,7 +59,7 @@ pub(crate) enum Part {
 /// The kinds of up to four parts.
 pub(crate) type Parts = [Option<Part>; 4];
 
-/// The form of what is shared.
+/// The form of a shared value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Form {
@@ -98,12 +98,12 @@ impl Kind {
         }
     }
 
-    /// Whether such a value holds nothing that is shared.
+    /// Whether a value of this kind holds no shared data.
     pub fn is_plain(self) -> bool {
         !matches!(self, Kind::Range | Kind::Object(_) | Kind::Fresh { .. })
     }
 
-    /// How a function called by the code names the kind of what it gives.
+    /// The number of the kind in results of functions that the code calls.
     pub fn mark(self) -> u64 {
         match self {
             Kind::None => 0,
@@ -118,7 +118,7 @@ impl Kind {
         }
     }
 
-    /// How many words it has where the code begins.
+    /// The number of words for such a value where the code begins.
     pub fn words(self) -> usize {
         match self {
             Kind::None | Kind::Unset | Kind::Opaque => 0,
@@ -128,12 +128,12 @@ impl Kind {
         }
     }
 
-    /// How many words it has where the code leaves.
+    /// The number of words for such a value where the code leaves.
     pub fn words_out(self) -> usize {
         if self == Kind::Range { 1 } else { self.words() }
     }
 
-    /// Whether what a register of that kind holds may be counted as memory of the run.
+    /// Whether a value of this kind in the register may count as memory of the run.
     pub fn is_counted(self, reg: Reg) -> bool {
         let in_scratch = matches!(reg, Reg::Scratch(_));
         match self {
@@ -144,7 +144,7 @@ impl Kind {
     }
 }
 
-/// Whether what a register holds is counted as memory of the run: see [`Value::is_small`].
+/// Whether the value of a register counts as memory of the run: see [`Value::is_small`].
 pub(crate) fn is_counted<S: Scalar>(reg: Reg, value: &Value<S>) -> bool {
     !(value.is_plain() || matches!(reg, Reg::Scratch(_)) && value.is_small())
 }

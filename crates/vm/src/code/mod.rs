@@ -1,9 +1,11 @@
 //! Bytecode: the parts of a compiled program. Numbers in newtypes, layouts in one place.
 //!
 //! * `operand`, `op`, `site`, `function`: operands, instructions, suspension sites, functions and programs;
-//! * `flow`: what instructions read and write, and which registers are live; `verify`: the check of a program; `disassemble`: its
-//!   text; `convert`: the program over other numbers;
-//! * `entries`, `routine`, `kinds`: where machine code may begin, the code that is there, and the registers that it reads.
+//! * `flow`: the registers that instructions read and write, and which registers are live; `verify`: the check
+//!   of a program; `disassemble`: its text; `convert`: the program over another scalar;
+//! * `entries`, `routine`, `kinds`: the places where machine code may begin, the code itself, and the registers
+//!   that it reads;
+//! * `observed`: whether observations mix probabilities and densities.
 //!
 //! An operand is 16 bits: two of class, fourteen of index.
 //!

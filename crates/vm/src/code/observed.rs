@@ -1,18 +1,20 @@
-//! Whether an observation has the probability of a single value or a density, as far as a program tells without a run.
+//! The check whether observations have the probability of a single value or a density, as far as it is known
+//! without a run.
 //!
-//! A site of a family is of the family's kind. A site of a distribution that is a value is of the kinds of all
-//! distributions that may come there: those of its constant where it has one, else every one that the program makes, or has
-//! in an argument or in a constant that other instructions read. A function of the host may return any.
+//! A site with a known family has the kind of that family. A site whose distribution is a value can have the
+//! kinds of all distributions that may come there. If the site has a constant, these are the constant's.
+//! Otherwise they are all distributions that the program makes, or has in an argument or in a constant that
+//! other instructions read. A function of the host may return any distribution.
 
 use super::{Function, Op, Operand, Place, Program, Site, SiteKind, Source};
 use crate::value::Value;
 use niwaki_math::{Dist, Family};
 use std::collections::{BTreeSet, HashMap};
 
-/// Values that are looked at in constants and arguments; where there are more, they are taken to hold both kinds.
-const LOOKED_AT: usize = 100_000;
+/// The most values of constants and arguments that are visited; beyond this limit both kinds are assumed.
+const VISITED_VALUES: usize = 100_000;
 
-/// The kinds that some distributions may be of.
+/// The kinds that a set of distributions may have.
 #[derive(Clone, Copy, Default)]
 struct Possible {
     probability: bool,
@@ -39,7 +41,7 @@ impl Possible {
 
     /// The kinds of the distributions that values hold.
     fn of<'v>(values: impl IntoIterator<Item = &'v Value>) -> Possible {
-        let (mut kinds, mut left, mut work) = (Possible::default(), LOOKED_AT, Vec::from_iter(values));
+        let (mut kinds, mut left, mut work) = (Possible::default(), VISITED_VALUES, Vec::from_iter(values));
         while let Some(value) = work.pop() {
             left = left.saturating_sub(1);
             if left == 0 || kinds.is_either() {
@@ -67,16 +69,18 @@ pub fn is_density(dist: &Dist) -> bool {
     }
 }
 
-/// What a site observes, within an activation: two sites that observe the same text observe the same.
+/// The hash of the text that a site observes: within an activation, two sites with the same text observe the
+/// same value.
 pub fn subject(site: &Site) -> u128 {
     if site.subject == 0 { site.key } else { site.subject }
 }
 
-/// Whether a run of a program may observe one thing by both kinds. `given` are the values that come from outside: arguments, captures of
-/// its model; `held` says whether choices may be held, which are then observed.
-pub fn may_mix<'v>(program: &'v Program, given: &[&'v Value], held: bool) -> bool {
+/// Whether a run of a program may observe the same text with both kinds. `outside` are the values that come
+/// from outside: arguments, and captures of the model. `held` says whether choices may be held, which are then
+/// observed.
+pub fn may_mix<'v>(program: &'v Program, outside: &[&'v Value], held: bool) -> bool {
     let mut values = None;
-    let mut of_values = || *values.get_or_insert_with(|| of_values(program, given));
+    let mut of_values = || *values.get_or_insert_with(|| of_values(program, outside));
     program.functions.iter().any(|f| {
         let mut kinds: HashMap<u128, Possible> = HashMap::new();
         f.sites.iter().any(|site| {
@@ -92,7 +96,7 @@ pub fn may_mix<'v>(program: &'v Program, given: &[&'v Value], held: bool) -> boo
     })
 }
 
-/// The kinds of the distributions that can come to a site, if it alone tells.
+/// The kinds of the distributions that can come to a site, if the site alone determines them.
 fn of_site(f: &Function, site: &Site, source: Source) -> Option<Possible> {
     let Source::Family(family) = source else {
         let from = f.operands[site.args.range()].first()?;
@@ -101,27 +105,28 @@ fn of_site(f: &Function, site: &Site, source: Source) -> Option<Possible> {
     of_family(family)
 }
 
-/// The kinds of a family's distributions; none of a mixture's, which are its components'.
+/// The kind of a family's distributions; `None` for a mixture, which has the kinds of its components.
 fn of_family(family: Family) -> Option<Possible> {
     let mut kinds = Possible::default();
     kinds.add(family.space().is_continuous());
     (family != Family::Mixture).then_some(kinds)
 }
 
-/// The kinds of all distributions that are values in some run.
-fn of_values(program: &Program, given: &[&Value]) -> Possible {
-    let made = program.functions.iter().flat_map(|f| &f.code).map(|op| match op {
+/// The kinds of all distributions that are values in a run.
+fn of_values(program: &Program, outside: &[&Value]) -> Possible {
+    let written = program.functions.iter().flat_map(|f| &f.code).map(|op| match op {
         Op::Dist { family, .. } => of_family(*family).unwrap_or_default(),
         Op::Host { .. } => Possible::EITHER,
         _ => Possible::default(),
     });
-    let known = program.functions.iter().flat_map(values_in).chain(given.iter().copied());
-    made.fold(Possible::default(), Possible::or).or(Possible::of(known))
+    let known = program.functions.iter().flat_map(values_in).chain(outside.iter().copied());
+    written.fold(Possible::default(), Possible::or).or(Possible::of(known))
 }
 
-/// The constants of a function that may come anywhere: all but those of which a site takes the distribution itself.
+/// The constants of a function that may reach any site: all except those that a site uses directly as its
+/// distribution.
 fn values_in(f: &Function) -> impl Iterator<Item = &Value> {
-    let takes = |op: &Op| match op {
+    let takes_distribution = |op: &Op| match op {
         Op::Site { site } => matches!(
             f.sites[site.0 as usize].kind,
             SiteKind::Sample(Source::Value | Source::Element)
@@ -131,7 +136,7 @@ fn values_in(f: &Function) -> impl Iterator<Item = &Value> {
     };
     let mut read: BTreeSet<usize> = BTreeSet::new();
     for op in &f.code {
-        let operands = f.reads(op).into_iter().skip(takes(op) as usize);
+        let operands = f.reads(op).into_iter().skip(takes_distribution(op) as usize);
         read.extend(operands.filter(|o| o.place() == Place::Constant).map(Operand::index));
     }
     let defaults = f.defaults.iter().filter(|o| o.place() == Place::Constant).map(|o| o.index());
@@ -141,7 +146,7 @@ fn values_in(f: &Function) -> impl Iterator<Item = &Value> {
 
 #[cfg(test)]
 mod tests {
-    //! The claim: a program is passed over only where no run can observe one thing by both kinds.
+    //! The claim: a program passes the check only if no run can observe the same text with both kinds.
 
     use super::*;
     use crate::core::parse::parse;
@@ -162,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn who_observes_one_kind_is_passed_over() {
+    fn a_program_that_observes_one_kind_cannot_mix() {
         for body in [
             format!("(do (observe {NORMAL} 1.0)) (do (observe {DELTA} 1))"),
             "(do (observe (index (data 0) $s) 1.0)) (do (observe (index (data 1) $s) 2))".to_string(),
@@ -174,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn who_may_observe_both_is_not() {
+    fn a_program_that_may_observe_both_kinds_may_mix() {
         for body in [
             format!("(set $d (cond $s {NORMAL} {DELTA})) (do (observe $d 1))"),
             format!("(set $x 1) (if $s (then (do (observe {NORMAL} $x))) (else (do (observe {DELTA} $x))))"),
@@ -189,10 +194,10 @@ mod tests {
 
     #[test]
     fn arguments_and_held_choices_count() {
-        let given = program(&format!("(set $n {NORMAL}) (do (observe $d 1)) (return $n)"));
-        assert!(!may_mix(&given, &[&Value::None], false));
+        let program_ = program(&format!("(set $n {NORMAL}) (do (observe $d 1)) (return $n)"));
+        assert!(!may_mix(&program_, &[&Value::None], false));
         let counts = Dist::new(Family::Poisson, &[Param::Real(2.0)]).unwrap();
-        assert!(may_mix(&given, &[&Value::list(vec![Value::Dist(Arc::new(counts))])], false));
+        assert!(may_mix(&program_, &[&Value::list(vec![Value::Dist(Arc::new(counts))])], false));
 
         let held = program(&format!("(set $x (sample (cond $s {NORMAL} {DELTA})))"));
         assert!(!may_mix(&held, &[&Value::None], false));

@@ -3,17 +3,17 @@
 use super::operand::{Args, Operand, SiteId};
 use niwaki_math::Family;
 
-/// How an iteration of a lifted loop ended, as a small integer in a register.
+/// The ways in which an iteration of a lifted loop ends, as small integers in a register.
 pub mod exit {
-    /// It fell off its end or met `continue`.
+    /// The iteration reached its end or `continue`.
     pub const NEXT: i64 = 0;
-    /// It met `break`.
+    /// The iteration reached `break`.
     pub const BREAK: i64 = 1;
-    /// It met `return`; the value follows the carried variables.
+    /// The iteration reached `return`; the returned value follows the carried variables.
     pub const RETURN: i64 = 2;
 }
 
-/// The two-operand operations with an instruction of their own.
+/// The operations of two operands that have an instruction of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Binary {
@@ -48,7 +48,7 @@ pub enum Op {
     Mul { to: Operand, a: Operand, b: Operand },
     /// A quotient.
     Div { to: Operand, a: Operand, b: Operand },
-    /// Any other two-operand operation.
+    /// Any other operation of two operands.
     Binary { op: Binary, to: Operand, a: Operand, b: Operand },
     /// Arithmetic negation.
     Neg { to: Operand, a: Operand },
@@ -66,9 +66,9 @@ pub enum Op {
     Record { to: Operand, class: u16, args: Args },
     /// A named field.
     Field { to: Operand, a: Operand, name: u16 },
-    /// The elements of a sequence of exactly that length into registers.
+    /// The elements of a sequence of exactly that length, stored in registers.
     Unpack { from: Operand, to: Args },
-    /// As `Unpack`, the middle as a list into the register numbered `star` of the run.
+    /// Like `Unpack`, with the elements in the middle as a list in the register at place `star` of `to`.
     UnpackStar { from: Operand, to: Args, star: u16 },
     /// A function value.
     Closure { to: Operand, function: u16, args: Args },
@@ -84,26 +84,26 @@ pub enum Op {
     JumpIf { a: Operand, target: u32 },
     /// Jump when the value is not true.
     JumpUnless { a: Operand, target: u32 },
-    /// Jump unless `a < b` and the like, fused with the comparison.
+    /// Jump unless a comparison such as `a < b` holds: a comparison and a jump in one instruction.
     JumpUnlessCompare { op: Binary, a: Operand, b: Operand, target: u32 },
-    /// Check that a value can be iterated over, and its length as an integer.
+    /// Check that a value can be iterated over, and store its length as an integer.
     Length { to: Operand, a: Operand },
-    /// If `index < length`, put the element there into `to` and add one to `index`; else jump.
+    /// If `index < length`, store the element there in `to` and add one to `index`; else jump.
     Next { to: Operand, over: Operand, index: Operand, length: Operand, target: u32 },
-    /// A fault unless the variable has been assigned.
+    /// Raise a fault unless the variable has been assigned.
     CheckSet { a: Operand, name: u16 },
-    /// A fault with the message in `message` unless `a` is true.
+    /// Raise a fault with the message in `message` unless `a` is true.
     Assert { a: Operand, message: Operand },
-    /// Carry out the numbered site, which may suspend.
+    /// Run the numbered site, which may suspend.
     Site { site: SiteId },
-    /// The sites numbered `from..to` are not on the path taken: what they hold is removed.
+    /// Remove what the sites numbered `from..to` hold: they are not on the path taken.
     Clear { from: u16, to: u16 },
     /// Return from the function.
     Return { a: Operand },
-    /// Return from an iteration: how it ended, carried values (and the returned value).
+    /// Return from an iteration: the kind of exit, the carried values and, after `return`, the returned value.
     ReturnIteration { exit: i8, args: Args },
-    /// In a slice: a repeated call of which only that argument may have changed.
+    /// In a slice, a repeated call for which only the argument numbered `arg` may have changed.
     Pass { site: SiteId, arg: u16 },
-    /// The end of a slice: what the activation returns has not changed.
+    /// The end of a slice: the value that the activation returns has not changed.
     Done,
 }

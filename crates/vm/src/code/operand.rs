@@ -1,6 +1,6 @@
 //! Operands, and the numbers of functions and sites.
 
-/// Where an instruction reads or writes a value.
+/// The place where an instruction reads or writes a value.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Operand(pub u16);
 
@@ -18,16 +18,16 @@ pub enum Place {
 }
 
 impl Operand {
-    /// The largest index that fits.
+    /// The largest index that an operand can hold.
     pub const MAX_INDEX: usize = (1 << 14) - 1;
 
-    /// An operand from its class and index.
+    /// Packs a class and an index into an operand.
     pub fn new(place: Place, index: usize) -> Self {
         debug_assert!(index <= Self::MAX_INDEX);
         Operand(((place as u16) << 14) | index as u16)
     }
 
-    /// Its class.
+    /// The class of the operand.
     #[inline]
     pub fn place(self) -> Place {
         match self.0 >> 14 {
@@ -38,31 +38,31 @@ impl Operand {
         }
     }
 
-    /// Whether it is a register of the activation.
+    /// Whether the operand is a register of the activation.
     #[inline(always)]
     pub fn is_node(self) -> bool {
         self.0 < 1 << 14
     }
 
-    /// Of an operand that is not in the node: whether it is in the loop node above.
+    /// Whether an operand outside of the node is a register of the enclosing loop node.
     #[inline(always)]
     pub fn is_outer(self) -> bool {
         self.0 < 2 << 14
     }
 
-    /// Of an operand of the machine: whether it is a constant.
+    /// Whether an operand outside of all nodes is a constant.
     #[inline(always)]
     pub fn is_constant(self) -> bool {
         self.0 >= 3 << 14
     }
 
-    /// Its index within the class.
+    /// The index of the operand within its class.
     #[inline(always)]
     pub fn index(self) -> usize {
         (self.0 & 0x3FFF) as usize
     }
 
-    /// Whether an instruction may write it.
+    /// Whether an instruction may write to the operand.
     pub fn is_register(self) -> bool {
         matches!(self.place(), Place::Node | Place::Scratch)
     }
@@ -80,17 +80,17 @@ impl std::fmt::Debug for Operand {
     }
 }
 
-/// A run of operands in the function's operand list.
+/// A sequence of operands in the function's operand list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Args {
-    /// First place in [`Function::operands`](super::Function::operands).
+    /// The first place in [`Function::operands`](super::Function::operands).
     pub start: u32,
-    /// How many.
+    /// The number of operands.
     pub len: u16,
 }
 
 impl Args {
-    /// The empty run.
+    /// The empty sequence.
     pub const NONE: Args = Args { start: 0, len: 0 };
 
     /// The places in the operand list.

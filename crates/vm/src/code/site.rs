@@ -1,10 +1,10 @@
-//! Suspension sites: where a call can stop, and what happens there.
+//! Suspension sites: where a call can stop, and what the machine does there.
 
 use super::operand::{Args, FunctionId, Operand};
 use crate::core::{Name, Span};
 use niwaki_math::Family;
 
-/// Where the distribution of a choice or an observation comes from.
+/// The source of the distribution of a choice or an observation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
     /// A known family; the arguments are its parameters.
@@ -15,7 +15,7 @@ pub enum Source {
     Element,
 }
 
-/// What happens at a suspension site.
+/// The kinds of suspension site.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SiteKind {
     /// Call of a known effectful function.
@@ -39,43 +39,44 @@ pub enum SiteKind {
     Query,
     /// One primitive: shapes, or lists of shapes.
     Emit,
-    /// A deferred call of a known function. `detached`: nothing reads the handle.
+    /// A deferred call of a known function.
     Future {
         /// The function that is called.
         function: FunctionId,
-        /// Nothing reads the handle.
+        /// Whether nothing reads the handle.
         detached: bool,
     },
     /// A deferred call of a function value, the first argument.
     FutureApply {
-        /// Nothing reads the handle.
+        /// Whether nothing reads the handle.
         detached: bool,
     },
     /// The value of a future.
     Force,
-    /// A memoised function value, of a function value. Its identity is the address of the site, or the one given: that
-    /// of a memoised function of a module.
+    /// A memoised function, made from a function value. Its identity is the address of the site, unless `of`
+    /// has the address of a memoised function of a module.
     Memoise {
         /// The address of a memoised function of a module.
         of: Option<u128>,
     },
-    /// An element of a collection: the register holds the element, the result refers to it. Where activations are
-    /// dropped, the result is the element.
+    /// An element of a collection. The register `content` holds the element, and the result refers to that
+    /// register. Where activations are dropped, the result is the element itself.
     Cell {
-        /// Holds the element.
+        /// The register that holds the element.
         content: Operand,
     },
-    /// As `Cell`, with the list that it is appended to: the list, then the element; the result is the longer list.
+    /// Like `Cell`, for an element that is appended to a list. The arguments are the list and the element; the
+    /// result is the longer list.
     Append {
-        /// Holds the element.
+        /// The register that holds the element.
         content: Operand,
     },
-    /// An element of a collection, read: `args[0]` at `args[1]`.
+    /// A read of an element of a collection: `args[0]` at `args[1]`.
     Read,
 }
 
 impl SiteKind {
-    /// Whether such a site creates an activation: of a call, a future or a loop.
+    /// Whether the site creates an activation: of a call, a future or a loop.
     #[inline]
     pub fn makes_activation(&self) -> bool {
         match self {
@@ -87,8 +88,8 @@ impl SiteKind {
         }
     }
 
-    /// Whether a run that stops at such a site continues *at* it, and not after it: a choice is repeated, and a force
-    /// tests again whether its future has returned.
+    /// Whether a run that stops at the site resumes *at* it, and not after it: a choice is repeated, and a
+    /// force tests again whether its future has returned.
     #[inline]
     pub fn is_met_again(&self) -> bool {
         match self {
@@ -101,75 +102,80 @@ impl SiteKind {
         }
     }
 
-    /// Whether its result is a future.
+    /// Whether the site's result is a future.
     #[inline]
     pub fn gives_future(&self) -> bool {
         matches!(self, SiteKind::Future { detached: false, .. } | SiteKind::FutureApply { detached: false })
     }
 
-    /// Whether the arguments are read once more when other activations have run, so that they must outlive the site.
-    /// Those of a site that is met again are; a proposal draws and scores from the node and the site alone; a query
-    /// table is read likewise; an append identifies its list by its address, so the list must exist.
+    /// Whether the arguments are read again after other activations have run, so that they must outlive the
+    /// site. A site that is met again reads its arguments again; a proposal draws and scores from the node and
+    /// the site alone; a query table is read likewise; an append identifies its list by its address, so the
+    /// list must exist.
     pub fn is_read_again(&self) -> bool {
         self.is_met_again() || matches!(self, SiteKind::Query | SiteKind::Append { .. })
     }
 }
 
-/// A lifted loop: its iterations are activations of their own.
+/// A lifted loop: each of its iterations is an activation of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loop {
     /// The function of the loop node, which has registers and no code.
     pub header: FunctionId,
-    /// The function of one iteration: element (for `for`), carried values; captures are its outer operands.
+    /// The function of one iteration. Its parameters are the element (of a `for` loop) and the carried values;
+    /// its captures are outer operands.
     pub body: FunctionId,
-    /// What a `for` loop iterates over.
+    /// The sequence that a `for` loop iterates over.
     pub over: Option<Operand>,
-    /// Carried values going in.
+    /// The carried values at the start of the loop.
     pub carried: Args,
     /// Values captured by the loop node.
     pub captures: Args,
-    /// Registers for the carried values coming out.
+    /// Registers for the carried values at the end of the loop.
     pub out: Args,
-    /// Register for the kind of exit, when the body contains `return`; the returned value goes into the next one.
+    /// Register for the kind of exit, when the body contains `return`. The returned value goes into the second
+    /// register.
     pub exit: Option<(Operand, Operand)>,
 }
 
 /// A suspension site.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// What happens.
+    /// The kind of site.
     pub kind: SiteKind,
-    /// Register for the result.
+    /// The register for the result.
     pub to: Operand,
     /// Whether the result is read.
     pub is_read: bool,
-    /// Of a call: the activation returns after it, with its result or with a constant. Where activations are dropped, such a call
-    /// drops what its caller's registers hold, and one of the same function takes the registers: a recursion has those of its
-    /// innermost activation alone.
+    /// Whether the site is a call after which the activation returns, with the call's result or with a
+    /// constant. Where activations are dropped, such a call drops the contents of its caller's registers, and a
+    /// call of the same function reuses the registers: a recursion needs the registers of its innermost
+    /// activation alone.
     pub is_tail: bool,
-    /// Arguments.
+    /// The arguments.
     pub args: Args,
-    /// Hash of qualified function, what is called, the name assigned to, and the occurrence among equals:
-    /// it does not depend on line numbers.
+    /// A hash of the qualified function, the called function or family, the assigned name, and the occurrence
+    /// among equals: it does not depend on line numbers.
     pub key: u128,
     /// The readable component of an address.
     pub label: Name,
-    /// Its place in the source.
+    /// The place in the source.
     pub span: Span,
-    /// The instruction after it.
+    /// The instruction after the site.
     pub next: u32,
-    /// Where a run continues when only its result has changed: a slice, or the instruction after it.
+    /// The instruction where a run continues when only the site's result has changed: a slice, or the
+    /// instruction after the site.
     pub again: u32,
-    /// Its result is an angle, as [`Visible::is_angle`](super::Visible::is_angle) is.
+    /// Whether the result is an angle, as [`Visible::is_angle`](super::Visible::is_angle) is.
     pub is_angle: bool,
-    /// Of a choice: its part of [`Function::scope`](super::Function::scope), first and end.
+    /// The part of [`Function::scope`](super::Function::scope) that belongs to a choice: start and end.
     pub visible: (u32, u32),
-    /// Of an observation: a hash of the text of what is observed; else 0.
+    /// A hash of the text of the observed expression for an observation; else 0.
     pub subject: u128,
 }
 
 impl Site {
-    /// Where a run continues that stopped at the site, whose instruction is `pc`.
+    /// The instruction where a run that stopped at the site resumes. `pc` is the instruction of the site.
     #[inline]
     pub fn resumes_at(&self, pc: usize) -> usize {
         if self.kind.is_met_again() { pc } else { pc + 1 }

@@ -1,9 +1,11 @@
-//! The verifier: checks what the machine relies on, once for each program.
+//! The verifier: checks the properties that the machine relies on, once for each program.
 //!
-//! Every operand lies within its function's registers, constants or captures; every jump within the code;
-//! instructions end in a return; sites belong to functions that may suspend; each site belongs to one instruction; a
-//! register that other activations may have overwritten is never read; a register that was read is not overwritten;
-//! a slice that writes a register of the node also has the instructions of its path that write it later.
+//! * Every operand lies within its function's registers, constants or captures, and every jump within the code.
+//! * Instructions end in a return.
+//! * Sites belong to functions that may suspend, and each site belongs to one instruction.
+//! * A register that other activations may have overwritten is never read, and a register that was read is not
+//!   overwritten.
+//! * A slice that writes a register of the node also has the instructions of its path that write it later.
 
 use super::flow::{live_before, reads_and_writes, successors};
 use super::{Function, Mode, Op, Operand, Place, Program, SiteKind};
@@ -13,11 +15,11 @@ use std::collections::HashSet;
 /// A program that the machine must not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VerifyError {
-    /// Function.
+    /// The name of the function.
     pub function: String,
-    /// Instruction.
+    /// The number of the instruction.
     pub at: usize,
-    /// What is wrong.
+    /// The description of the violation.
     pub message: String,
 }
 
@@ -39,7 +41,7 @@ pub fn verify<S: Scalar>(program: &Program<S>) -> Result<(), VerifyError> {
     Ok(())
 }
 
-/// Registers of the loop node above an iteration.
+/// The number of registers of the loop node above an iteration.
 fn outer_registers<S: Scalar>(program: &Program<S>, f: &Function<S>) -> usize {
     let loops = program.functions.iter().flat_map(|g| &g.sites).filter_map(|s| match &s.kind {
         SiteKind::Loop(l) => Some(l),
@@ -133,22 +135,23 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
         return fail(f.code.len(), "no such slice");
     }
     if f.mode != Mode::Pure
-        && let Some(at) = reads_what_is_gone(f)
+        && let Some(at) = stale_scratch_read(f)
     {
         return fail(at, "scratch registers are not kept from one run of an activation to the next");
     }
     if f.mode != Mode::Pure
-        && let Some(at) = reads_what_will_be_overwritten(f)
+        && let Some(at) = read_before_overwrite(f)
     {
         return fail(at, "a register of the node is read and assigned again");
     }
     let inputs = f.inputs.iter().chain(&f.outers).map(|slice| (*slice, 0));
     let mut slices = inputs.chain(f.sites.iter().map(|site| (site.again, site.next)));
-    let wrong = slices.find_map(|(slice, whole)| departs(f, slice as usize, whole as usize, HashSet::new()));
+    let wrong =
+        slices.find_map(|(slice, whole)| departure(f, slice as usize, whole as usize, HashSet::new()));
     if let Some(at) = wrong {
         return fail(at, "a slice departs from the code, or sets a register of the node back");
     }
-    // Slices end as the code does, or by being done.
+    // Slices end like the code, or with `Done`.
     match (f.code.get((f.body as usize).wrapping_sub(1)), f.code.last()) {
         (
             Some(Op::Return { .. } | Op::ReturnIteration { .. } | Op::Jump { .. }),
@@ -158,13 +161,14 @@ fn function<S: Scalar>(program: &Program<S>, f: &Function<S>, outer: usize) -> R
     }
 }
 
-/// An instruction at which an activation can be entered while a scratch register is live, or a site with a scratch
-/// argument that is read when its activation does not run.
+/// Finds an instruction at which an activation can be entered while a scratch register is live, or a site with
+/// a scratch argument that is read when its activation does not run.
 ///
-/// The machine enters an activation at its start and after each site (where a call returns, a pause ends, and the run
-/// of a changed choice begins), or in the slices that replace these; at sites that are repeated; and after a call that
-/// is skipped. Other activations have used the same scratch registers before.
-fn reads_what_is_gone<S: Scalar>(f: &Function<S>) -> Option<usize> {
+/// The machine enters an activation at its start, and after each site: when a call returns, when a pause ends,
+/// and when the run of a changed choice begins. It also enters slices that replace these places, sites that are
+/// repeated, and the instruction after a skipped call. Other activations have used the same scratch registers
+/// before.
+fn stale_scratch_read<S: Scalar>(f: &Function<S>) -> Option<usize> {
     let live = live_before(f, Place::Scratch, f.scratch_registers as usize);
     let entries = [0].into_iter().chain(f.sites.iter().flat_map(|site| [site.next, site.again]));
     let mut entries: Vec<usize> =
@@ -186,19 +190,20 @@ fn reads_what_is_gone<S: Scalar>(f: &Function<S>) -> Option<usize> {
     entries.into_iter().find(|at| !live[*at].is_empty())
 }
 
-/// An instruction that reads a register of the node to which that instruction or a later one writes.
+/// Finds an instruction that reads a register of the node to which the instruction itself or a later one
+/// writes.
 ///
-/// The registers of an activation that is entered again hold what was written there last: where a slice leaves out the
-/// first of two assignments, an instruction between them would read the second.
-fn reads_what_will_be_overwritten<S: Scalar>(f: &Function<S>) -> Option<usize> {
+/// The registers of an activation that is entered again hold the values that were written last. If a slice
+/// omits the first of two assignments, an instruction between them would read the second.
+fn read_before_overwrite<S: Scalar>(f: &Function<S>) -> Option<usize> {
     let body = f.body as usize;
     let mut written: Vec<HashSet<Operand>> = vec![HashSet::new(); body + 1];
     for at in (0..body).rev() {
         let (reads, writes) = reads_and_writes(f, &f.code[at]);
-        let (one, two) = successors(&f.code[at], at);
-        // Loops that are no sites have no registers in the node, so that there is no need to go back.
+        let (first, second) = successors(&f.code[at], at);
+        // Loops that are not sites have no registers in the node, so backward jumps do not matter.
         let mut later: HashSet<Operand> = writes.into_iter().filter(|o| o.is_node()).collect();
-        for next in one.into_iter().chain(two).filter(|next| *next > at) {
+        for next in first.into_iter().chain(second).filter(|next| *next > at) {
             later.extend(&written[next]);
         }
         if reads.iter().any(|o| later.contains(o)) {
@@ -209,10 +214,11 @@ fn reads_what_will_be_overwritten<S: Scalar>(f: &Function<S>) -> Option<usize> {
     None
 }
 
-/// Where a slice has an instruction that is not next on the path of the code from `whole` on, or leaves out a branch, or
-/// an instruction that writes a register of the node which the slice has `written` before: the last writer of a register
-/// must be the same as on the path.
-fn departs<S: Scalar>(
+/// Finds where a slice departs from the path of the code from `whole` on. A slice departs with an instruction
+/// that is not next on the path, or if it omits a branch. It also departs if it omits an instruction that
+/// writes a register of the node which the slice has `written` before: the last writer of a register must be
+/// the same as on the path.
+fn departure<S: Scalar>(
     f: &Function<S>,
     mut slice: usize,
     mut whole: usize,
@@ -226,7 +232,7 @@ fn departs<S: Scalar>(
         let (next, other) = successors(original, whole);
         let is_last = next.is_none();
         match *original {
-            // Here the whole code takes over.
+            // From here on the slice uses the whole code.
             _ if matches!(*op, Op::Jump { target } if target as usize == whole) => return None,
             Op::Jump { target } if target as usize > whole => {
                 whole = target as usize;
@@ -237,7 +243,7 @@ fn departs<S: Scalar>(
         let (_, writes) = reads_and_writes(f, original);
         if f.spans[slice] == f.spans[whole] && is_copy(f, op, original) {
             if let (Some(mine), Some(theirs)) = (successors(op, slice).1, other)
-                && let Some(at) = departs(f, mine, theirs, written.clone())
+                && let Some(at) = departure(f, mine, theirs, written.clone())
             {
                 return Some(at);
             }
@@ -258,8 +264,8 @@ fn departs<S: Scalar>(
     (slice != whole).then_some(slice)
 }
 
-/// Whether an instruction of a slice is that one of the code, but for where a branch continues and for a call of which
-/// one argument changes.
+/// Whether an instruction of a slice is a copy of an instruction of the code. The targets of branches may
+/// differ, and a call may become one with a single changed argument.
 fn is_copy<S: Scalar>(f: &Function<S>, op: &Op, original: &Op) -> bool {
     match (*op, *original) {
         (Op::Pass { site: mine, .. }, Op::Site { site }) => mine == site,
@@ -272,8 +278,8 @@ fn is_copy<S: Scalar>(f: &Function<S>, op: &Op, original: &Op) -> bool {
 
 #[cfg(test)]
 mod tests {
-    //! The claim: every read of a scratch value that may be overwritten is refused, and every slice that leaves a register
-    //! of the node with another value than the whole code would.
+    //! The claim: the verifier refuses every read of a scratch value that may be overwritten, and every slice
+    //! that leaves another value in a register of the node than the whole code would.
     use super::*;
     use crate::core::parse::parse;
     use crate::passes::{compile, place::rewrite};
@@ -309,7 +315,7 @@ mod tests {
       (entry "m"))"#;
 
     #[test]
-    fn a_force_of_what_lies_in_scratch_is_refused() {
+    fn a_force_of_a_scratch_register_is_refused() {
         let mut program = compile::<f64>(&parse(TEXT).unwrap(), vec![]).unwrap();
         let f = &mut program.functions[2];
         let forces = f.sites.iter().filter(|site| site.kind == SiteKind::Force);
@@ -321,7 +327,7 @@ mod tests {
         }
     }
 
-    /// Whether a program is refused when a register of the node is one of the machine instead.
+    /// Whether the verifier refuses a program after a register of the node becomes a register of the machine.
     fn refused(program: &Program, number: usize, register: Operand) -> bool {
         let mut moved = program.clone();
         let f = &mut moved.functions[number];
@@ -332,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn no_register_of_a_node_can_be_one_of_the_machine() {
+    fn no_register_of_a_node_can_be_a_scratch_register() {
         let program = compile::<f64>(&parse(TEXT).unwrap(), vec![]).unwrap();
         let mut kinds = std::collections::HashSet::new();
         for (number, f) in program.functions.iter().enumerate() {
@@ -348,7 +354,7 @@ mod tests {
                 };
                 (std::mem::discriminant(&site.kind), source)
             }));
-            // What a loop runs over is in the node for speed.
+            // The sequence of a loop is in the node for speed.
             let over: Vec<Operand> = f
                 .sites
                 .iter()
@@ -389,7 +395,8 @@ mod tests {
         let (p, q) = (writer("Mul"), writer("Sub"));
         assert!(p.is_node() && q.is_node() && f.sites[0].again as usize >= body);
         assert_eq!(verify(&program), Ok(()));
-        // As if both were one variable: the slice after the choice has its first assignment, and not the last.
+        // The change is as if both were one variable: the slice after the choice has its first assignment, but
+        // not the last.
         rewrite(&mut program.functions[0], |o| if o == q { p } else { o });
         assert!(
             verify(&program).is_err_and(|error| error.message.contains("sets a register of the node back"))
@@ -397,7 +404,7 @@ mod tests {
     }
 
     #[test]
-    fn a_test_of_what_is_overwritten_is_refused() {
+    fn a_test_of_an_overwritten_register_is_refused() {
         let text = r#"(module (fn "m" (params)
             (set $b (sample (dist bernoulli 0.6)))
             (set $c (or (sample (dist bernoulli 0.3)) $b))

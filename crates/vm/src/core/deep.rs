@@ -1,19 +1,19 @@
-//! Core form that is nested deeply: the thread on which it is visited, and how it is dropped.
+//! Core form that is nested deeply: the thread that visits it, and how it is dropped.
 //!
-//! The reader and all passes call themselves for each level of a text. [`read`](super::read) refuses more than
-//! [`MAX_DEPTH`](super::read::MAX_DEPTH) levels, and every visit is made on a thread whose stack is large enough for
-//! them, so that the stack of the caller does not matter. A drop needs no stack: it moves the parts to a list.
+//! The reader and all passes recurse once for each level of a text. [`read`](super::read) refuses more than
+//! [`MAX_DEPTH`](super::read::MAX_DEPTH) levels, and every visit runs on a thread whose stack is large enough
+//! for them, so the stack of the caller does not matter. A drop needs no stack: it moves the parts to a list.
 
 use super::read::Sexp;
 use super::{Expr, ExprKind, Module, Stmt, StmtKind};
 
-/// Bytes of stack for the deepest text. Only what is touched takes memory: up to about 10 kB for each level.
+/// Bytes of stack for the deepest text. Only the touched pages take memory: up to about 10 kB for each level.
 const STACK: usize = 128 << 20;
 
-/// Does the work on a thread with enough stack for the deepest text.
+/// Runs `work` on a thread with enough stack for the deepest text.
 ///
 /// # Errors
-/// No thread could be made.
+/// The system starts no thread.
 pub(crate) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, std::io::Error> {
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work)?;
@@ -50,7 +50,7 @@ impl Drop for Module {
     }
 }
 
-/// The parts of a statement, to the lists.
+/// Moves the parts of a statement to the lists.
 fn take_statement(s: Stmt, stmts: &mut Vec<Stmt>, exprs: &mut Vec<Expr>) {
     match s.kind {
         StmtKind::Set(_, e)
@@ -72,7 +72,7 @@ fn take_statement(s: Stmt, stmts: &mut Vec<Stmt>, exprs: &mut Vec<Expr>) {
     }
 }
 
-/// The parts of an expression, to the list.
+/// Moves the parts of an expression to the list.
 fn take_expression(e: Expr, exprs: &mut Vec<Expr>) {
     use ExprKind::*;
     match e.kind {
@@ -128,7 +128,7 @@ mod tests {
     use crate::core::read::MAX_DEPTH;
     use crate::passes::compile;
 
-    /// Every way to be nested: what is before and after the inner part, and the innermost part.
+    /// Every way to nest: the text before and after the inner part, and the innermost part.
     const NESTED: &[(&str, &str, &str)] = &[
         ("(return (add 1 ", "))", ""),
         ("(neg ", ")", "1"),
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn no_text_needs_the_stack_of_the_caller() {
+    fn deep_texts_do_not_need_the_stack_of_the_caller() {
         on_little_stack(|| {
             let mut compiled = 0;
             for depth in [300, 900, MAX_DEPTH / 2 - 8, MAX_DEPTH - 8] {

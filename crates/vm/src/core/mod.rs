@@ -1,8 +1,9 @@
 //! Core form: what a model is after names are resolved and before it is compiled.
 //!
-//! About twenty kinds of expression and ten of statement, each with its place in the source. It crosses
-//! from Python as text ([`read`] turns characters into nested lists, [`parse`] turns those into the types of
-//! this file, [`mod@print`] goes back), so that tests, fuzzers and bug reports run real programs without Python.
+//! Core form has about twenty kinds of expression and ten of statement, each with its place in the source.
+//! Python sends it as text. [`read`] turns characters into nested lists, [`parse`] turns nested lists into the
+//! types of this file, and [`mod@print`] writes them as text again. So tests, fuzzers and bug reports run real
+//! programs without Python.
 
 pub(crate) mod deep;
 pub mod parse;
@@ -16,12 +17,12 @@ use std::sync::Arc;
 /// A name of a variable, function or field.
 pub type Name = Arc<str>;
 
-/// The name of a variable in the model's source: `x` of `x` and of `x%3`. Empty for names of the front end.
+/// The name of a variable in the model's source: `x` for `x` and for `x%3`. Empty for names of the front end.
 pub fn readable(name: &str) -> &str {
     name.split('%').next().unwrap_or(name)
 }
 
-/// The variable that a statement `look(...)` assigns: where the choices after it are seen from.
+/// The variable that a statement `look(...)` assigns: the place from which the choices after it are seen.
 pub const LOOK: &str = "%look";
 
 /// A place in a source file: 1-based lines and columns, the end exclusive. All zero when unknown.
@@ -44,7 +45,7 @@ pub struct Module {
     pub files: Vec<String>,
     /// Record classes: name and field names, by number.
     pub classes: Vec<Class>,
-    /// Constants given in the text itself (programs without Python); others come beside the text.
+    /// Constants that the text itself contains (programs without Python); others come beside the text.
     pub constants: Vec<(usize, Expr)>,
     /// Every function that can be reached.
     pub functions: Vec<Function>,
@@ -59,11 +60,11 @@ pub struct Function {
     pub name: Name,
     /// Number of the source file.
     pub file: u32,
-    /// Where it is defined.
+    /// The place of its definition.
     pub span: Span,
     /// Parameters in order.
     pub params: Vec<Name>,
-    /// Values of the last parameters when a caller leaves them out: literals, constants or captured variables.
+    /// Values of the last parameters when a caller omits them: literals, constants or captured variables.
     pub defaults: Vec<Expr>,
     /// Variables of enclosing functions, whose values a closure carries.
     pub captures: Vec<Name>,
@@ -83,13 +84,14 @@ impl Function {
 pub struct Stmt {
     /// Its place in the source.
     pub span: Span,
-    /// Of a loop: its component of readable addresses, `i[]`, the index to be put between the brackets.
+    /// The component of readable addresses that a loop adds: `i[]`, with the index to be put between the
+    /// brackets.
     pub label: Option<Name>,
-    /// What it does.
+    /// The kind of statement, with its parts.
     pub kind: StmtKind,
 }
 
-/// What a statement does.
+/// The kinds of statement.
 #[derive(Clone, Debug)]
 pub enum StmtKind {
     /// Assign a variable.
@@ -98,7 +100,7 @@ pub enum StmtKind {
     Unpack(Vec<Name>, Expr),
     /// Assign the first and last elements, and the list of those between.
     UnpackStar(Vec<Name>, Name, Vec<Name>, Expr),
-    /// Two-armed branch.
+    /// A branch with two arms.
     If(Expr, Vec<Stmt>, Vec<Stmt>),
     /// Run the body once for each element.
     For(Name, Expr, Vec<Stmt>),
@@ -112,7 +114,7 @@ pub enum StmtKind {
     Return(Expr),
     /// Evaluate for the effect.
     Do(Expr),
-    /// A fault with this message unless the condition holds.
+    /// Raise a fault with this message unless the condition holds.
     Assert(Expr, Expr),
 }
 
@@ -121,9 +123,9 @@ pub enum StmtKind {
 pub struct Expr {
     /// Its place in the source.
     pub span: Span,
-    /// Of a site: its component of readable addresses. Programs without labels get them from their names.
+    /// The component of readable addresses that a site adds. Programs without labels get it from their names.
     pub label: Option<Name>,
-    /// What it computes.
+    /// The kind of expression, with its parts.
     pub kind: ExprKind,
 }
 
@@ -142,12 +144,12 @@ pub enum Literal {
     Str(String),
 }
 
-/// What an expression computes.
+/// The kinds of expression.
 #[derive(Clone, Debug)]
 pub enum ExprKind {
     /// A literal.
     Literal(Literal),
-    /// A constant of the table beside the text.
+    /// A constant of the table that comes beside the text.
     Data(usize),
     /// A variable.
     Var(Name),
@@ -177,7 +179,8 @@ pub enum ExprKind {
     Emit(Vec<Expr>),
     /// The value of a future.
     Force(Box<Expr>),
-    /// A memoised function value, of a function value; with a name, one of a module: the same in every activation.
+    /// A memoised function, made from a function value. A memoised function of a module also has a name: it is
+    /// the same function in every activation.
     Mem(Box<Expr>, Option<Name>),
     /// A deferred call of a known function.
     Future(Name, Vec<Expr>),

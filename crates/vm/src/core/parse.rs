@@ -173,8 +173,8 @@ fn compound(sexp: &Sexp<'_>) -> Result<Expr> {
         "dict" => {
             let (keys, values) = (exprs(list(at(0)?)?)?, tail(1)?);
             if keys.len() != values.len() {
-                let found = format!("{} keys and {} values", keys.len(), values.len());
-                return Err(CoreError::new(format!("a dict with {found}")));
+                let counts = format!("{} keys and {} values", keys.len(), values.len());
+                return Err(CoreError::new(format!("a dict with {counts}")));
             }
             if !keys.iter().all(|key| matches!(key.kind, ExprKind::Literal(_))) {
                 return Err(CoreError::new("a dict's keys must be literals"));
@@ -213,7 +213,7 @@ fn literal(atom: &str) -> Result<Literal> {
     })
 }
 
-/// The parts of a list: `(head @span #label items...)`, span and label optional.
+/// The parts of a list: `(head @span #label items...)`, where span and label are optional.
 struct Form<'s, 'a> {
     head: &'a str,
     span: Span,
@@ -283,16 +283,16 @@ fn small(sexp: &Sexp<'_>) -> Result<u32> {
     u32::try_from(value).map_err(|_| CoreError::new(format!("the number {value} is too large")))
 }
 
-/// The number of an item, which must be the next one.
+/// Reads the number of an item of the module, which must be `next`.
 fn in_order(sexp: &Sexp<'_>, next: usize, head: &str) -> Result<u32> {
-    let found = small(sexp)?;
-    if found as usize == next {
-        return Ok(found);
+    let number = small(sexp)?;
+    if number as usize == next {
+        return Ok(number);
     }
-    Err(CoreError::new(format!("({head} {found} ...) where {head} {next} is next")))
+    Err(CoreError::new(format!("({head} {number} ...), expected ({head} {next} ...)")))
 }
 
-/// An S-expression in a message.
+/// Describes an S-expression for a message.
 fn short(sexp: &Sexp<'_>) -> String {
     match sexp {
         Sexp::Atom(text) => format!("`{}`", text.chars().take(40).collect::<String>()),

@@ -4,7 +4,7 @@ use super::deep::with_stack;
 use super::*;
 use std::fmt::Write;
 
-/// The text of a module. Places are left out; `parse(print(m))` has the same meaning as `m`.
+/// The text of a module, without places in the source; `parse(print(m))` has the same meaning as `m`.
 pub fn print(module: &Module) -> String {
     with_stack(|| print_here(module)).unwrap_or_else(|_| print_here(module))
 }
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn printing_what_was_parsed_is_a_fixed_point() {
+    fn printing_a_parsed_text_again_changes_nothing() {
         let text = r#"(module (file 0 "m.py") (class 0 "P" ("x" "y")) (const 0 (list 1 2.5))
           (fn @1:1-9:2 "m" (file 0) (params $a $b) (defaults 3) (captures $c)
             (set @2:3-2:9 $x (add $a (lit @2:4-2:5 1e-3)))
@@ -186,7 +186,7 @@ mod tests {
         assert!(once.contains("(set $x (cond $x 1 \"a\\u000a\\\"b\\\"\"))"));
     }
     #[test]
-    fn names_of_any_characters_are_read_again() {
+    fn printed_names_of_any_characters_are_read_back() {
         let text = "(module (class 0 \"a\\u0000b\" (\"\u{200b}\")) (fn \"m\\\\\" (params) (return (dist \"g h\" (call \"m\\\\\"))))\
                     (entry \"m\\\\\"))";
         let once = print(&parse(text).unwrap());

@@ -14,7 +14,7 @@ pub enum Sexp<'a> {
 /// Text that is not core form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CoreError {
-    /// What is wrong.
+    /// The description of the error.
     pub message: String,
     /// Byte offset into the text, where known.
     pub offset: Option<usize>,
@@ -38,7 +38,7 @@ impl std::fmt::Display for CoreError {
 
 impl std::error::Error for CoreError {}
 
-/// Lists nested deeper than this are refused: later passes call themselves for each level.
+/// Lists nested deeper than this are refused: later passes recurse once for each level.
 pub const MAX_DEPTH: usize = 2000;
 
 /// Reads one S-expression and nothing after it.
@@ -100,7 +100,7 @@ pub fn read(text: &str) -> Result<Sexp<'_>, CoreError> {
     whole.ok_or_else(|| fail("nothing to read", 0))
 }
 
-/// A quoted string that starts at `start`; its value and the offset after the closing quote.
+/// Reads the quoted string that starts at `start`: its value and the offset after the closing quote.
 fn quoted(text: &str, start: usize) -> Result<(String, usize), &'static str> {
     let mut value = String::new();
     let mut chars = text[start + 1..].char_indices();

@@ -28,7 +28,7 @@ impl Expr {
         }
     }
 
-    /// Calls `visit` on this expression and everything below it.
+    /// Calls `visit` on this expression and all expressions below it.
     pub fn each<'a>(&'a self, visit: &mut dyn FnMut(&'a Expr)) {
         visit(self);
         for part in self.parts() {
@@ -36,7 +36,7 @@ impl Expr {
         }
     }
 
-    /// Adds the variables it reads.
+    /// Adds the variables that the expression reads.
     pub fn reads(&self, into: &mut Names) {
         self.each(&mut |e| {
             if let ExprKind::Var(x) = &e.kind {
@@ -47,7 +47,7 @@ impl Expr {
 }
 
 impl Stmt {
-    /// Its own expressions (not those of nested statements).
+    /// The expressions of the statement itself, without those of nested statements.
     pub fn expressions(&self) -> Vec<&Expr> {
         match &self.kind {
             StmtKind::Set(_, e)
@@ -72,7 +72,7 @@ impl Stmt {
         }
     }
 
-    /// The variables that it assigns itself (not those of nested statements).
+    /// The variables that the statement itself assigns, without those of nested statements.
     pub fn targets(&self) -> Vec<&Name> {
         match &self.kind {
             StmtKind::Set(x, _) | StmtKind::For(x, _, _) => vec![x],
@@ -100,7 +100,7 @@ pub fn assigned(block: &[Stmt]) -> Names {
     names
 }
 
-/// These variables, by where a block assigns them last.
+/// The given variables, in the order in which a block assigns each for the last time.
 pub fn in_order_of_assignment(block: &[Stmt], names: &[Name]) -> Vec<Name> {
     let mut targets: Vec<&Name> = vec![];
     each_stmt(block, &mut |s| targets.extend(s.targets()));

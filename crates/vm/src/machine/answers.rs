@@ -70,7 +70,7 @@ impl<S: Scalar> At<'_, S> {
     }
 
     /// The value of a variable in scope, by its name in the model's source, where the program was compiled to keep it
-    /// ([`compile_keeping`](crate::passes::compile_keeping)).
+    /// ([`compile_with_scope`](crate::passes::compile_with_scope)).
     pub fn scope(&self, name: &str) -> Option<Value<S>> {
         self.visible().find(|(x, _, _)| *x == name).map(|(_, _, value)| value.clone())
     }

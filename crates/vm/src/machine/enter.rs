@@ -4,7 +4,7 @@ use super::registers::Registers;
 use super::state::State;
 use super::workspace::{Machine, PureCall};
 use crate::code::entries::Entry;
-use crate::code::kinds::{Kind, Made, Part, Reg, is_counted};
+use crate::code::kinds::{FreshForm, Kind, Part, Reg, is_counted};
 use crate::code::routine::{Exit, Input, Routine, words};
 use crate::code::{FunctionId, Mode, Program};
 use crate::native;
@@ -43,7 +43,7 @@ impl<S: Scalar> Machine<'_, S> {
                 let exit = routine.run(&mut self.words);
                 state.steps += steps - self.words[words::STEPS];
                 state.charged += (bytes - self.words[words::BYTES]) as usize;
-                let done = self.words[words::DONE];
+                let done = self.words[words::INSTRUCTIONS];
                 entry.note(done + (bytes - self.words[words::BYTES]) / 8);
                 self.take_back(state, r, exit);
                 return Some(Onwards {
@@ -135,7 +135,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
         }
         let mut objects = self.buffer.drain(..);
-        let mut made: Vec<(u16, Value<S>)> = Vec::new();
+        let mut fresh: Vec<(u16, Value<S>)> = Vec::new();
         let mut at = words::REGISTERS;
         for (reg, kind) in &exit.registers {
             let register = match *reg {
@@ -150,11 +150,12 @@ impl<S: Scalar> Machine<'_, S> {
                 Kind::None | Kind::Opaque => register.store(Value::None),
                 Kind::Unset => register.store(Value::Unset),
                 Kind::Range | Kind::Object(_) => register.store(objects.next().unwrap_or_default()),
-                Kind::Fresh { made: what, parts, number } => {
-                    let known = made.iter().find(|(own, _)| own == number).map(|(_, value)| value.clone());
+                Kind::Fresh { form, parts, number } => {
+                    let known =
+                        fresh.iter().find(|(other, _)| other == number).map(|(_, value)| value.clone());
                     let value = known.unwrap_or_else(|| {
-                        let value = build(*what, parts, &self.words[at..]);
-                        made.push((*number, value.clone()));
+                        let value = build(*form, parts, &self.words[at..]);
+                        fresh.push((*number, value.clone()));
                         value
                     });
                     register.store(value);
@@ -175,19 +176,19 @@ impl<S: Scalar> Machine<'_, S> {
 }
 
 /// A vector or tuple of the numbers in these words.
-fn build<S: Scalar>(made: Made, parts: &[Option<Part>], words: &[u64]) -> Value<S> {
+fn build<S: Scalar>(form: FreshForm, parts: &[Option<Part>], words: &[u64]) -> Value<S> {
     let numbers = parts.iter().flatten().zip(words).map(|(part, word)| match part {
         Part::Bool => Value::Bool(*word != 0),
         Part::Int => Value::Int(word.cast_signed()),
         Part::Real => Value::real(f64::from_bits(*word)),
     });
-    match made {
-        Made::Tuple => Value::tuple(numbers.collect()),
-        Made::Range => {
+    match form {
+        FreshForm::Tuple => Value::tuple(numbers.collect()),
+        FreshForm::Range => {
             let [start, stop, step] = [0, 1, 2].map(|k| words[k].cast_signed());
             Range::new(start, stop, step).map_or(Value::None, |range| Value::Range(Arc::new(range)))
         }
-        Made::Vector => {
+        FreshForm::Vector => {
             let reals = words.iter().take(parts.iter().flatten().count());
             let reals: Vec<S> = reals.map(|word| S::from_f64(f64::from_bits(*word))).collect();
             Value::vector(&reals)

@@ -1,21 +1,21 @@
-//! Functions that machine code calls: what it does not do itself.
+//! Functions that machine code calls for operations that it does not contain.
 //!
-//! Each gives the kind of its answer as [`Kind::mark`]; the answer itself goes to `out`. Where the interpreter would
-//! fault, or the answer is of a kind that has no word, they give [`NOT`]: the code then leaves, and the interpreter carries
-//! out the instruction.
+//! Each function returns the kind of its answer as [`Kind::mark`] and stores the answer itself in `out`. If the
+//! interpreter would raise a fault, or if no word can represent the answer, it returns [`NO_ANSWER`]: the code
+//! then leaves, and the interpreter runs the instruction.
 
-#![allow(unsafe_code)] // They are given addresses by the code that `write` makes.
+#![allow(unsafe_code)] // The code that `write` makes passes addresses.
 
 use crate::builtins::builtin;
 use crate::code::kinds::Kind;
 use crate::value::{Range, Value, index, iter_len};
 use niwaki_math::Scalar;
 
-/// No answer.
-pub(super) const NOT: u64 = 255;
+/// The mark of a call without an answer.
+pub(super) const NO_ANSWER: u64 = 255;
 
-/// The word of a value, and its mark.
-fn give(value: &Value, out: &mut u64) -> u64 {
+/// Stores the word of a value, and returns its mark.
+fn store_word(value: &Value, out: &mut u64) -> u64 {
     let kind = Kind::of(value);
     *out = match value {
         Value::Real(x) => x.to_bits(),
@@ -33,12 +33,12 @@ fn give(value: &Value, out: &mut u64) -> u64 {
 /// An element of a list, tuple or vector, counted from the front.
 ///
 /// # Safety
-/// `value` is a value that nobody changes meanwhile, `out` a word.
+/// `value` points to a value that nobody changes meanwhile, `out` to a word.
 pub(super) unsafe extern "C" fn element(value: *const Value, at: i64, out: *mut u64) -> u64 {
     // SAFETY: as above.
     let (value, out) = unsafe { (&*value, &mut *out) };
     if let Some(item) = index::index_ref(value, &Value::Int(at)) {
-        return give(item, out);
+        return store_word(item, out);
     }
     if let (Value::Vector(v), Ok(at)) = (value, usize::try_from(at))
         && let Some(x) = v.components().get(at)
@@ -46,13 +46,13 @@ pub(super) unsafe extern "C" fn element(value: *const Value, at: i64, out: *mut 
         *out = x.to_bits();
         return Kind::Real.mark();
     }
-    NOT
+    NO_ANSWER
 }
 
 /// A field of a record.
 ///
 /// # Safety
-/// As for [`element`]; `name` is the text of so many bytes that the code keeps.
+/// As for [`element`]; `name` points to `bytes` bytes of text that the code keeps.
 pub(super) unsafe extern "C" fn field(
     value: *const Value,
     name: *const u8,
@@ -62,11 +62,11 @@ pub(super) unsafe extern "C" fn field(
     // SAFETY: as above.
     let (value, name, out) =
         unsafe { (&*value, std::slice::from_raw_parts(name, bytes as usize), &mut *out) };
-    let (Value::Record(record), Ok(name)) = (value, std::str::from_utf8(name)) else { return NOT };
-    record.field(name).map_or(NOT, |value| give(value, out))
+    let (Value::Record(record), Ok(name)) = (value, std::str::from_utf8(name)) else { return NO_ANSWER };
+    record.field(name).map_or(NO_ANSWER, |value| store_word(value, out))
 }
 
-/// How many elements a loop visits; below zero where it cannot be looped over.
+/// The number of elements that a loop visits; below zero for a value that cannot be looped over.
 ///
 /// # Safety
 /// As for [`element`].
@@ -76,7 +76,7 @@ pub(super) unsafe extern "C" fn length(value: *const Value) -> i64 {
     iter_len(value).ok().and_then(|n| i64::try_from(n).ok()).unwrap_or(-1)
 }
 
-/// How many numbers a range has; below zero where there is no such range.
+/// The number of elements of a range; below zero if there is no such range.
 pub(super) extern "C" fn range_length(start: i64, stop: i64, step: i64) -> i64 {
     if let (Some(n), 1) = (stop.checked_sub(start), step) {
         return n.max(0);
@@ -87,13 +87,13 @@ pub(super) extern "C" fn range_length(start: i64, stop: i64, step: i64) -> i64 {
 /// A built-in function of plain values.
 ///
 /// # Safety
-/// `args` are `n` values, `out` a word.
+/// `args` points to `n` values, `out` to a word.
 pub(super) unsafe extern "C" fn call(id: u64, args: *const Value, n: u64, out: *mut u64) -> u64 {
     // SAFETY: as above.
     let (args, out) = unsafe { (std::slice::from_raw_parts(args, n as usize), &mut *out) };
     match builtin::<f64>(id as u16).call(args) {
-        Ok(value) if value.is_plain() => give(&value, out),
-        _ => NOT,
+        Ok(value) if value.is_plain() => store_word(&value, out),
+        _ => NO_ANSWER,
     }
 }
 
@@ -103,7 +103,7 @@ macro_rules! functions {
             Scalar::$method(x)
         })*
 
-        /// The function of one real number with that name: its answer is right where it is finite.
+        /// The function of one real number with this name. Its result is valid if it is finite.
         pub(super) fn real_function(name: &str) -> Option<*const u8> {
             match name {
                 $(stringify!($name) => Some($name as *const u8),)*
@@ -134,21 +134,21 @@ functions! {
 mod tests {
     use super::*;
 
-    /// The code builds values itself: a word for the kind, a word for the number.
+    /// The claim behind values that the code builds: a word for the kind, and a word for the number.
     #[test]
     fn plain_values_are_two_words() {
         let words = |value: &Value| {
-            // SAFETY: a value is sixteen bytes; those of a number are all written.
+            // SAFETY: a value has sixteen bytes; all bytes of a number are written.
             unsafe { *std::ptr::from_ref(value).cast::<[u64; 2]>() }
         };
         assert_eq!(words(&Value::Real(0.5)), [Kind::Real.mark(), 0.5_f64.to_bits()]);
         assert_eq!(words(&Value::Int(-3)), [Kind::Int.mark(), (-3_i64).cast_unsigned()]);
-        // SAFETY: as above, the kind alone.
+        // SAFETY: as above, for the kind alone.
         let first = |value: &Value| unsafe { *std::ptr::from_ref(value).cast::<u64>() };
         assert_eq!(first(&Value::Bool(true)), Kind::Bool.mark());
         assert_eq!(first(&Value::None), Kind::None.mark());
         let truth = [Kind::Bool.mark(), 1];
-        // SAFETY: the layout of a truth value, as the code writes it.
+        // SAFETY: this is the layout of a truth value that the code writes.
         let read = unsafe { std::ptr::from_ref(&truth).cast::<Value>().as_ref() };
         assert!(matches!(read, Some(Value::Bool(true))));
     }

@@ -1,6 +1,7 @@
-//! What the code of a function needs to know of it: which registers are live where, and where jumps lead.
+//! The flow of a function whose code is written: the registers that are live at each place, and the targets of
+//! jumps.
 
-use super::functions::is_known;
+use super::functions::has_machine_code;
 use crate::builtins::builtin;
 use crate::code::flow::{Bits, live_before, reads_and_writes, successors};
 use crate::code::kinds::Reg;
@@ -8,14 +9,14 @@ use crate::code::{Function, Mode, Op, Operand, Place};
 use niwaki_math::Scalar;
 use std::collections::BTreeSet;
 
-/// Instructions that a straight piece must have to be worth machine code.
-const LINE: usize = 5;
+/// The fewest instructions that a straight piece must have to be worth machine code.
+const MIN_STRAIGHT: usize = 5;
 
 /// The flow of one function.
 pub(super) struct Flow {
     node: Vec<Bits>,
     scratch: Vec<Bits>,
-    /// Instructions that some jump leads to.
+    /// Whether a jump leads to each instruction.
     is_target: Vec<bool>,
 }
 
@@ -44,23 +45,25 @@ impl Flow {
         }
     }
 
-    /// Whether some jump leads to an instruction.
+    /// Whether a jump leads to an instruction.
     pub(super) fn is_target(&self, at: usize) -> bool {
         self.is_target[at]
     }
 }
 
-/// The registers that code of a function may use: all of its own, and those that it reads of the loop node above.
+/// The registers that code of a function may use: all registers of the function, and those that it reads from
+/// the loop node above.
 pub(super) fn registers(f: &Function) -> Vec<Reg> {
-    let own = (0..f.node_registers).map(Reg::Node);
+    let node = (0..f.node_registers).map(Reg::Node);
     let scratch = (0..f.scratch_registers).map(|i| Reg::Scratch(i.into()));
     let read = f.code.iter().flat_map(|op| reads_and_writes(f, op).0);
     let outer: BTreeSet<usize> = read.filter(|o| o.place() == Place::Outer).map(Operand::index).collect();
-    own.chain(scratch).chain(outer.into_iter().map(|i| Reg::Outer(i as u16))).collect()
+    node.chain(scratch).chain(outer.into_iter().map(|i| Reg::Outer(i as u16))).collect()
 }
 
-/// Instructions where machine code may begin: where a pure function does, where a loop goes back to, and where a function that
-/// can suspend begins or goes on after a site, if there is enough to do before the next one.
+/// The instructions where machine code may begin: the start of a pure function, the targets of backward jumps,
+/// and the places where a function that can suspend begins or continues after a site. A place after a site must
+/// have enough instructions before the next site.
 pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
     let back = f.code.iter().enumerate().filter_map(|(at, op)| match *op {
         Op::Jump { target }
@@ -76,7 +79,7 @@ pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
     let first = (f.mode == Mode::Pure).then_some(0);
     let after = f.code.iter().enumerate().filter(|(_, op)| matches!(op, Op::Site { .. }));
     let after = after.map(|(at, _)| at + 1).chain((f.mode != Mode::Pure).then_some(0));
-    let lines = after.filter(|at| line(f, *at) >= LINE).map(|at| at as u32);
+    let lines = after.filter(|at| straight_length(f, *at) >= MIN_STRAIGHT).map(|at| at as u32);
     let mut all: Vec<u32> = back.chain(first).chain(lines).collect();
     all.sort_unstable();
     all.dedup();
@@ -84,15 +87,15 @@ pub(super) fn entries<S: Scalar>(f: &Function<S>) -> Vec<u32> {
     all
 }
 
-/// How many instructions there are from one on, before the next that has no machine code.
-fn line<S: Scalar>(f: &Function<S>, from: usize) -> usize {
+/// The number of instructions from `from` on that have machine code, without moves.
+fn straight_length<S: Scalar>(f: &Function<S>, from: usize) -> usize {
     let has_code = |op: &&Op| match op {
         Op::Add { .. } | Op::Sub { .. } | Op::Mul { .. } | Op::Div { .. } | Op::Binary { .. } => true,
         Op::Neg { .. } | Op::Not { .. } | Op::Field { .. } | Op::Tuple { .. } | Op::Unpack { .. } => true,
         Op::Move { .. } | Op::Jump { .. } | Op::JumpIf { .. } | Op::JumpUnless { .. } => true,
         Op::JumpUnlessCompare { .. } | Op::Length { .. } | Op::Next { .. } | Op::CallPure { .. } => true,
         Op::CheckSet { .. } => true,
-        Op::Builtin { id, .. } => is_known(builtin::<S>(*id).name),
+        Op::Builtin { id, .. } => has_machine_code(builtin::<S>(*id).name),
         _ => false,
     };
     let moves = |op: &&Op| matches!(op, Op::Move { .. } | Op::CheckSet { .. } | Op::Jump { .. });

@@ -1,10 +1,10 @@
-//! Built-in functions.
+//! Machine code for built-in functions.
 
 use super::calls;
 use super::typed::{Number, Typed};
-use super::write::{ARGUMENTS, Now, PLAIN, Then, Writer};
+use super::write::{ARGUMENTS, Cursor, PLAIN, Progress, Writer};
 use crate::builtins::builtin;
-use crate::code::kinds::{Kind, Made};
+use crate::code::kinds::{FreshForm, Kind};
 use crate::code::{Args, Operand};
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};
@@ -13,39 +13,45 @@ use niwaki_native::codegen::ir::{InstBuilder, Value};
 impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     pub(super) fn builtin(
         &mut self,
-        now: &mut Now<'v>,
+        cursor: &mut Cursor<'v>,
         pc: usize,
         to: Operand,
         id: u16,
         args: Args,
-    ) -> Option<Then> {
-        let operands = &self.f(now).operands[args.range()];
-        let given: Vec<Typed> =
-            operands.iter().map(|o| self.get(now, *o).map(|got| got.typed)).collect::<Option<_>>()?;
+    ) -> Option<Progress> {
+        let operands = &self.f(cursor).operands[args.range()];
+        let args_: Vec<Typed> =
+            operands.iter().map(|o| self.get(cursor, *o).map(|got| got.typed)).collect::<Option<_>>()?;
         let name = builtin::<f64>(id).name;
-        let typed = if let ("len", [one]) = (name, operands) {
-            return self.length_of_operand(now, pc, to, *one);
-        } else if let Some(typed) = self.quick(now, pc, name, &given) {
+        let typed = if let ("len", [operand]) = (name, operands) {
+            return self.length_of_operand(cursor, pc, to, *operand);
+        } else if let Some(typed) = self.quick(cursor, pc, name, &args_) {
             typed
         } else if name == "range" {
-            self.range(now, pc, &given)?
-        } else if let Some(typed) = self.vector_function(now, pc, name, &given) {
+            self.range(cursor, pc, &args_)?
+        } else if let Some(typed) = self.vector_function(cursor, pc, name, &args_) {
             typed
         } else {
-            let kind = kind_of_answer(name, &given)?;
-            self.call_builtin(now, pc, id, &given, kind)?
+            let kind = kind_of_answer(name, &args_)?;
+            self.call_builtin(cursor, pc, id, &args_, kind)?
         };
-        self.put(now, to, typed, None);
-        Some(Then::Next)
+        self.put(cursor, to, typed, None);
+        Some(Progress::Next)
     }
 
-    /// A built-in function that is a few instructions, or one call.
-    pub(super) fn quick(&mut self, now: &Now<'v>, pc: usize, name: &str, given: &[Typed]) -> Option<Typed> {
-        match (name, given) {
+    /// Writes a built-in function that needs a few instructions, or one call.
+    pub(super) fn quick(
+        &mut self,
+        cursor: &Cursor<'v>,
+        pc: usize,
+        name: &str,
+        args_: &[Typed],
+    ) -> Option<Typed> {
+        match (name, args_) {
             ("sqrt", [x]) => {
                 let x = self.real(*x)?;
                 let root = self.b.ins().sqrt(x);
-                self.leave_unless_finite(now, pc, root);
+                self.leave_unless_finite(cursor, pc, root);
                 Some(Typed::Real(root))
             }
             ("abs", [Typed::Real(x)]) => Some(Typed::Real(self.b.ins().fabs(*x))),
@@ -62,7 +68,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 let most = self.b.ins().f64const(9.0e18);
                 let fits = self.b.ins().fcmp(FloatCC::LessThan, size, most);
                 let refused = self.b.ins().icmp_imm_s(IntCC::Equal, fits, 0);
-                self.leave_if(now, pc, refused);
+                self.leave_if(cursor, pc, refused);
                 Some(Typed::Int(self.b.ins().fcvt_to_sint_sat(I64, whole)))
             }
             ("min" | "max", [Typed::Real(a), Typed::Real(b)]) => {
@@ -93,50 +99,50 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 let function = calls::real_function(name)?;
                 let x = self.real(*x)?;
                 let y = self.call_address(function, &[x], F64);
-                self.leave_unless_finite(now, pc, y);
+                self.leave_unless_finite(cursor, pc, y);
                 Some(Typed::Real(y))
             }
             _ => None,
         }
     }
 
-    /// A range; leaves where there is none.
-    pub(super) fn range(&mut self, now: &mut Now<'v>, pc: usize, given: &[Typed]) -> Option<Typed> {
-        let (zero, one) = (self.int(0), self.int(1));
-        let parts = match *given {
-            [Typed::Int(stop)] => [zero, stop, one],
-            [Typed::Int(start), Typed::Int(stop)] => [start, stop, one],
+    /// Writes a range; leaves if there is no such range.
+    pub(super) fn range(&mut self, cursor: &mut Cursor<'v>, pc: usize, args_: &[Typed]) -> Option<Typed> {
+        let (zero, unit) = (self.int(0), self.int(1));
+        let parts = match *args_ {
+            [Typed::Int(stop)] => [zero, stop, unit],
+            [Typed::Int(start), Typed::Int(stop)] => [start, stop, unit],
             [Typed::Int(start), Typed::Int(stop), Typed::Int(step)] => [start, stop, step],
             _ => return None,
         };
         let n = self.call_address(calls::range_length as *const u8, &parts, I64);
         let refused = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, n, 0);
-        self.leave_if(now, pc, refused);
-        Some(self.make(now, pc, Made::Range, &parts.map(Number::Int)))
+        self.leave_if(cursor, pc, refused);
+        Some(self.make(cursor, pc, FreshForm::Range, &parts.map(Number::Int)))
     }
 
-    pub(super) fn leave_unless_finite(&mut self, now: &Now<'v>, pc: usize, x: Value) {
+    pub(super) fn leave_unless_finite(&mut self, cursor: &Cursor<'v>, pc: usize, x: Value) {
         let size = self.b.ins().fabs(x);
         let infinite = self.b.ins().f64const(f64::INFINITY);
         let is_finite = self.b.ins().fcmp(FloatCC::LessThan, size, infinite);
         let refused = self.b.ins().icmp_imm_s(IntCC::Equal, is_finite, 0);
-        self.leave_if(now, pc, refused);
+        self.leave_if(cursor, pc, refused);
     }
 
-    /// Calls a built-in function of plain values that is expected to give that kind.
+    /// Calls a built-in function of plain values; `kind` is the expected kind of its answer.
     pub(super) fn call_builtin(
         &mut self,
-        now: &Now<'v>,
+        cursor: &Cursor<'v>,
         pc: usize,
         id: u16,
-        given: &[Typed],
+        args_: &[Typed],
         kind: Kind,
     ) -> Option<Typed> {
-        if given.len() > ARGUMENTS as usize {
+        if args_.len() > ARGUMENTS as usize {
             return None;
         }
         let args = self.arguments();
-        for (k, typed) in given.iter().enumerate() {
+        for (k, typed) in args_.iter().enumerate() {
             let at = 16 * k as i32;
             match typed {
                 Typed::Bool(x) | Typed::Int(x) | Typed::Real(x) => {
@@ -148,16 +154,17 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             let mark = self.int(typed.kind().mark().cast_signed());
             self.b.ins().store(PLAIN, mark, args, at);
         }
-        let (id, n, out) = (self.int(i64::from(id)), self.int(given.len() as i64), self.answer());
+        let (id, n, out) = (self.int(i64::from(id)), self.int(args_.len() as i64), self.answer());
         let mark = self.call_address(calls::call as *const u8, &[id, args, n, out], I64);
-        self.answered(now, pc, mark, kind)
+        self.read_answer(cursor, pc, mark, kind)
     }
 }
 
-/// The kind of what a built-in function of plain values is expected to give. It is only a guess: the code looks.
-fn kind_of_answer(name: &str, given: &[Typed]) -> Option<Kind> {
-    let all = |kind: Kind| given.iter().all(|typed| typed.kind() == kind);
-    if !given.iter().all(|typed| matches!(typed.kind(), Kind::Real | Kind::Int | Kind::Bool | Kind::None)) {
+/// The expected kind of the answer of a built-in function of plain values. It is only a guess: the code checks
+/// it.
+fn kind_of_answer(name: &str, args_: &[Typed]) -> Option<Kind> {
+    let all = |kind: Kind| args_.iter().all(|typed| typed.kind() == kind);
+    if !args_.iter().all(|typed| matches!(typed.kind(), Kind::Real | Kind::Int | Kind::Bool | Kind::None)) {
         return None;
     }
     Some(match name {
@@ -168,7 +175,7 @@ fn kind_of_answer(name: &str, given: &[Typed]) -> Option<Kind> {
         "int" | "floor" | "ceil" | "trunc" | "sign" | "gcd" | "factorial" | "comb" | "band" | "bor"
         | "bxor" | "invert" | "shl" | "shr" => Kind::Int,
         "round" => {
-            if given.len() == 1 {
+            if args_.len() == 1 {
                 Kind::Int
             } else {
                 Kind::Real
@@ -188,8 +195,8 @@ fn kind_of_answer(name: &str, given: &[Typed]) -> Option<Kind> {
     })
 }
 
-/// Whether there is machine code for a built-in function, given the right values.
-pub(super) fn is_known(name: &str) -> bool {
+/// Whether there is machine code for a built-in function, if its arguments are of the right kinds.
+pub(super) fn has_machine_code(name: &str) -> bool {
     let of_vectors = ["vec", "dot", "norm", "distance", "normalize", "cross", "rotate", "range", "len"];
     of_vectors.contains(&name) || kind_of_answer(name, &[]).is_some()
 }

@@ -1,35 +1,38 @@
 //! Models as machine code.
 //!
-//! The interpreter is right and starts at once. Where it goes through the same instructions thousands of times, they
-//! are compiled: for the kinds of values that the registers hold there, real and whole numbers in registers of the
-//! processor. The code begins where a loop goes back to, where a pure function begins or where a run goes on after a choice,
-//! and it goes as far as it can:
+//! The interpreter is the reference and starts at once. When it passes through the same instructions thousands
+//! of times, they are compiled for the kinds of values that the registers hold there, with real and whole
+//! numbers in registers of the processor. Machine code begins at the target of a backward jump, at the start of
+//! a pure function, or where a run continues after a choice, and it goes as far as it can:
 //!
 //! ```text
-//! interpreter --- a loop goes back, for the 20,000th time -> compile for the kinds found,
-//!     ^                                                            | while the run goes on
+//! interpreter --- a loop jumps back for the 20,000th time -> compile for these kinds,     
+//!     ^                                                            | while the run continues
 //!     |            registers, steps, place                         v
 //!     +------------------------------------------------------ machine code
 //!        an instruction that it has no code for, a fault, a number that does not fit, the limits
 //! ```
 //!
-//! It does nothing that the interpreter would not do, and it leaves *before* an instruction that it cannot carry out,
-//! with every register as the interpreter would have it there. So values are the same to the last bit, a fault is raised by
-//! the interpreter at its place, and limits of steps and memory are met at the same instruction.
+//! The code does nothing that the interpreter would not do. It leaves *before* an instruction that it cannot
+//! run, with every register as the interpreter would have it there. So values are the same to the last bit, the
+//! interpreter raises faults at their place, and limits of steps and memory are met at the same instruction.
 //!
-//! What was written is a routine ([`crate::code::routine`]) at a place of a function ([`crate::code::entries`]). So programs hold
-//! machine code, and do not know who writes it. How it is run is in `machine/enter`.
+//! The result of the compilation is a routine ([`crate::code::routine`]) at a place of a function
+//! ([`crate::code::entries`]). So programs hold machine code without knowing who writes it. `machine/enter`
+//! runs it.
 //!
-//! * `entries`: where code may begin; `apart`: the thread that writes it; `routine`: the writing of one routine;
-//! * `write`: one piece of code for each instruction and each combination of kinds that it is met with; `registers`: the model's
-//!   registers while it is written; `flow`: which of them are live;
-//! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in functions;
+//! * `entries`: the places where code may begin; `background`: the thread that writes code; `routine`: the
+//!   writing of one routine;
+//! * `write`: one piece of code for each instruction and each combination of kinds that reaches it;
+//!   `registers`: the model's registers during the writing; `flow`: which registers are live;
+//! * `operate`: the instructions; `numbers`, `vectors`, `functions`: arithmetic, vectors and tuples, built-in
+//!   functions;
 //! * `typed`: a value in the processor; `calls`: functions that the code calls.
 //!
-//! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block Versioning"
-//! (ECOOP 2015), with all versions made at once.
+//! Source: Chevalier-Boisvert & Feeley, "Simple and Effective Type Check Removal through Lazy Basic Block
+//! Versioning" (ECOOP 2015), with all versions written at once.
 
-mod apart;
+mod background;
 mod calls;
 mod entries;
 mod flow;

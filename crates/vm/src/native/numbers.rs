@@ -1,14 +1,14 @@
 //! Arithmetic and comparisons of numbers.
 
 use super::typed::Typed;
-use super::write::{Now, Writer};
+use super::write::{Cursor, Writer};
 use crate::code::Binary;
-use crate::code::kinds::Made;
+use crate::code::kinds::FreshForm;
 use niwaki_native::codegen::ir::condcodes::{FloatCC, IntCC};
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};
 
-/// Whole numbers up to this size are real numbers without loss.
+/// The largest whole numbers that convert to real numbers without loss.
 const EXACT: i64 = 1 << 53;
 
 impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
@@ -22,13 +22,13 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 self.b.ins().fcmp(FloatCC::NotEqual, x, zero)
             }
             Typed::None => self.int(0),
-            // It has parts.
-            Typed::Fresh { made: Made::Vector | Made::Tuple, .. } => self.int(1),
+            // A fresh vector or tuple has parts, so it is true.
+            Typed::Fresh { form: FreshForm::Vector | FreshForm::Tuple, .. } => self.int(1),
             _ => return None,
         })
     }
 
-    /// A number as a real one.
+    /// Converts a number to a real number.
     pub(super) fn real(&mut self, typed: Typed) -> Option<Value> {
         match typed {
             Typed::Real(x) => Some(x),
@@ -39,14 +39,14 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
 
     pub(super) fn arithmetic(
         &mut self,
-        now: &Now<'v>,
+        cursor: &Cursor<'v>,
         pc: usize,
         op: Binary,
         a: Typed,
         b: Typed,
     ) -> Option<Typed> {
         if let (Typed::Int(a), Typed::Int(b)) = (a, b) {
-            return Some(self.whole(now, pc, op, a, b));
+            return Some(self.whole(cursor, pc, op, a, b));
         }
         let (a, b) = (self.real(a)?, self.real(b)?);
         Some(Typed::Real(match op {
@@ -54,17 +54,17 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Binary::Sub => self.b.ins().fsub(a, b),
             Binary::Mul => self.b.ins().fmul(a, b),
             _ => {
-                self.leave_if_zero(now, pc, b);
+                self.leave_if_zero(cursor, pc, b);
                 self.b.ins().fdiv(a, b)
             }
         }))
     }
 
-    /// Arithmetic of whole numbers: leaves where the result has no 64 bits.
-    pub(super) fn whole(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
+    /// Writes arithmetic of whole numbers; leaves if the result does not fit in 64 bits.
+    pub(super) fn whole(&mut self, cursor: &Cursor<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
         match op {
             Binary::Add | Binary::Sub => {
-                // It overflows where the result's sign is not the one that both operands ask for.
+                // The sum overflows if its sign differs from the sign that both operands require.
                 let (result, other) = if op == Binary::Add {
                     (self.b.ins().iadd(a, b), self.b.ins().bxor(a, b))
                 } else {
@@ -74,21 +74,21 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 let turned = self.b.ins().bxor(a, result);
                 let over = self.b.ins().band_not(turned, other);
                 let over = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, over, 0);
-                self.leave_if(now, pc, over);
+                self.leave_if(cursor, pc, over);
                 Typed::Int(result)
             }
             Binary::Mul => {
                 let (low, high) = (self.b.ins().imul(a, b), self.b.ins().smulhi(a, b));
                 let sign = self.b.ins().sshr_imm_s(low, 63);
                 let over = self.b.ins().icmp(IntCC::NotEqual, high, sign);
-                self.leave_if(now, pc, over);
+                self.leave_if(cursor, pc, over);
                 Typed::Int(low)
             }
             _ => {
                 let zero = self.b.ins().icmp_imm_s(IntCC::Equal, b, 0);
-                self.leave_if(now, pc, zero);
+                self.leave_if(cursor, pc, zero);
                 for n in [a, b] {
-                    self.leave_unless_exact(now, pc, n);
+                    self.leave_unless_exact(cursor, pc, n);
                 }
                 let (a, b) = (self.b.ins().fcvt_from_sint(F64, a), self.b.ins().fcvt_from_sint(F64, b));
                 Typed::Real(self.b.ins().fdiv(a, b))
@@ -96,17 +96,17 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
     }
 
-    /// Leaves where a whole number is no real one without loss.
-    fn leave_unless_exact(&mut self, now: &Now<'v>, pc: usize, n: Value) {
+    /// Leaves if a whole number has no exact real number.
+    fn leave_unless_exact(&mut self, cursor: &Cursor<'v>, pc: usize, n: Value) {
         let shifted = self.b.ins().iadd_imm_s(n, EXACT);
         let large = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, shifted, 2 * EXACT);
-        self.leave_if(now, pc, large);
+        self.leave_if(cursor, pc, large);
     }
 
-    /// Quotient or remainder of whole numbers, rounded down. Leaves unless the divisor is positive.
-    pub(super) fn divide(&mut self, now: &Now<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
+    /// Writes the quotient or remainder of whole numbers, rounded down. Leaves unless the divisor is positive.
+    pub(super) fn divide(&mut self, cursor: &Cursor<'v>, pc: usize, op: Binary, a: Value, b: Value) -> Typed {
         let refused = self.b.ins().icmp_imm_s(IntCC::SignedLessThanOrEqual, b, 0);
-        self.leave_if(now, pc, refused);
+        self.leave_if(cursor, pc, refused);
         self.divides = true;
         let rest = self.b.ins().srem(a, b);
         let below = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, rest, 0);
@@ -120,10 +120,10 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         })
     }
 
-    /// The truth of a comparison, in eight bits.
+    /// Writes a comparison; the result has eight bits.
     pub(super) fn compare(
         &mut self,
-        now: &Now<'v>,
+        cursor: &Cursor<'v>,
         pc: usize,
         op: Binary,
         a: Typed,
@@ -151,12 +151,12 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             (Typed::Bool(a), Typed::Bool(b)) => self.b.ins().icmp(wholes, a, b),
             (Typed::Real(a), Typed::Real(b)) => self.b.ins().fcmp(reals, a, b),
             (Typed::Int(n), Typed::Real(x)) => {
-                self.leave_unless_exact(now, pc, n);
+                self.leave_unless_exact(cursor, pc, n);
                 let n = self.b.ins().fcvt_from_sint(F64, n);
                 self.b.ins().fcmp(reals, n, x)
             }
             (Typed::Real(x), Typed::Int(n)) => {
-                self.leave_unless_exact(now, pc, n);
+                self.leave_unless_exact(cursor, pc, n);
                 let n = self.b.ins().fcvt_from_sint(F64, n);
                 self.b.ins().fcmp(reals, x, n)
             }

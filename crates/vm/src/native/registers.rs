@@ -1,7 +1,7 @@
 //! The registers of the model as variables of Cranelift's builder.
 
-use super::typed::{Got, Number, Typed};
-use super::write::{Now, Writer};
+use super::typed::{Number, Typed, TypedOperand};
+use super::write::{Cursor, Writer};
 use crate::code::kinds::{Kind, Part, Reg};
 use crate::code::routine::words;
 use crate::code::{Operand, Place};
@@ -10,7 +10,7 @@ use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{AbiParam, InstBuilder, Signature, Type, Value};
 use niwaki_native::frontend::Variable;
 
-/// Numbers of variables of parts: whole ones, then real ones.
+/// The first numbers of the variables for parts: whole parts, then real parts.
 const WHOLE_PARTS: u8 = 4;
 const REAL_PARTS: u8 = 8;
 
@@ -48,7 +48,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
     }
 
-    /// The value of a register of that kind.
+    /// The value of a register of a known kind.
     pub(super) fn typed(&mut self, reg: Reg, kind: Kind) -> Typed {
         let mut part = |part| {
             let variable = self.variable(reg, part);
@@ -63,10 +63,10 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             Kind::Real => Typed::Real(part(0)),
             Kind::Range => Typed::Range { object: part(1), first: part(2), step: part(3) },
             Kind::Object(form) => Typed::Object(part(1), form),
-            Kind::Fresh { made, parts, number } => {
+            Kind::Fresh { form, parts, number } => {
                 let mut all = [None; 4];
-                for (k, (own, kind)) in all.iter_mut().zip(parts).enumerate() {
-                    *own = kind.map(|kind| {
+                for (k, (slot, kind)) in all.iter_mut().zip(parts).enumerate() {
+                    *slot = kind.map(|kind| {
                         let x = part(part_of(k, kind));
                         match kind {
                             Part::Bool => Number::Bool(x),
@@ -75,46 +75,46 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                         }
                     });
                 }
-                Typed::Fresh { made, parts: all, number }
+                Typed::Fresh { form, parts: all, number }
             }
         }
     }
 
-    fn reg(now: &Now<'_>, o: Operand) -> Reg {
+    fn reg(cursor: &Cursor<'_>, o: Operand) -> Reg {
         match o.place() {
             Place::Node => Reg::Node(o.index() as u16),
             Place::Outer => Reg::Outer(o.index() as u16),
-            Place::Scratch | Place::Constant => Reg::Scratch(now.base + o.index() as u32),
+            Place::Scratch | Place::Constant => Reg::Scratch(cursor.base + o.index() as u32),
         }
     }
 
-    /// The value of an operand; `None` for one that the code knows nothing of.
-    pub(super) fn get(&mut self, now: &Now<'v>, o: Operand) -> Option<Got<'v>> {
+    /// The value of an operand; `None` if the code knows nothing about it.
+    pub(super) fn get(&mut self, cursor: &Cursor<'v>, o: Operand) -> Option<TypedOperand<'v>> {
         if o.is_constant() {
-            return self.constant(now, o);
+            return self.constant(cursor, o);
         }
-        let reg = Self::reg(now, o);
-        let kind = *now.kinds.get(&reg)?;
+        let reg = Self::reg(cursor, o);
+        let kind = *cursor.kinds.get(&reg)?;
         self.read.insert(reg);
-        Some(Got { typed: self.typed(reg, kind), sample: now.samples.get(&reg).copied() })
+        Some(TypedOperand { typed: self.typed(reg, kind), sample: cursor.samples.get(&reg).copied() })
     }
 
-    fn constant(&mut self, now: &Now<'v>, o: Operand) -> Option<Got<'v>> {
-        let value: &'v Model = &self.program.function(now.function).constants[o.index()];
+    fn constant(&mut self, cursor: &Cursor<'v>, o: Operand) -> Option<TypedOperand<'v>> {
+        let value: &'v Model = &self.program.function(cursor.function).constants[o.index()];
         let typed = match value {
             Model::None => Typed::None,
             Model::Bool(b) => Typed::Bool(self.int(i64::from(*b))),
             Model::Int(n) => Typed::Int(self.int(*n)),
             Model::Real(x) => Typed::Real(self.b.ins().f64const(*x)),
             other => {
-                let which = (now.function, o.index() as u16);
-                let known = self.constants.iter().position(|known| *known == which);
+                let constant = (cursor.function, o.index() as u16);
+                let known = self.constants.iter().position(|known| *known == constant);
                 let at = known.unwrap_or(self.constants.len());
                 if at >= words::MOST_CONSTANTS {
                     return None;
                 }
                 if known.is_none() {
-                    self.constants.push(which);
+                    self.constants.push(constant);
                 }
                 let object = self.word(words::CONSTANTS + at);
                 match (other, Kind::of(other)) {
@@ -126,39 +126,45 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 }
             }
         };
-        Some(Got { typed, sample: Some(value) })
+        Some(TypedOperand { typed, sample: Some(value) })
     }
 
     /// Writes a register.
-    pub(super) fn put(&mut self, now: &mut Now<'v>, o: Operand, typed: Typed, sample: Option<&'v Model>) {
-        let reg = Self::reg(now, o);
+    pub(super) fn put(
+        &mut self,
+        cursor: &mut Cursor<'v>,
+        o: Operand,
+        typed: Typed,
+        sample: Option<&'v Model>,
+    ) {
+        let reg = Self::reg(cursor, o);
         self.written.insert(reg);
         self.define(reg, typed);
-        now.kinds.insert(reg, typed.kind());
+        cursor.kinds.insert(reg, typed.kind());
         match sample.filter(|_| !typed.kind().is_plain()) {
-            Some(sample) => now.samples.insert(reg, sample),
-            None => now.samples.remove(&reg),
+            Some(sample) => cursor.samples.insert(reg, sample),
+            None => cursor.samples.remove(&reg),
         };
     }
 }
 
-/// Calls of functions that are not machine code of ours.
+/// Calls of functions outside of the machine code.
 impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     /// Calls the function at an address.
-    pub(super) fn call_address(&mut self, function: *const u8, given: &[Value], answer: Type) -> Value {
+    pub(super) fn call_address(&mut self, function: *const u8, args: &[Value], answer: Type) -> Value {
         let mut signature = Signature::new(self.convention);
-        for value in given {
+        for value in args {
             let ty = self.b.func.dfg.value_type(*value);
             signature.params.push(AbiParam::new(ty));
         }
         signature.returns.push(AbiParam::new(answer));
         let signature = self.b.import_signature(signature);
         let address = self.int(function as i64);
-        let call = self.b.ins().call_indirect(signature, address, given);
+        let call = self.b.ins().call_indirect(signature, address, args);
         self.b.inst_results(call)[0]
     }
 
-    /// The address of the word that called functions answer to.
+    /// The address of the word for the answers of called functions.
     pub(super) fn answer(&mut self) -> Value {
         self.b.ins().stack_addr(I64, self.answer, 0)
     }
@@ -168,7 +174,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.b.ins().stack_addr(I64, self.arguments, 0)
     }
 
-    /// The address and the length of a name, which lives as long as the code.
+    /// The address and the length of a name, which exists as long as the code.
     pub(super) fn keep_name(&mut self, name: &str) -> [Value; 2] {
         let name: Box<str> = name.into();
         let [address, length] = [name.as_ptr() as i64, name.len() as i64];

@@ -1,6 +1,6 @@
 //! Writes machine code for one combination of kinds.
 
-use super::write::{Found, Writer};
+use super::write::{Contents, Writer};
 use crate::code::kinds::Reg;
 use crate::code::routine::{Instructions, Routine, Start};
 use crate::code::{FunctionId, Program};
@@ -8,18 +8,18 @@ use niwaki_native::codegen::ir::types::I64;
 use niwaki_native::codegen::ir::{AbiParam, Signature, UserFuncName};
 use niwaki_native::frontend::{FunctionBuilder, FunctionBuilderContext};
 use niwaki_native::module::{Linkage, Module as _};
-use niwaki_native::{Effort, Memory, Written};
+use niwaki_native::{CompileResult, Effort, Memory};
 
-/// Writes the code of a function from an instruction on. `found` gives what a register holds there now.
+/// Writes the code of a function from an instruction on, for the current contents of the registers.
 ///
 /// # Errors
-/// Too many registers, a processor that Cranelift does not know, or memory that may not be executed.
+/// There are too many registers, Cranelift does not know the processor, or memory may not be executed.
 pub(super) fn routine<'v>(
     program: &'v Program,
     function: FunctionId,
     pc: usize,
-    found: Found<'_, 'v>,
-) -> Written<Routine> {
+    contents: Contents<'_, 'v>,
+) -> CompileResult<Routine> {
     let mut module = niwaki_native::module(Effort::Plain)?;
     let mut context = module.make_context();
     let mut signature = Signature::new(module.target_config().default_call_conv);
@@ -31,15 +31,16 @@ pub(super) fn routine<'v>(
     let mut builder_context = FunctionBuilderContext::new();
     let b = FunctionBuilder::new(&mut context.func, &mut builder_context);
     let mut writer = Writer::new(program, b, convention);
-    let mut inputs = writer.begin(function, pc, found)?;
-    writer.all_pieces();
-    let exits = writer.all_exits();
+    let mut inputs = writer.write_start(function, pc, contents)?;
+    writer.write_pieces();
+    let exits = writer.write_exits();
     let Writer { mut b, constants, written, read, names, divides, words, .. } = writer;
     inputs.retain(|input| read.contains(&input.reg) || written.contains(&input.reg));
     b.seal_all_blocks();
     b.finalize(module.target_config());
     if divides {
-        // By a constant, it becomes a multiplication. Nothing else gains by the effort, which takes twice the time.
+        // A division by a constant becomes a multiplication. Nothing else gains from the effort, which takes
+        // twice the time.
         module = niwaki_native::module(Effort::Quick)?;
     }
     let id = module.declare_function("routine", Linkage::Local, &context.func.signature)?;
@@ -54,8 +55,8 @@ pub(super) fn routine<'v>(
         Some(Reg::Scratch(last)) => *last as usize + 1,
         _ => 0,
     };
-    // SAFETY: it was written with this signature, and the texts are all that it names. It stays within so many words, and reads
-    // what its kinds say.
+    // SAFETY: the code was written with this signature, and it names no other texts. It stays within `words`
+    // words, and reads its inputs by their kinds.
     #[allow(unsafe_code)]
     let code = unsafe {
         let start = std::mem::transmute::<*const u8, Start>(memory.address(id));

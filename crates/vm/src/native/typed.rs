@@ -1,6 +1,6 @@
 //! Values in the processor.
 
-use crate::code::kinds::{Form, Kind, Made, Part};
+use crate::code::kinds::{Form, FreshForm, Kind, Part};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::Value;
 
@@ -15,7 +15,7 @@ pub(super) enum Typed {
     Real(Value),
     Range { object: Value, first: Value, step: Value },
     Object(Value, Form),
-    Fresh { made: Made, parts: [Option<Number>; 4], number: u16 },
+    Fresh { form: FreshForm, parts: [Option<Number>; 4], number: u16 },
 }
 
 /// A number in the processor.
@@ -72,16 +72,16 @@ impl Typed {
             Typed::Real(_) => Kind::Real,
             Typed::Range { .. } => Kind::Range,
             Typed::Object(_, form) => Kind::Object(*form),
-            Typed::Fresh { made, parts, number } => {
-                Kind::Fresh { made: *made, parts: parts.map(|part| part.map(Number::part)), number: *number }
+            Typed::Fresh { form, parts, number } => {
+                Kind::Fresh { form: *form, parts: parts.map(|part| part.map(Number::part)), number: *number }
             }
         }
     }
 }
 
-/// An operand, with a value that it had when the code was written: it says what the elements are like.
+/// An operand, with a value that it had when the code was written: this sample predicts the kinds of elements.
 #[derive(Clone, Copy)]
-pub(super) struct Got<'v> {
+pub(super) struct TypedOperand<'v> {
     pub typed: Typed,
     pub sample: Option<&'v Model>,
 }

@@ -1,17 +1,18 @@
-//! Vectors and tuples of numbers: their parts are in the processor, and no object is made of them before the code leaves.
+//! Vectors and tuples of numbers. Their parts are in the processor, and there is no object in memory before the
+//! code leaves.
 
 use super::calls;
 use super::typed::{Number, Typed};
-use super::write::{Now, PLAIN, Writer};
+use super::write::{Cursor, PLAIN, Writer};
 use crate::code::Binary;
-use crate::code::kinds::{Form, Made};
+use crate::code::kinds::{Form, FreshForm};
 use crate::value::Value as Model;
 use niwaki_native::codegen::ir::condcodes::FloatCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{InstBuilder, Value};
 use std::sync::LazyLock;
 
-/// Where the components of a vector begin, from the address that a value of it holds.
+/// The offset of the components of a vector from the address in its value.
 static COMPONENTS: LazyLock<i32> = LazyLock::new(|| {
     let value: Model = Model::vector(&[1.0, 2.0, 3.0]);
     let Model::Vector(v) = &value else { return 0 };
@@ -26,7 +27,7 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
     /// The components of a vector.
     fn vector(&mut self, typed: Typed) -> Option<Vec<Value>> {
         match typed {
-            Typed::Fresh { made: Made::Vector, parts, .. } => {
+            Typed::Fresh { form: FreshForm::Vector, parts, .. } => {
                 parts.iter().flatten().map(|part| real(*part)).collect()
             }
             Typed::Object(object, form) => {
@@ -43,19 +44,19 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
     }
 
-    /// A part of what the code made, or a component of a vector.
+    /// A part of a fresh value, or a component of a vector.
     pub(super) fn part(&mut self, typed: Typed, at: usize) -> Option<Typed> {
         match typed {
-            Typed::Fresh { made: Made::Range, .. } => None,
+            Typed::Fresh { form: FreshForm::Range, .. } => None,
             Typed::Fresh { parts, .. } => parts.get(at).copied().flatten().map(Typed::from),
             other => self.vector(other)?.get(at).map(|x| Typed::Real(*x)),
         }
     }
 
-    /// How many parts there are.
+    /// The number of parts of a value.
     pub(super) fn count_of_parts(typed: Typed) -> Option<usize> {
         match typed {
-            Typed::Fresh { made: Made::Range, .. } => None,
+            Typed::Fresh { form: FreshForm::Range, .. } => None,
             Typed::Fresh { parts, .. } => Some(parts.iter().flatten().count()),
             Typed::Object(_, Form::Vector2) => Some(2),
             Typed::Object(_, Form::Vector3) => Some(3),
@@ -64,15 +65,15 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         }
     }
 
-    fn make_vector(&mut self, now: &mut Now<'v>, pc: usize, parts: &[Value]) -> Typed {
+    fn make_vector(&mut self, cursor: &mut Cursor<'v>, pc: usize, parts: &[Value]) -> Typed {
         let numbers: Vec<Number> = parts.iter().map(|x| Number::Real(*x)).collect();
-        self.make(now, pc, Made::Vector, &numbers)
+        self.make(cursor, pc, FreshForm::Vector, &numbers)
     }
 
-    /// An operation of which one operand is a vector.
-    pub(super) fn of_vectors(
+    /// Writes an operation with a vector as an operand.
+    pub(super) fn vector_operation(
         &mut self,
-        now: &mut Now<'v>,
+        cursor: &mut Cursor<'v>,
         pc: usize,
         op: Binary,
         a: Typed,
@@ -92,12 +93,12 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             }
             (Some(v), None, Binary::Div) => {
                 let by = self.real(b)?;
-                self.leave_if_zero(now, pc, by);
+                self.leave_if_zero(cursor, pc, by);
                 v.iter().map(|x| self.b.ins().fdiv(*x, by)).collect::<Vec<_>>()
             }
             _ => return None,
         };
-        Some(self.make_vector(now, pc, &parts))
+        Some(self.make_vector(cursor, pc, &parts))
     }
 
     fn componentwise(&mut self, op: Binary, v: &[Value], w: &[Value]) -> Vec<Value> {
@@ -110,20 +111,20 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             .collect()
     }
 
-    /// Minus a vector.
-    pub(super) fn negated(&mut self, now: &mut Now<'v>, pc: usize, typed: Typed) -> Option<Typed> {
+    /// Negates a vector.
+    pub(super) fn negated(&mut self, cursor: &mut Cursor<'v>, pc: usize, typed: Typed) -> Option<Typed> {
         let v = self.vector(typed)?;
         let parts: Vec<Value> = v.iter().map(|x| self.b.ins().fneg(*x)).collect();
-        Some(self.make_vector(now, pc, &parts))
+        Some(self.make_vector(cursor, pc, &parts))
     }
 
-    pub(super) fn leave_if_zero(&mut self, now: &Now<'v>, pc: usize, x: Value) {
+    pub(super) fn leave_if_zero(&mut self, cursor: &Cursor<'v>, pc: usize, x: Value) {
         let zero = self.b.ins().f64const(0.0);
         let is_zero = self.b.ins().fcmp(FloatCC::Equal, x, zero);
-        self.leave_if(now, pc, is_zero);
+        self.leave_if(cursor, pc, is_zero);
     }
 
-    /// The sum of products, in the order of the interpreter.
+    /// The sum of products, in the same order as the interpreter.
     fn product(&mut self, v: &[Value], w: &[Value]) -> Value {
         let mut sum = self.b.ins().f64const(0.0);
         for (x, y) in v.iter().zip(w) {
@@ -138,25 +139,25 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
         self.b.ins().sqrt(squares)
     }
 
-    /// The vector of length one; leaves where there is none.
-    fn unit(&mut self, now: &Now<'v>, pc: usize, v: &[Value]) -> Vec<Value> {
+    /// The vector of length one in a direction; leaves if the length is zero.
+    fn unit(&mut self, cursor: &Cursor<'v>, pc: usize, v: &[Value]) -> Vec<Value> {
         let length = self.length_of(v);
-        self.leave_if_zero(now, pc, length);
+        self.leave_if_zero(cursor, pc, length);
         v.iter().map(|x| self.b.ins().fdiv(*x, length)).collect()
     }
 
-    /// A built-in function of vectors.
+    /// Writes a built-in function of vectors.
     pub(super) fn vector_function(
         &mut self,
-        now: &mut Now<'v>,
+        cursor: &mut Cursor<'v>,
         pc: usize,
         name: &str,
-        given: &[Typed],
+        args_: &[Typed],
     ) -> Option<Typed> {
-        match (name, given) {
+        match (name, args_) {
             ("vec", parts @ ([_, _] | [_, _, _] | [_, _, _, _])) => {
                 let parts: Vec<Value> = parts.iter().map(|x| self.real(*x)).collect::<Option<_>>()?;
-                Some(self.make_vector(now, pc, &parts))
+                Some(self.make_vector(cursor, pc, &parts))
             }
             ("dot", [a, b]) => {
                 let (v, w) = (self.vector(*a)?, self.vector(*b)?);
@@ -176,18 +177,18 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
             }
             ("normalize", [a]) => {
                 let v = self.vector(*a)?;
-                let unit = self.unit(now, pc, &v);
-                Some(self.make_vector(now, pc, &unit))
+                let unit = self.unit(cursor, pc, &v);
+                Some(self.make_vector(cursor, pc, &unit))
             }
             ("cross", [a, b]) => {
                 let (v, w) = (self.vector(*a)?, self.vector(*b)?);
                 let (&[ax, ay, az], &[bx, by, bz]) = (&v[..], &w[..]) else { return None };
                 let mut minor = |a, b, c, d| {
-                    let (one, other) = (self.b.ins().fmul(a, b), self.b.ins().fmul(c, d));
-                    self.b.ins().fsub(one, other)
+                    let (first, second) = (self.b.ins().fmul(a, b), self.b.ins().fmul(c, d));
+                    self.b.ins().fsub(first, second)
                 };
                 let parts = [minor(ay, bz, az, by), minor(az, bx, ax, bz), minor(ax, by, ay, bx)];
-                Some(self.make_vector(now, pc, &parts))
+                Some(self.make_vector(cursor, pc, &parts))
             }
             ("lerp", [a, b, t]) => {
                 let (v, w, t) = (self.vector(*a)?, self.vector(*b)?, self.real(*t)?);
@@ -197,29 +198,29 @@ impl<'p: 'v, 'v> Writer<'p, 'v, '_> {
                 let wide = self.componentwise(Binary::Sub, &w, &v);
                 let part: Vec<Value> = wide.iter().map(|x| self.b.ins().fmul(*x, t)).collect();
                 let parts = self.componentwise(Binary::Add, &v, &part);
-                Some(self.make_vector(now, pc, &parts))
+                Some(self.make_vector(cursor, pc, &parts))
             }
             ("rotate", [a, axis, angle]) => {
                 let (v, axis, angle) = (self.vector(*a)?, self.vector(*axis)?, self.real(*angle)?);
                 if v.len() != 3 || axis.len() != 3 {
                     return None;
                 }
-                let axis = self.unit(now, pc, &axis);
+                let axis = self.unit(cursor, pc, &axis);
                 let rows = self.rotation(&axis, angle)?;
                 let parts: Vec<Value> = rows.iter().map(|row| self.product(row, &v)).collect();
-                Some(self.make_vector(now, pc, &parts))
+                Some(self.make_vector(cursor, pc, &parts))
             }
             _ => None,
         }
     }
 
-    /// The rotation about an axis of length one, as `builtins::vectors` has it.
+    /// The rotation about an axis of length one, with the formula of `builtins::vectors`.
     fn rotation(&mut self, axis: &[Value], angle: Value) -> Option<[[Value; 3]; 3]> {
         let &[x, y, z] = axis else { return None };
         let [cos, sin] = ["cos", "sin"].map(calls::real_function);
         let (c, s) = (self.call_address(cos?, &[angle], F64), self.call_address(sin?, &[angle], F64));
-        let one = self.b.ins().f64const(1.0);
-        let t = self.b.ins().fsub(one, c);
+        let unit = self.b.ins().f64const(1.0);
+        let t = self.b.ins().fsub(unit, c);
         let b = &mut self.b;
         let mut entry = |a: Value, other: Value, add: bool, by: Value, part: Option<Value>| {
             let first = b.ins().fmul(t, a);

@@ -1,19 +1,19 @@
 //! Machine code from bytecode: a piece of code for each instruction and each combination of kinds.
 //!
-//! The registers of the model are variables of Cranelift's builder, which makes them values of the processor. A piece begins
-//! at a jump's target; its *key* is where that is, the calls of pure functions that it is in, and the kinds of the registers
-//! that are live. A jump leads to the piece with the key that it has by then, which is written if there is none yet. So
-//! a variable that is a whole number in the first round of a loop and a real one in the others has a piece for each, and no
-//! instruction tests a kind that is known.
+//! The registers of the model are variables of Cranelift's builder, which turns them into values of the
+//! processor. A piece begins at a jump's target. Its *key* is that place, the calls of pure functions in
+//! progress, and the kinds of the live registers. A jump leads to the piece with the current key, which is
+//! written if it does not exist yet. So a variable that is a whole number in the first round of a loop and a
+//! real number in the others has a piece for each kind. No instruction tests a kind that is known.
 
 use super::flow::{Flow, registers};
 use super::typed::{Number, Typed};
-use crate::code::kinds::{Kind, Made, Reg, is_counted};
+use crate::code::kinds::{FreshForm, Kind, Reg, is_counted};
 use crate::code::routine::words;
 use crate::code::routine::{Call, Exit, Input};
 use crate::code::{Function, FunctionId, Operand, Place, Program};
 use crate::value::{Range, Value as Model};
-use niwaki_native::Written;
+use niwaki_native::CompileResult;
 use niwaki_native::codegen::ir::condcodes::IntCC;
 use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{
@@ -24,22 +24,22 @@ use niwaki_native::frontend::{FunctionBuilder, Variable};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
-/// What the registers of a function hold where code begins.
-pub(super) type Found<'a, 'v> = &'a dyn Fn(Reg) -> Option<&'v Model>;
+/// The contents of the registers of a function where code begins.
+pub(super) type Contents<'a, 'v> = &'a dyn Fn(Reg) -> Option<&'v Model>;
 
-/// Most pieces of a routine: what is beyond them is left to the interpreter.
-const PIECES: usize = 160;
+/// The most pieces of a routine; the interpreter runs the rest.
+const MAX_PIECES: usize = 160;
 
-/// Most registers that a routine exchanges with the machine.
-const REGISTERS: usize = 200;
+/// The most registers that a routine exchanges with the machine.
+const MAX_REGISTERS: usize = 200;
 
-/// Words of an array that a called function answers to, and of one for arguments.
+/// The number of values in the array for arguments of called functions.
 pub(super) const ARGUMENTS: u32 = 8;
 
 /// Flags of valid, aligned memory.
 pub(super) const PLAIN: MemFlagsData = MemFlagsData::trusted();
 
-/// What a piece of code is for.
+/// The identity of a piece of code.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
     calls: Vec<Call>,
@@ -49,23 +49,23 @@ struct Key {
     kinds: Vec<(Reg, Kind)>,
 }
 
-/// Where the writer is in a piece.
+/// The place of the writer in a piece, and what is known there.
 #[derive(Clone)]
-pub(super) struct Now<'v> {
+pub(super) struct Cursor<'v> {
     pub calls: Vec<Call>,
     pub function: FunctionId,
     pub base: u32,
     pub(super) kinds: BTreeMap<Reg, Kind>,
     pub(super) samples: HashMap<Reg, &'v Model>,
-    /// Instructions since they were counted.
-    done: i64,
-    /// How many vectors and tuples the code has made so far.
-    made: u16,
+    /// The number of instructions since the last count.
+    instructions: i64,
+    /// The number of vectors, tuples and ranges that the code has made so far.
+    fresh_count: u16,
 }
 
-/// How the writing goes on after an instruction.
-pub(super) enum Then {
-    /// With the next one.
+/// The progress of the writing after an instruction.
+pub(super) enum Progress {
+    /// The next instruction follows.
     Next,
     /// The piece has ended.
     Ended,
@@ -74,31 +74,31 @@ pub(super) enum Then {
 }
 
 /// An exit whose code is not written yet.
-struct Leaving {
+struct PendingExit {
     block: Block,
     exit: Exit,
     values: Vec<(Reg, Kind, Vec<Value>)>,
-    done: i64,
+    instructions: i64,
 }
 
-/// A routine while it is written.
+/// A routine during its writing.
 pub(super) struct Writer<'p, 'v, 'b> {
     pub program: &'p Program,
     pub b: FunctionBuilder<'b>,
     pub(super) convention: CallConv,
     flows: HashMap<FunctionId, Flow>,
     pieces: HashMap<Key, Block>,
-    waiting: Vec<(Block, usize, Now<'v>)>,
-    leaving: Vec<Leaving>,
+    pending_pieces: Vec<(Block, usize, Cursor<'v>)>,
+    pending_exits: Vec<PendingExit>,
     pub(super) variables: HashMap<(Reg, u8), Variable>,
-    /// What registers held where the code begins, if it was shared.
-    began_with: BTreeSet<Reg>,
+    /// Registers that held shared data where the code begins.
+    shared_at_start: BTreeSet<Reg>,
     pub(super) constants: Vec<(FunctionId, u16)>,
     pub(super) written: BTreeSet<Reg>,
-    /// Registers that some instruction reads.
+    /// Registers that an instruction reads.
     pub(super) read: BTreeSet<Reg>,
     pub(super) names: Vec<Box<str>>,
-    /// Whether whole numbers are divided.
+    /// Whether the code divides whole numbers.
     pub(super) divides: bool,
     pub(super) words: usize,
     exchange: Value,
@@ -106,7 +106,7 @@ pub(super) struct Writer<'p, 'v, 'b> {
     pub(super) arguments: StackSlot,
     steps: Variable,
     bytes: Variable,
-    done: Variable,
+    instructions: Variable,
 }
 
 fn offset(word: usize) -> i32 {
@@ -118,17 +118,17 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let slot = |words: u32| StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * words, 3);
         let (answer, arguments) =
             (b.create_sized_stack_slot(slot(1)), b.create_sized_stack_slot(slot(2 * ARGUMENTS)));
-        let [steps, bytes, done] = [(); 3].map(|()| b.declare_var(I64));
+        let [steps, bytes, instructions] = [(); 3].map(|()| b.declare_var(I64));
         Writer {
             program,
             b,
             convention,
             flows: HashMap::new(),
             pieces: HashMap::new(),
-            waiting: vec![],
-            leaving: vec![],
+            pending_pieces: vec![],
+            pending_exits: vec![],
             variables: HashMap::new(),
-            began_with: BTreeSet::new(),
+            shared_at_start: BTreeSet::new(),
             constants: vec![],
             written: BTreeSet::new(),
             read: BTreeSet::new(),
@@ -140,20 +140,25 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             arguments,
             steps,
             bytes,
-            done,
+            instructions,
         }
     }
 
-    pub(super) fn f(&self, now: &Now<'_>) -> &'p Function {
-        self.program.function(now.function)
+    pub(super) fn f(&self, cursor: &Cursor<'_>) -> &'p Function {
+        self.program.function(cursor.function)
     }
 
     pub(super) fn flow(&mut self, id: FunctionId) -> &Flow {
         self.flows.entry(id).or_insert_with(|| Flow::of(self.program.function(id)))
     }
 
-    /// The code that reads all inputs, and the first piece. Gives the inputs.
-    pub(super) fn begin(&mut self, id: FunctionId, pc: usize, found: Found<'_, 'v>) -> Written<Vec<Input>> {
+    /// Writes the code that reads all inputs, and the jump to the first piece. Returns the inputs.
+    pub(super) fn write_start(
+        &mut self,
+        id: FunctionId,
+        pc: usize,
+        contents: Contents<'_, 'v>,
+    ) -> CompileResult<Vec<Input>> {
         let f = self.program.function(id);
         let block = self.b.create_block();
         self.b.switch_to_block(block);
@@ -164,10 +169,10 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         let bytes = self.word(words::BYTES);
         self.b.def_var(self.bytes, bytes);
         let zero = self.int(0);
-        self.b.def_var(self.done, zero);
+        self.b.def_var(self.instructions, zero);
 
-        // Registers that hold something shared are inputs even where they are dead: when one is written, what it held
-        // goes.
+        // Registers with shared data are inputs even if they are dead: a write to such a register drops its
+        // data.
         let flow = self.flow(id);
         let mut inputs = registers(f);
         inputs.retain(|reg| {
@@ -176,28 +181,28 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                 Reg::Scratch(i) => Operand::new(Place::Scratch, i as usize),
                 Reg::Outer(_) => return true,
             };
-            flow.is_live(pc, o) || found(*reg).is_some_and(|value| is_counted(*reg, value))
+            flow.is_live(pc, o) || contents(*reg).is_some_and(|value| is_counted(*reg, value))
         });
 
-        let mut now = Now {
+        let mut cursor = Cursor {
             calls: vec![],
             function: id,
             base: 0,
             kinds: BTreeMap::new(),
             samples: HashMap::new(),
-            done: 0,
-            made: 0,
+            instructions: 0,
+            fresh_count: 0,
         };
         let mut known = vec![];
         let mut at = words::REGISTERS;
         for reg in inputs {
-            let Some(value) = found(reg) else { return Err("a register that is not there".into()) };
+            let Some(value) = contents(reg) else { return Err("a register does not exist".into()) };
             let kind = Kind::of(value);
             if !kind.is_plain() {
                 if kind.is_counted(reg) {
-                    self.began_with.insert(reg);
+                    self.shared_at_start.insert(reg);
                 }
-                now.samples.insert(reg, value);
+                cursor.samples.insert(reg, value);
             }
             let typed = match kind {
                 Kind::None => Typed::None,
@@ -210,39 +215,39 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
                     Typed::Range { object: self.word(at), first: self.word(at + 1), step: self.word(at + 2) }
                 }
                 Kind::Object(form) => Typed::Object(self.word(at), form),
-                Kind::Fresh { .. } => return Err("only code makes these".into()),
+                Kind::Fresh { .. } => return Err("only machine code makes such values".into()),
             };
             self.define(reg, typed);
-            now.kinds.insert(reg, kind);
+            cursor.kinds.insert(reg, kind);
             known.push(Input { reg, kind, word: at });
             at += kind.words();
         }
-        if known.len() > REGISTERS {
+        if known.len() > MAX_REGISTERS {
             return Err("too many registers".into());
         }
         self.words = at;
-        self.go(&mut now, pc);
+        self.enter_piece(&mut cursor, pc);
         Ok(known)
     }
 
-    /// Writes every piece that some other leads to.
-    pub(super) fn all_pieces(&mut self) {
-        while let Some((block, first, mut now)) = self.waiting.pop() {
+    /// Writes all pieces that other pieces lead to.
+    pub(super) fn write_pieces(&mut self) {
+        while let Some((block, first, mut cursor)) = self.pending_pieces.pop() {
             self.b.switch_to_block(block);
             let mut pc = first;
             loop {
-                if pc != first && self.flow(now.function).is_target(pc) {
-                    self.go(&mut now, pc);
+                if pc != first && self.flow(cursor.function).is_target(pc) {
+                    self.enter_piece(&mut cursor, pc);
                     break;
                 }
-                match self.instruction(&mut now, pc) {
-                    Then::Next => {
-                        now.done += 1;
+                match self.instruction(&mut cursor, pc) {
+                    Progress::Next => {
+                        cursor.instructions += 1;
                         pc += 1;
                     }
-                    Then::Ended => break,
-                    Then::Leave => {
-                        let exit = self.exit(&now, pc);
+                    Progress::Ended => break,
+                    Progress::Leave => {
+                        let exit = self.exit(&cursor, pc);
                         self.b.ins().jump(exit, &[]);
                         break;
                     }
@@ -251,10 +256,10 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         }
     }
 
-    /// Writes the code of every exit.
-    pub(super) fn all_exits(&mut self) -> Vec<Exit> {
+    /// Writes the code of all exits.
+    pub(super) fn write_exits(&mut self) -> Vec<Exit> {
         let mut exits = vec![];
-        for Leaving { block, mut exit, values, done } in std::mem::take(&mut self.leaving) {
+        for PendingExit { block, mut exit, values, instructions } in std::mem::take(&mut self.pending_exits) {
             self.b.switch_to_block(block);
             let mut at = words::REGISTERS;
             for (reg, kind, values) in values {
@@ -273,9 +278,9 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             self.b.ins().store(PLAIN, steps, self.exchange, offset(words::STEPS));
             let bytes = self.b.use_var(self.bytes);
             self.b.ins().store(PLAIN, bytes, self.exchange, offset(words::BYTES));
-            let before = self.b.use_var(self.done);
-            let done = self.b.ins().iadd_imm_s(before, done);
-            self.b.ins().store(PLAIN, done, self.exchange, offset(words::DONE));
+            let before = self.b.use_var(self.instructions);
+            let instructions = self.b.ins().iadd_imm_s(before, instructions);
+            self.b.ins().store(PLAIN, instructions, self.exchange, offset(words::INSTRUCTIONS));
             let number = self.int(exits.len() as i64);
             self.b.ins().return_(&[number]);
             exits.push(exit);
@@ -283,48 +288,48 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
         exits
     }
 
-    /// Jumps to the piece that begins at an instruction with the kinds known now.
-    pub(super) fn go(&mut self, now: &mut Now<'v>, pc: usize) {
-        let before = self.b.use_var(self.done);
-        let done = self.b.ins().iadd_imm_s(before, now.done);
-        self.b.def_var(self.done, done);
-        now.done = 0;
-        self.forget_dead(now, pc);
-        now.number_again();
+    /// Jumps to the piece that begins at an instruction with the current kinds.
+    pub(super) fn enter_piece(&mut self, cursor: &mut Cursor<'v>, pc: usize) {
+        let before = self.b.use_var(self.instructions);
+        let instructions = self.b.ins().iadd_imm_s(before, cursor.instructions);
+        self.b.def_var(self.instructions, instructions);
+        cursor.instructions = 0;
+        self.forget_dead(cursor, pc);
+        cursor.renumber();
         let key = Key {
-            calls: now.calls.clone(),
-            function: now.function,
-            base: now.base,
+            calls: cursor.calls.clone(),
+            function: cursor.function,
+            base: cursor.base,
             pc: pc as u32,
-            kinds: now.kinds.iter().map(|(reg, kind)| (*reg, *kind)).collect(),
+            kinds: cursor.kinds.iter().map(|(reg, kind)| (*reg, *kind)).collect(),
         };
         let block = match self.pieces.get(&key) {
             Some(block) => *block,
-            None if self.pieces.len() >= PIECES => self.exit(now, pc),
+            None if self.pieces.len() >= MAX_PIECES => self.exit(cursor, pc),
             None => {
                 let block = self.b.create_block();
                 self.pieces.insert(key, block);
-                self.waiting.push((block, pc, now.clone()));
+                self.pending_pieces.push((block, pc, cursor.clone()));
                 block
             }
         };
         self.b.ins().jump(block, &[]);
     }
 
-    /// Forgets registers that nobody reads again. One that holds something shared, or did so where the code began, stays: what
-    /// it holds counts as long as it holds it.
-    fn forget_dead(&mut self, now: &mut Now<'v>, pc: usize) {
+    /// Forgets registers that nobody reads again. A register stays if it holds shared data, or did so where the
+    /// code began: this data counts while the register holds it.
+    fn forget_dead(&mut self, cursor: &mut Cursor<'v>, pc: usize) {
         let mut places: Vec<(FunctionId, u32, usize)> =
-            now.calls.iter().map(|call| (call.caller, call.base, call.back as usize)).collect();
-        places.push((now.function, now.base, pc));
-        let innermost_end = now.base + u32::from(self.f(now).scratch_registers);
+            cursor.calls.iter().map(|call| (call.caller, call.base, call.back as usize)).collect();
+        places.push((cursor.function, cursor.base, pc));
+        let innermost_end = cursor.base + u32::from(self.f(cursor).scratch_registers);
         let mut dead = vec![];
-        for (reg, kind) in &now.kinds {
-            if kind.is_counted(*reg) || self.began_with.contains(reg) {
+        for (reg, kind) in &cursor.kinds {
+            if kind.is_counted(*reg) || self.shared_at_start.contains(reg) {
                 continue;
             }
             let (id, at, o) = match *reg {
-                // What the activation holds may be read by a slice.
+                // A slice may read the registers of the activation.
                 Reg::Outer(_) | Reg::Node(_) => continue,
                 Reg::Scratch(i) if i >= innermost_end => {
                     dead.push(*reg);
@@ -342,20 +347,20 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             }
         }
         for reg in dead {
-            now.kinds.remove(&reg);
-            now.samples.remove(&reg);
+            cursor.kinds.remove(&reg);
+            cursor.samples.remove(&reg);
         }
     }
 
-    /// A place to leave at, before an instruction.
-    pub(super) fn exit(&mut self, now: &Now<'v>, pc: usize) -> Block {
+    /// An exit before an instruction.
+    pub(super) fn exit(&mut self, cursor: &Cursor<'v>, pc: usize) -> Block {
         let block = self.b.create_block();
         self.b.set_cold_block(block);
         let mut values = vec![];
-        let mut now = now.clone();
-        self.forget_dead(&mut now, pc);
-        for (reg, kind) in &now.kinds {
-            // A register that is only read stays as it is.
+        let mut cursor = cursor.clone();
+        self.forget_dead(&mut cursor, pc);
+        for (reg, kind) in &cursor.kinds {
+            // A register that is only read keeps its content.
             if !matches!(reg, Reg::Outer(_)) && *kind != Kind::Opaque {
                 let parts = match self.typed(*reg, *kind) {
                     Typed::None | Typed::Unset | Typed::Opaque => vec![],
@@ -367,67 +372,74 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
             }
         }
         let exit = Exit {
-            calls: now.calls.clone(),
-            function: now.function,
-            base: now.base,
+            calls: cursor.calls.clone(),
+            function: cursor.function,
+            base: cursor.base,
             pc: pc as u32,
             registers: vec![],
             has_objects: false,
         };
-        self.leaving.push(Leaving { block, exit, values, done: now.done });
+        self.pending_exits.push(PendingExit { block, exit, values, instructions: cursor.instructions });
         block
     }
 
-    /// Leaves before the instruction where a condition holds.
-    pub(super) fn leave_if(&mut self, now: &Now<'v>, pc: usize, condition: Value) {
-        let (exit, on) = (self.exit(now, pc), self.b.create_block());
+    /// Leaves before the instruction if a condition holds.
+    pub(super) fn leave_if(&mut self, cursor: &Cursor<'v>, pc: usize, condition: Value) {
+        let (exit, on) = (self.exit(cursor, pc), self.b.create_block());
         self.b.ins().brif(condition, exit, &[], on, &[]);
         self.b.switch_to_block(on);
     }
 
-    /// A jump: one that goes back is a step.
-    pub(super) fn jump(&mut self, now: &mut Now<'v>, pc: usize, target: usize) {
+    /// Jumps; a jump backwards is a step.
+    pub(super) fn jump(&mut self, cursor: &mut Cursor<'v>, pc: usize, target: usize) {
         if target <= pc {
-            self.take_step(now, pc);
+            self.take_step(cursor, pc);
         }
-        now.done += 1;
-        self.go(now, target);
+        cursor.instructions += 1;
+        self.enter_piece(cursor, target);
     }
 
-    /// Takes a step, or leaves before the instruction where there is none left.
-    pub(super) fn take_step(&mut self, now: &Now<'v>, pc: usize) {
+    /// Takes a step, or leaves before the instruction if no step is left.
+    pub(super) fn take_step(&mut self, cursor: &Cursor<'v>, pc: usize) {
         let left = self.b.use_var(self.steps);
         let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThanOrEqual, left, 0);
-        self.leave_if(now, pc, none);
+        self.leave_if(cursor, pc, none);
         let left = self.b.ins().iadd_imm_s(left, -1);
         self.b.def_var(self.steps, left);
     }
 
-    /// Charges what an instruction makes, or leaves before it: the last that it checks.
-    pub(super) fn charge(&mut self, now: &Now<'v>, pc: usize, bytes: usize) {
+    /// Charges the memory that an instruction needs, or leaves before the instruction. This is the last check
+    /// of an instruction.
+    pub(super) fn charge(&mut self, cursor: &Cursor<'v>, pc: usize, bytes: usize) {
         let left = self.b.use_var(self.bytes);
         let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, left, bytes as i64);
-        self.leave_if(now, pc, none);
+        self.leave_if(cursor, pc, none);
         let left = self.b.ins().iadd_imm_s(left, -(bytes as i64));
         self.b.def_var(self.bytes, left);
     }
 
-    /// A vector or tuple of these numbers, which is charged and in no memory yet.
-    pub(super) fn make(&mut self, now: &mut Now<'v>, pc: usize, made: Made, numbers: &[Number]) -> Typed {
+    /// A vector, tuple or range of these numbers. It is charged, but has no object in memory so far.
+    pub(super) fn make(
+        &mut self,
+        cursor: &mut Cursor<'v>,
+        pc: usize,
+        form: FreshForm,
+        numbers: &[Number],
+    ) -> Typed {
         let numbers_of = || numbers.iter().map(|_| Model::real(0.0)).collect();
-        let like: Model = match made {
-            Made::Vector => Model::vector(&[0.0; 3]),
-            Made::Tuple => Model::tuple(numbers_of()),
-            Made::Range => Model::Range(Arc::new(Range { start: 0, stop: 0, step: 1, len: 0 })),
+        let like: Model = match form {
+            FreshForm::Vector => Model::vector(&[0.0; 3]),
+            FreshForm::Tuple => Model::tuple(numbers_of()),
+            FreshForm::Range => Model::Range(Arc::new(Range { start: 0, stop: 0, step: 1, len: 0 })),
         };
-        self.charge(now, pc, like.own_bytes());
+        self.charge(cursor, pc, like.own_bytes());
         let mut parts = [None; 4];
         parts.iter_mut().zip(numbers).for_each(|(part, number)| *part = Some(*number));
-        now.made += 1;
-        Typed::Fresh { made, parts, number: now.made }
+        cursor.fresh_count += 1;
+        Typed::Fresh { form, parts, number: cursor.fresh_count }
     }
 
-    /// A word that the machine gave.
+    /// Reads a word that the machine stored.
     pub(super) fn word(&mut self, at: usize) -> Value {
         self.b.ins().load(I64, PLAIN, self.exchange, offset(at))
     }
@@ -437,29 +449,29 @@ impl<'p: 'v, 'v, 'b> Writer<'p, 'v, 'b> {
     }
 }
 
-impl Now<'_> {
-    /// Numbers what the code has made from one on, in the order of the registers: so that pieces are alike where only these
-    /// numbers would differ.
-    fn number_again(&mut self) {
-        let mut known: Vec<u16> = vec![];
+impl Cursor<'_> {
+    /// Renumbers the fresh values from one on, in the order of the registers: pieces that would differ only in
+    /// these numbers become equal.
+    fn renumber(&mut self) {
+        let mut numbers: Vec<u16> = vec![];
         for kind in self.kinds.values_mut() {
             if let Kind::Fresh { number, .. } = kind {
-                let at = known.iter().position(|own| own == number).unwrap_or(known.len());
-                if at == known.len() {
-                    known.push(*number);
+                let at = numbers.iter().position(|known| known == number).unwrap_or(numbers.len());
+                if at == numbers.len() {
+                    numbers.push(*number);
                 }
                 *number = at as u16 + 1;
             }
         }
-        self.made = known.len() as u16;
+        self.fresh_count = numbers.len() as u16;
     }
 
-    /// Counts an instruction that the writer of a piece does not count.
+    /// Counts an instruction that the writer of a piece does not count itself.
     pub(super) fn count(&mut self) {
-        self.done += 1;
+        self.instructions += 1;
     }
 
-    /// The whole number that an operand is, where it is a constant.
+    /// The value of an operand that is a constant whole number.
     pub(super) fn constant_int(&self, f: &Function, o: Operand) -> Option<i64> {
         match f.constants.get(o.index()) {
             Some(Model::Int(n)) if o.is_constant() => Some(*n),

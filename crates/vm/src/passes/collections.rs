@@ -1,44 +1,44 @@
-//! Which lists are *collections*: lists that the program only builds, indexes, measures and returns.
+//! Lists that are *collections*: lists that the program only builds, indexes, measures and returns.
 //!
-//! The elements of a collection are cells: references to registers of the activations that created them. When an
-//! element changes, the list does not: calls that were given the list, loops that carry it and callers that it was
-//! returned to see the same value, and only readers of the changed element run again. A list that is used in any other
-//! manner (iterated over, compared, put into another value than a tuple) holds plain values.
+//! The elements of a collection are cells: references to registers of the activations that created them. When
+//! an element changes, the list does not. Calls that received the list, loops that carry it and callers that it
+//! was returned to see the same value, and only readers of the changed element run again. A list with any other
+//! use (iterated over, compared, put into another value than a tuple) holds plain values.
 //!
 //! The analysis joins variables that may hold the same list into classes, over the whole program and without
-//! regard to order; one use of another kind makes the whole class plain. Where activations are dropped, cells are
-//! plain values from the start.
+//! regard to order. One use of another kind makes the whole class plain. Where activations are dropped, cells
+//! are plain values from the start.
 
 use super::effects::Effects;
 use crate::core::{Expr, ExprKind, Function, Module, Name, Stmt, StmtKind};
 use std::collections::HashMap;
 
-/// The name of a function's result among its variables.
+/// The name that stands for a function's result among its variables.
 const RESULT: &str = "";
 
-/// The expressions that create elements of collections or read them, by their addresses in memory, stable while the
-/// module is borrowed.
+/// The expressions that create or read elements of collections. They are identified by their addresses in
+/// memory, which are stable while the module is borrowed.
 #[derive(Default)]
 pub struct Collections {
     class_of: HashMap<*const Expr, usize>,
     classes: Classes,
 }
 
-/// Classes of variables and lists.
+/// The classes of variables and lists.
 #[derive(Default)]
 struct Classes {
     parent: Vec<usize>,
-    /// A list is built here element by element.
+    /// Whether a list of the class is built element by element.
     built: Vec<bool>,
-    /// Used where plain values are needed.
+    /// Whether a use of the class needs plain values.
     plain: Vec<bool>,
-    /// Of tuples: the classes of their parts.
+    /// The classes of the parts of a tuple.
     parts: Vec<Option<Vec<usize>>>,
-    /// Classes that are indexed: the index where it is a literal, and the class of the element.
+    /// Classes that are indexed: the index, if it is a literal, and the class of the element.
     indexed: Vec<(usize, Option<i64>, usize)>,
-    /// Classes that are indexed where no site is possible: for a collection, a use that needs plain values.
+    /// Classes that are indexed at places without sites: for a collection, such a use needs plain values.
     read_plainly: Vec<usize>,
-    /// Classes that are unpacked, into these.
+    /// Classes that are unpacked, and the classes of the variables.
     unpacked: Vec<(usize, Vec<usize>)>,
 }
 
@@ -70,7 +70,7 @@ impl Classes {
                 (Some(p), Some(q)) if p.len() == q.len() => {
                     p.iter().zip(q).for_each(|(p, q)| self.join(*p, q))
                 }
-                // Tuples of two lengths: nothing is known of either.
+                // The tuples have different lengths: nothing is known about either.
                 (Some(p), Some(q)) => {
                     self.plain[a] = true;
                     p.iter().chain(&q).for_each(|part| {
@@ -82,7 +82,7 @@ impl Classes {
         }
     }
 
-    /// Propagates: indexing and unpacking of tuples, and plain uses to the elements of tuples.
+    /// Propagates indexing and unpacking of tuples, and plain uses to the elements of tuples.
     fn settle(&mut self) {
         for (class, names) in std::mem::take(&mut self.unpacked) {
             let class = self.root(class);
@@ -92,7 +92,8 @@ impl Classes {
                 }
                 Some(_) => self.plain[class] = true,
                 None => {
-                    // A collection, or a tuple made elsewhere in another order of reading.
+                    // The value is a collection, or a tuple that is built elsewhere, later in the order of
+                    // reading.
                     self.parts[class] = Some(names);
                 }
             }
@@ -120,7 +121,7 @@ impl Classes {
             for class in 0..self.parent.len() {
                 let root = self.root(class);
                 let Some(parts) = self.parts[root].clone() else { continue };
-                // A list that is also a tuple, a tuple that holds itself, or one whose use is unknown.
+                // The class has a list that is also a tuple, a tuple that holds itself, or an unknown use.
                 self.plain[root] |= self.built[root] || self.holds_itself(root);
                 if self.plain[root] {
                     for part in parts {
@@ -153,7 +154,7 @@ impl Classes {
     }
 }
 
-/// Whether an expression is made of literals and data.
+/// Whether an expression consists of literals and data.
 pub(super) fn is_constant(e: &Expr) -> bool {
     match &e.kind {
         ExprKind::Literal(_) | ExprKind::Data(_) => true,
@@ -172,7 +173,7 @@ struct Analysis<'m> {
     result: Collections,
     /// The current function.
     here: &'m Function,
-    /// Whether a site is possible here: not in a pure function, nor in a loop that is not lifted.
+    /// Whether a site is possible here: not in a pure function, and not in a loop that is not lifted.
     suspends: bool,
 }
 
@@ -227,7 +228,7 @@ impl<'m> Analysis<'m> {
         }
     }
 
-    /// A use that needs plain values.
+    /// Marks the class of an expression for a use that needs plain values.
     fn escapes(&mut self, e: &'m Expr) {
         let class = self.expr(e);
         self.plain(class);
@@ -277,7 +278,7 @@ impl<'m> Analysis<'m> {
         }
     }
 
-    /// Arguments go to parameters, then captures.
+    /// Joins arguments with the parameters and then the captures of a function.
     fn pass(&mut self, function: &'m Name, args: &'m [Expr], captures_only: bool) -> Option<usize> {
         let Some(f) = self.functions.get(function).copied() else {
             args.iter().for_each(|e| self.escapes(e));
@@ -309,7 +310,7 @@ impl<'m> Analysis<'m> {
             Call(f, args) | Future(f, args) => self.pass(f, args, false),
             Closure(f, captures) => {
                 self.pass(f, captures, true);
-                // Its callers, arguments and uses of its result are not known.
+                // The callers, the arguments and the uses of the result are unknown.
                 if let Some(f) = self.functions.get(f).copied() {
                     for x in f.params.iter().map(|x| &**x).chain([RESULT]) {
                         let class = self.variable(&f.name, x);
@@ -327,7 +328,7 @@ impl<'m> Analysis<'m> {
             List(items) => {
                 items.iter().for_each(|item| self.escapes(item));
                 let class = self.result.classes.fresh();
-                // A list of constants alone is no collection.
+                // A list of constants alone is not a collection.
                 if items.iter().all(is_constant) { Some(class) } else { self.built(e, class) }
             }
             Tuple(items) => {
@@ -375,7 +376,7 @@ impl<'m> Analysis<'m> {
                     } else {
                         self.result.class_of.insert(std::ptr::from_ref(e), class);
                     }
-                    // Of a tuple, an element: it is known when the index is a literal.
+                    // The element of a tuple is known if the index is a literal.
                     let part = self.result.classes.fresh();
                     let place = match &at.kind {
                         Literal(crate::core::Literal::Int(k)) => Some(*k),

@@ -1,7 +1,7 @@
-//! Which functions can reach an effect: a fixed point over the call graph.
+//! The functions that can reach an effect: a fixed point over the call graph.
 //!
-//! A function that cannot is *pure*: it gets no node and no site. A call through a value of unknown
-//! origin counts as effectful.
+//! Any other function is *pure*: it gets no node and no site. A call through a value of unknown origin counts
+//! as effectful.
 
 use crate::core::visit::each_stmt;
 use crate::core::{Expr, ExprKind, Module, Name, Stmt};

@@ -1,7 +1,7 @@
 //! The builder of one function: registers, labels, constants and the environment from variables to operands.
 
 use super::liveness::LoopHeads;
-use super::scope::Keeping;
+use super::scope::FunctionScope;
 use super::{CompileError, Unit, literal, place};
 use crate::builtins::make_dist;
 use crate::code::entries::Entries;
@@ -12,13 +12,14 @@ use niwaki_math::Scalar;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// More instructions or operands in one function are refused: the passes take time by their number squared.
+/// The most instructions or operands of a function: the passes take time that grows with the square of the
+/// number.
 const MOST_CODE: usize = 1 << 18;
 
-/// The most of something that one function may have, and what it is.
+/// The most items of a kind that a function may have, and the name of the kind.
 pub(crate) type Limit = (usize, &'static str);
 
-/// Registers of one function.
+/// The limit on registers of a function.
 pub(crate) const VALUES: Limit =
     (Operand::MAX_INDEX + 1, "values (its variables, and the results of its expressions)");
 
@@ -28,21 +29,21 @@ pub(crate) type Result<T> = std::result::Result<T, CompileError>;
 #[derive(Clone, Copy)]
 pub(crate) struct Binding {
     pub at: Operand,
-    /// Some path leaves it unassigned.
+    /// Whether some path leaves the variable unassigned.
     pub maybe_unset: bool,
-    /// When it was assigned last, in program order.
+    /// The number of its last assignment, in program order.
     pub moment: u32,
 }
 
 pub(crate) type Environment = HashMap<Name, Binding>;
 
-/// A place in the code, known later.
+/// A place in the code that becomes known later.
 #[derive(Clone, Copy)]
 pub(crate) struct Label(usize);
 
-/// What `break` and `continue` mean here.
+/// The meaning of `break` and `continue` at a place.
 pub(crate) enum LoopContext {
-    /// A plain loop: registers of the loop variables, and the jump targets.
+    /// A plain loop: the registers of the loop's variables, and the jump targets.
     Plain { variables: Vec<(Name, Operand)>, next: Label, end: Label },
     /// The body of a lifted loop: the iteration returns.
     Lifted,
@@ -51,7 +52,7 @@ pub(crate) enum LoopContext {
 pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub unit: &'u mut Unit<'m, S>,
     pub heads: &'u LoopHeads,
-    pub keeping: &'u Keeping,
+    pub scope_of_choices: &'u FunctionScope,
     pub name: Name,
     pub file: u32,
     pub mode: Mode,
@@ -70,20 +71,20 @@ pub(crate) struct Builder<'u, 'm, S: Scalar> {
     pub registers: usize,
     pub env: Environment,
     pub loops: Vec<LoopContext>,
-    /// In an iteration: the carried variables, in order.
+    /// The carried variables of an iteration, in order.
     pub carried: Vec<Name>,
     /// The moment of the last assignment.
     pub moment: u32,
     /// The variable that the current statement assigns.
     pub target: Option<Name>,
-    /// A count does not fit into its place in an instruction.
+    /// The first limit that the function exceeds.
     pub too_large: Option<Limit>,
 }
 
 impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     pub fn new(
         unit: &'u mut Unit<'m, S>,
-        (heads, keeping): (&'u LoopHeads, &'u Keeping),
+        (heads, scope_of_choices): (&'u LoopHeads, &'u FunctionScope),
         name: Name,
         file: u32,
         mode: Mode,
@@ -91,7 +92,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         Builder {
             unit,
             heads,
-            keeping,
+            scope_of_choices,
             name,
             file,
             mode,
@@ -119,12 +120,12 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
 
     /// Lowers one function of the module.
     pub fn function(unit: &mut Unit<'m, S>, f: &'m core::Function, mode: Mode) -> Result<Function<S>> {
-        let (heads, keeping) = (LoopHeads::of(&f.body), Keeping::of(f, unit.kept));
-        let mut b = Builder::new(unit, (&heads, &keeping), f.name.clone(), f.file, mode);
+        let (heads, scope_of_choices) = (LoopHeads::of(&f.body), FunctionScope::of(f, unit.scope));
+        let mut b = Builder::new(unit, (&heads, &scope_of_choices), f.name.clone(), f.file, mode);
         b.span = f.span;
         let inputs: Vec<(&Name, Operand)> =
             f.params.iter().chain(&f.captures).map(|x| Ok((x, b.register()?))).collect::<Result<_>>()?;
-        // What is captured was assigned before the call, or never.
+        // Captured variables were assigned before the call, or never.
         let (params, captures) = inputs.split_at(f.params.len());
         let id = b.function_id(&f.name)?;
         for (i, (x, at)) in captures.iter().enumerate() {
@@ -160,7 +161,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         }
     }
 
-    /// The value of an expression that is made of constants and of functions without captures.
+    /// The value of an expression that consists of constants and of functions without captures.
     fn fixed(&self, e: &core::Expr) -> Result<Value<S>> {
         use ExprKind::*;
         let all = |items: &[core::Expr]| items.iter().map(|e| self.fixed(e)).collect::<Result<Vec<_>>>();
@@ -190,7 +191,12 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
                 let pairs = all(keys)?.into_iter().zip(all(values)?).collect();
                 Value::Dict(Arc::new(value::Dict::new(pairs)))
             }
-            _ => return Err(CompileError(format!("a default of `{}` is not made of constants", self.name))),
+            _ => {
+                return Err(CompileError(format!(
+                    "a default of `{}` does not consist of constants",
+                    self.name
+                )));
+            }
         })
     }
 
@@ -210,7 +216,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
             | Op::Next { target, .. } = op
             {
                 let at = self.labels[*target as usize];
-                *target = at.ok_or_else(|| CompileError("a jump to nowhere".into()))? as u32;
+                *target = at.ok_or_else(|| CompileError("a jump without a target".into()))? as u32;
             }
         }
         self.limit(self.code.len() > MOST_CODE, (MOST_CODE, "instructions"));
@@ -260,23 +266,23 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         self.spans.push(self.span);
     }
 
-    /// Gives a variable a value.
+    /// Assigns a value to a variable.
     pub fn assign(&mut self, x: &Name, at: Operand) {
         self.assign_maybe(x, at, false);
     }
 
-    /// Gives a variable a value that some paths may not have assigned.
+    /// Assigns a value to a variable that some paths may leave unassigned.
     pub fn assign_maybe(&mut self, x: &Name, at: Operand, maybe_unset: bool) {
         self.moment += 1;
         self.env.insert(x.clone(), Binding { at, maybe_unset, moment: self.moment });
     }
 
-    /// Whether every path has given a variable a value.
+    /// Whether every path has assigned a value to a variable.
     pub fn is_set(&self, x: &Name) -> bool {
         self.env.get(x).is_some_and(|binding| !binding.maybe_unset)
     }
 
-    /// A fresh register, virtual until [`place`] decides.
+    /// A new register; it is virtual until [`place`] decides.
     pub fn register(&mut self) -> Result<Operand> {
         if self.registers > Operand::MAX_INDEX {
             return Err(self.is_too_large(VALUES));
@@ -285,38 +291,39 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         Ok(Operand::new(Place::Node, self.registers - 1))
     }
 
-    pub fn is_too_large(&self, (most, what): Limit) -> CompileError {
+    pub fn is_too_large(&self, (most, kind): Limit) -> CompileError {
         let name = self.name.split('/').next().unwrap_or_default();
-        CompileError(format!("`{name}` is too large: it has more than {most} {what}"))
+        CompileError(format!("`{name}` is too large: it has more than {most} {kind}"))
     }
 
-    /// Notes a limit that the function is above; of several, the first is told.
+    /// Records a limit that the function exceeds; the first one is reported.
     fn limit(&mut self, is_above: bool, limit: Limit) {
         if is_above {
             self.too_large.get_or_insert(limit);
         }
     }
 
-    /// A number as it is in an instruction, of which the function has that many.
-    pub fn sixteen(&self, number: usize, what: &'static str) -> Result<u16> {
-        u16::try_from(number).map_err(|_| self.is_too_large((usize::from(u16::MAX), what)))
+    /// A count of the function as a number of 16 bits, which fits into an instruction.
+    pub fn sixteen(&self, number: usize, kind: &'static str) -> Result<u16> {
+        u16::try_from(number).map_err(|_| self.is_too_large((usize::from(u16::MAX), kind)))
     }
 
-    /// From here on, the sites with numbers `from..to` are not on the path.
+    /// Marks that from here on the sites numbered `from..to` are not on the path.
     pub fn clear(&mut self, from: usize, to: usize) {
         if from < to {
             self.op(Op::Clear { from: from as u16, to: to as u16 });
         }
     }
 
-    /// As [`clear`](Self::clear), before the instruction at `at`.
+    /// Inserts a [`clear`](Self::clear) before the instruction at `at`.
     pub fn clear_at(&mut self, at: usize, from: usize, to: usize) {
         if from < to {
             self.insert(at, vec![Op::Clear { from: from as u16, to: to as u16 }]);
         }
     }
 
-    /// The run leaves the function here: no later site of it is on the path. Their number is known at the end.
+    /// Marks that the run leaves the function here: no later site of the function is on the path. The number of
+    /// sites is known at the end.
     pub fn clear_rest(&mut self) {
         self.clear(self.sites.len(), u16::MAX as usize);
     }
@@ -348,7 +355,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         to.0 as u32
     }
 
-    /// Inserts instructions before the one at `at`; labels after it move along, a label on it stays.
+    /// Inserts instructions before the instruction at `at`. Labels after it move along; a label on it stays.
     pub fn insert(&mut self, at: usize, ops: Vec<Op>) {
         let (n, span) = (ops.len(), self.span);
         self.code.splice(at..at, ops);
@@ -376,11 +383,11 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
     }
 
     pub fn literal(&mut self, l: &Literal) -> Operand {
-        let same = |a: &Literal, b: &Literal| match (a, b) {
+        let identical = |a: &Literal, b: &Literal| match (a, b) {
             (Literal::Real(x), Literal::Real(y)) => x.to_bits() == y.to_bits(),
             _ => a == b,
         };
-        if let Some((_, at)) = self.literals.iter().find(|(k, _)| same(k, l)) {
+        if let Some((_, at)) = self.literals.iter().find(|(k, _)| identical(k, l)) {
             return *at;
         }
         let at = self.constant(literal(l));
@@ -409,7 +416,7 @@ impl<'u, 'm, S: Scalar> Builder<'u, 'm, S> {
         &self.unit.module.functions[id.0 as usize]
     }
 
-    /// Whether a call of that function is a suspension site.
+    /// Whether a call of the function is a suspension site.
     pub fn is_effectful(&self, name: &Name) -> bool {
         self.unit.effects.function(name)
     }

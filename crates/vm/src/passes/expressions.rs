@@ -1,4 +1,4 @@
-//! Lowering expressions: each returns the operand that holds its value.
+//! Lowering of expressions: each returns the operand that holds its value.
 
 use super::CompileError;
 use super::emit::{Builder, Result};
@@ -9,7 +9,7 @@ use crate::value::Value;
 use niwaki_math::Scalar;
 use std::sync::Arc;
 
-/// The operations with an instruction of their own.
+/// The operations that have an instruction of their own.
 fn binary(name: &str) -> Option<Binary> {
     Some(match name {
         "add" => Binary::Add,
@@ -72,11 +72,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// Expressions that compute a value from their arguments, in order.
+    /// Lowers expressions that compute a value from their arguments, in order.
     fn construct(&mut self, e: &Expr) -> Result<Operand> {
         use ExprKind::*;
         let mut operands = match &e.kind {
-            Closure(name, captures) => self.captured(self.function_id(name)?, captures)?,
+            Closure(name, captures) => self.capture_operands(self.function_id(name)?, captures)?,
             _ => e.parts().into_iter().map(|p| self.expr(p)).collect::<Result<Vec<_>>>()?,
         };
         if let Method(_, name, _) = &e.kind {
@@ -116,7 +116,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// The value of an aggregate or distribution made of constants: values never change, so one serves every use.
+    /// The value of an aggregate or distribution of constants: values never change, so one value serves every
+    /// use.
     pub fn folded(&self, e: &Expr, operands: &[Operand]) -> Option<Value<S>> {
         use ExprKind::*;
         if operands.iter().any(|o| o.place() != Place::Constant) {
@@ -130,7 +131,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let rest = values.split_off(keys.len());
                 Value::Dict(Arc::new(crate::value::Dict::new(values.into_iter().zip(rest).collect())))
             }
-            // Bad parameters are left for the run, which knows the call stack.
+            // Bad parameters are left to the run, which knows the call stack.
             Dist(name, _) => {
                 Value::Dist(Arc::new(make_dist(super::sites::family(name).ok()?, &values).ok()?))
             }
@@ -140,7 +141,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
 
     fn variable(&mut self, x: &Name) -> Result<Operand> {
         let Some(binding) = self.env.get(x).copied() else {
-            // Certainly unassigned: the check always fails, with the variable's name.
+            // The variable is certainly unassigned: the check always fails, and its fault has the variable's
+            // name.
             let unset = self.unset();
             let name = self.name(x);
             self.op(Op::CheckSet { a: unset, name });
@@ -156,7 +158,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
 
     fn operation(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {
         let operands = self.exprs(items)?;
-        if let Some(value) = self.computed(name, &operands) {
+        if let Some(value) = self.constant_result(name, &operands) {
             return Ok(self.constant(value));
         }
         let to = self.register()?;
@@ -181,15 +183,16 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// The value of a built-in function of constants that takes little time; one that fails is left for the run, which knows the call stack.
-    fn computed(&self, name: &str, operands: &[Operand]) -> Option<Value<S>> {
+    /// The value of a built-in function of constants, if it takes little time. A call that fails is left to the
+    /// run, which knows the call stack.
+    fn constant_result(&self, name: &str, operands: &[Operand]) -> Option<Value<S>> {
         if binary(name).is_some() || operands.iter().any(|o| o.place() != Place::Constant) {
             return None;
         }
         let values: Vec<Value<S>> = operands.iter().map(|o| self.constants[o.index()].clone()).collect();
-        // The run has bounds of time and memory, the compiler has none.
+        // The run has bounds of time and memory, but the compiler has none.
         let is_long = |value: &Value<S>| matches!(value, Value::Range(range) if range.len > 1000);
-        // What varies with a recording is computed by its run.
+        // Results that vary with a recording are computed by the run.
         if matches!(name, "method" | "format" | "fstr") || values.iter().any(|v| is_long(v) || v.varies()) {
             return None;
         }
@@ -197,7 +200,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
     }
 
     fn pure_call(&mut self, name: &Name, items: &[Expr]) -> Result<Operand> {
-        let (id, operands) = self.called(name, items)?;
+        let (id, operands) = self.direct_call(name, items)?;
         let args = self.args(&operands);
         let to = self.register()?;
         let function = self.sixteen(id.0 as usize, "functions of the model before it")?;
@@ -205,8 +208,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// A direct call: the function, its parameters and then its captures.
-    pub fn called(&mut self, name: &Name, items: &[Expr]) -> Result<(FunctionId, Vec<Operand>)> {
+    /// A direct call: the operands are the function's arguments and then its captures.
+    pub fn direct_call(&mut self, name: &Name, items: &[Expr]) -> Result<(FunctionId, Vec<Operand>)> {
         let id = self.function_id(name)?;
         let f = self.definition(id);
         let (params, needed) = (f.params.len(), f.params.len() + f.captures.len());
@@ -217,21 +220,22 @@ impl<S: Scalar> Builder<'_, '_, S> {
             )));
         }
         let mut operands = self.exprs(&items[..params])?;
-        operands.extend(self.captured(id, &items[params..])?);
+        operands.extend(self.capture_operands(id, &items[params..])?);
         Ok((id, operands))
     }
 
-    /// What a function captures, here. A variable without a value is passed on: the function may not read it. One that
-    /// holds a default of the function says that its definition did not run.
-    fn captured(&mut self, id: FunctionId, items: &[Expr]) -> Result<Vec<Operand>> {
+    /// The operands of a function's captures at this place. A variable without a value is passed on: the
+    /// function may not read it. A capture that holds a default is checked here, because without a value the
+    /// function's definition did not run.
+    fn capture_operands(&mut self, id: FunctionId, items: &[Expr]) -> Result<Vec<Operand>> {
         let f = self.definition(id);
         if f.captures.len() != items.len() {
             return Err(CompileError(format!("a closure of `{}` with the wrong number of captures", f.name)));
         }
         let mut operands = Vec::with_capacity(items.len());
-        for (i, (own, item)) in f.captures.iter().zip(items).enumerate() {
+        for (i, (capture, item)) in f.captures.iter().zip(items).enumerate() {
             operands.push(match &item.kind {
-                ExprKind::Var(x) if !f.is_default(own) && !self.is_set(x) => {
+                ExprKind::Var(x) if !f.is_default(capture) && !self.is_set(x) => {
                     self.unit.unassigned.insert((id, i));
                     self.current(x)
                 }
@@ -241,12 +245,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(operands)
     }
 
-    /// `and`, `or`: the value that decides, else the last.
+    /// Lowers `and` and `or`: the value that decides, else the last.
     fn shortcut(&mut self, items: &[Expr], is_and: bool) -> Result<Operand> {
         let end = self.label();
         let to = self.register()?;
         let mut merges = Vec::new();
-        // Where each operand that decides jumps to, and how many sites there were then.
+        // The jump of each operand that decides, and the number of sites before the jump.
         let mut deciding = Vec::new();
         for (i, item) in items.iter().enumerate() {
             let a = self.expr(item)?;
@@ -258,11 +262,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 let decided = self.label();
                 deciding.push((decided, self.sites.len()));
                 let target = Self::jump_target(decided);
-                // Not `to`, which a later operand may overwrite.
+                // The jump tests `a` and not `to`, which a later operand may overwrite.
                 self.op(if is_and { Op::JumpUnless { a, target } } else { Op::JumpIf { a, target } });
             }
         }
-        // Checks that ran in a later operand do not hold when an earlier one decided.
+        // Checks in a later operand do not hold if an earlier operand decided.
         if let Some(first) = merges.pop() {
             self.env = first;
         }
@@ -302,7 +306,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// Jumps to `other` unless the condition holds; a comparison is fused with its jump.
+    /// Jumps to `other` unless the condition holds; a comparison and its jump become one instruction.
     pub fn branch_unless(&mut self, c: &Expr, other: super::emit::Label) -> Result<()> {
         let target = Self::jump_target(other);
         if let ExprKind::Op(name, args) = &c.kind

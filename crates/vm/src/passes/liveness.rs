@@ -1,15 +1,16 @@
-//! Which variables are still needed at the head of each loop, on core form.
+//! The variables that are needed at the head of each loop, on core form.
 //!
-//! A lifted loop passes from one iteration to the next just what is assigned in its body *and* live at its
-//! head. Everything else stays inside an iteration, so that an iteration's result changes only when something
-//! that matters changes (re-running depends on that).
+//! A lifted loop passes only the variables to the next iteration that are assigned in its body *and* live at
+//! its head. Everything else stays inside of an iteration. So an iteration's result changes only when something
+//! that matters changes; re-running depends on that.
 
 use crate::core::visit::Names;
 use crate::core::{Stmt, StmtKind};
 use std::collections::HashMap;
 
-/// For each loop statement (by its address in memory, stable while the module is borrowed): what is live at
-/// its head, that is before its test or before its next element is taken.
+/// For each loop statement, the variables that are live at its head: before its test, or before it takes its
+/// next element. Statements are identified by their addresses in memory, which are stable while the module is
+/// borrowed.
 #[derive(Default)]
 pub struct LoopHeads(HashMap<*const Stmt, Names>);
 
@@ -21,12 +22,13 @@ impl LoopHeads {
         heads
     }
 
-    /// What is live at the head of that loop.
+    /// The variables that are live at the head of a loop.
     pub fn at(&self, stmt: &Stmt) -> &Names {
         &self.0[&std::ptr::from_ref(stmt)]
     }
 
-    /// What is live before the block, from what is live after it, after a break and after a continue.
+    /// The variables that are live before the block, from those that are live after it, after a `break` and
+    /// after a `continue`.
     fn block(&mut self, block: &[Stmt], after: Names, on_break: &Names, on_continue: &Names) -> Names {
         let mut live = after;
         for s in block.iter().rev() {
@@ -54,8 +56,8 @@ impl LoopHeads {
     }
 
     fn loop_head(&mut self, s: &Stmt, body: &[Stmt], after: Names) -> Names {
-        // What is live only grows from one visit to the next. Without what the last visit found, a loop in a loop in a
-        // loop would take time by two to the power of their number.
+        // The live variables only grow from one visit to the next. Without the result of the last visit, the
+        // time for nested loops would double with each level.
         let mut head = after.clone();
         head.extend(self.0.get(&std::ptr::from_ref(s)).into_iter().flatten().cloned());
         if let StmtKind::While(test, _) = &s.kind {

@@ -1,13 +1,14 @@
 //! Core form to bytecode, in seven steps:
 //!
-//! 1. [`effects`]: which functions can suspend (the others are pure);
-//! 2. [`collections`]: which lists hold references to their elements;
-//! 3. [`liveness`]: what a loop must pass from one iteration to the next;
-//! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function; static single assignment with
-//!    merges written by each arm; loops that can suspend are *lifted* into functions of their own;
-//! 5. `place`: which registers are in the node and which are scratch, by liveness on bytecode;
-//! 6. `slices`: what one changed value can reach;
-//! 7. `angles`: which values are angles, for those who read them at choices.
+//! 1. [`effects`]: the functions that can suspend (the others are pure);
+//! 2. [`collections`]: the lists that hold references to their elements;
+//! 3. [`liveness`]: the variables that a loop must pass from one iteration to the next;
+//! 4. `emit`, `expressions`, `sites`, `statements`: one pass over each function. It uses static single
+//! assignment, with merges written by each arm; loops that can suspend are *lifted* into functions of their
+//! own;
+//! 5. `place`: the registers that are in the node, and the scratch registers, by liveness on bytecode;
+//! 6. `slices`: the instructions that one changed value can reach;
+//! 7. `angles`: the values that are angles, for readers at choices.
 
 mod angles;
 pub mod collections;
@@ -36,7 +37,7 @@ use std::any::TypeId;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-pub use scope::Kept;
+pub use scope::Scope;
 
 /// A model that cannot be compiled: a defect of the text or a limit of the machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,18 +57,19 @@ impl From<Fault> for CompileError {
     }
 }
 
-/// Shared by all functions of a module while they are lowered.
+/// The data that all functions of a module share while they are lowered.
 pub(crate) struct Unit<'m, S: Scalar> {
     pub module: &'m Module,
     pub effects: Effects,
     pub collections: Collections,
     pub ids: HashMap<Name, FunctionId>,
     pub data: Vec<Value<S>>,
-    /// The variables to keep for choices.
-    pub kept: Kept<'m>,
-    /// Captures that may have no value where the function is called or made into a value: the function, and which one.
+    /// The variables that choices can read.
+    pub scope: Scope<'m>,
+    /// Captures that may have no value where the function is called or turned into a value: the function, and
+    /// the number of the capture.
     pub unassigned: HashSet<(FunctionId, usize)>,
-    /// Functions so far; the module's own come first, lifted loops after them.
+    /// The functions so far: first the functions of the module, then lifted loops.
     pub functions: Vec<Option<Function<S>>>,
 }
 
@@ -77,28 +79,28 @@ pub(crate) struct Unit<'m, S: Scalar> {
 /// Names that are not defined, wrong numbers of arguments to known functions, or a function too large for the
 /// machine (more than 16,384 registers).
 pub fn compile<S: Scalar>(module: &Module, data: Vec<Value<S>>) -> Result<Program<S>, CompileError> {
-    compile_keeping(module, data, Kept::Names(&[]))
+    compile_with_scope(module, data, Scope::Names(&[]))
 }
 
-/// [`compile`], so that these variables can be read at every choice where every path has assigned them
-/// ([`At::visible`](crate::machine::answers::At::visible)). What the program does is the same: addresses, and so random
-/// streams, do not depend on it.
+/// Compiles a module so that the variables in `scope` can be read at every choice if every path has assigned
+/// them ([`At::visible`](crate::machine::answers::At::visible)). The behaviour of the program is the same:
+/// addresses, and so random streams, do not depend on the scope.
 ///
 /// # Errors
 /// As for [`compile`].
-pub fn compile_keeping<S: Scalar>(
+pub fn compile_with_scope<S: Scalar>(
     module: &Module,
     data: Vec<Value<S>>,
-    kept: Kept<'_>,
+    scope: Scope<'_>,
 ) -> Result<Program<S>, CompileError> {
-    with_stack(|| compile_here(module, data, kept))
+    with_stack(|| compile_here(module, data, scope))
         .unwrap_or_else(|error| Err(CompileError(format!("no thread for the compiler: {error}"))))
 }
 
 fn compile_here<S: Scalar>(
     module: &Module,
     data: Vec<Value<S>>,
-    kept: Kept<'_>,
+    scope: Scope<'_>,
 ) -> Result<Program<S>, CompileError> {
     check_records(module)?;
     let effects = Effects::of(module);
@@ -109,11 +111,11 @@ fn compile_here<S: Scalar>(
         collections,
         ids: HashMap::new(),
         data,
-        kept,
+        scope,
         unassigned: HashSet::new(),
         functions: vec![],
     };
-    // The table has no gaps that nothing can fill.
+    // The table of constants has no gaps.
     let most = unit.data.len() + module.constants.len();
     for (k, literal) in &module.constants {
         let value = constant(literal)?;
@@ -130,7 +132,8 @@ fn compile_here<S: Scalar>(
             return Err(CompileError(format!("the function `{}` is defined twice", f.name)));
         }
     }
-    // Again while a call is found that leaves a capture unassigned, which the function must then check.
+    // Compilation is repeated while it finds calls that leave a capture unassigned: the called function must
+    // check the capture.
     let mut known = None;
     while known != Some(unit.unassigned.len()) {
         known = Some(unit.unassigned.len());
@@ -149,7 +152,7 @@ fn compile_here<S: Scalar>(
         classes: module.classes.iter().cloned().map(Arc::new).collect(),
         functions: unit.functions.into_iter().flatten().collect(),
         entry,
-        others: Vec::new(),
+        constants_of_copies: Vec::new(),
     };
     angles::mark(&mut program);
     verify(&program).map_err(|e| CompileError(e.to_string()))?;
@@ -159,7 +162,7 @@ fn compile_here<S: Scalar>(
     Ok(program)
 }
 
-/// Lowers every function of the module.
+/// Lowers all functions of the module.
 fn lower_all<S: Scalar>(unit: &mut Unit<'_, S>) -> Result<(), CompileError> {
     let module = unit.module;
     unit.functions.clear();
@@ -172,14 +175,14 @@ fn lower_all<S: Scalar>(unit: &mut Unit<'_, S>) -> Result<(), CompileError> {
     Ok(())
 }
 
-/// Every record is of a known class and has all of its fields.
+/// Checks that every record has a known class and values for all fields.
 fn check_records(module: &Module) -> Result<(), CompileError> {
     let mut wrong = None;
     let mut look = |e: &Expr| {
         e.each(&mut |e| {
             if let ExprKind::Record(class, fields) = &e.kind {
-                let found = module.classes.get(*class).map(|known| known.fields.len());
-                if found != Some(fields.len()) {
+                let count = module.classes.get(*class).map(|known| known.fields.len());
+                if count != Some(fields.len()) {
                     wrong = Some((*class, fields.len()));
                 }
             }
@@ -205,7 +208,7 @@ pub(crate) fn literal<S: Scalar>(l: &Literal) -> Value<S> {
     }
 }
 
-/// The value of a constant written in the text: literals, lists, tuples and distributions of them.
+/// The value of a constant in the text: a literal, or a list, tuple or distribution of literals.
 fn constant<S: Scalar>(e: &Expr) -> Result<Value<S>, CompileError> {
     let all = |items: &[Expr]| items.iter().map(constant).collect::<Result<Vec<_>, _>>();
     Ok(match &e.kind {
@@ -215,7 +218,7 @@ fn constant<S: Scalar>(e: &Expr) -> Result<Value<S>, CompileError> {
         ExprKind::Dist(name, args) => {
             Value::Dist(Arc::new(crate::builtins::make_dist(sites::family(name)?, &all(args)?)?))
         }
-        _ => return Err(CompileError("a constant must be made of literals".into())),
+        _ => return Err(CompileError("a constant must consist of literals".into())),
     })
 }
 
@@ -237,18 +240,18 @@ mod tests {
     }
 
     #[test]
-    fn a_number_of_a_constant_takes_no_memory() {
+    fn a_large_constant_number_takes_no_memory() {
         let text = "(module (const 99999999999 0) (fn \"m\" (params) (return 1)) (entry \"m\"))";
         assert!(parse(text).unwrap_err().message.contains("there are at most 65536"));
         let text = "(module (const 9 0) (fn \"m\" (params) (return 1)) (entry \"m\"))";
         assert_eq!(error(text), "constant 9 of 1: they are numbered from 0");
         assert_eq!(error(&entry("(data 99999999999)")), "constant 99999999999 is missing");
-        // With 16 bits it is the number 1.
+        // The number 65537 has more than 16 bits; cut to 16 bits it would be 1.
         assert!(error(&entry("(host 65537 1)")).contains("is too large"));
     }
 
     #[test]
-    fn what_an_instruction_cannot_number_is_too_large() {
+    fn functions_beyond_the_limits_of_instructions_are_too_large() {
         let numbers: Vec<String> = (0..=Operand::MAX_INDEX + 1).map(|i| format!("{i}.5")).collect();
         let fits = entry(&format!("(index (list {}) 0)", numbers[..4000].join(" ")));
         assert!(compile::<f64>(&parse(&fits).expect("core form"), vec![]).is_ok());

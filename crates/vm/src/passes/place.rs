@@ -1,15 +1,15 @@
-//! Where each register is stored, by liveness on bytecode.
+//! The place of each register, chosen by liveness on bytecode.
 //!
-//! Only what is needed after a suspension site is in the node, with the results of sites and the arguments that
-//! are read again ([`SiteKind::is_read_again`]). Everything else is scratch.
-//! Instructions without effect are dropped, and futures whose handle is never read are marked.
+//! A node contains the values that are needed after a suspension site, the results of sites, and the arguments
+//! that are read again ([`SiteKind::is_read_again`]). All other values are scratch. The pass also drops
+//! instructions without effect, and marks futures whose handle is never read.
 
 use crate::builtins::builtin_id;
 use crate::code::flow::{Bits, after, live_before, reads_and_writes};
 use crate::code::{Function, Mode, Op, Operand, Place, SiteKind};
 use niwaki_math::Scalar;
 
-/// What is live after each instruction, of virtual registers.
+/// The virtual registers that are live after each instruction.
 fn live_after<S: Scalar>(f: &Function<S>, registers: usize) -> Vec<Bits> {
     let before = live_before(f, Place::Node, registers);
     (0..f.code.len()).map(|at| after(f, &before, at)).collect()
@@ -33,7 +33,7 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
             if s.kind.is_read_again() {
                 f.operands[s.args.range()].iter().for_each(|o| node.set(*o));
             }
-            // What a loop iterates over is kept: it need not be computed again to see that it is the same.
+            // The sequence of a loop is kept, so that its identity can be tested without computing it again.
             if let SiteKind::Loop(l) = &s.kind {
                 l.over.into_iter().for_each(|over| node.set(over));
             }
@@ -69,9 +69,10 @@ pub(crate) fn place<S: Scalar>(f: &mut Function<S>, registers: usize) {
     rewrite(f, |o| if o.place() == Place::Node { map[o.index()] } else { o });
 }
 
-/// Whether an activation that continues at an instruction returns at once, with that register or with a constant.
+/// Whether an activation that continues at an instruction returns at once, with the register `result` or with a
+/// constant.
 fn returns(code: &[Op], mut at: usize, result: Operand) -> bool {
-    // Jumps do not go round in circles without a loop's test between them, but that is not known here.
+    // Jumps do not form circles without a loop's test, but this function does not know that.
     for _ in 0..code.len() {
         match code.get(at) {
             Some(Op::Jump { target }) => at = *target as usize,
@@ -82,9 +83,9 @@ fn returns(code: &[Op], mut at: usize, result: Operand) -> bool {
     false
 }
 
-/// Removes moves into registers that are never read, and clearing of no sites; of a `look` that is never read its faults
-/// remain. A jump to the next instruction costs a
-/// step of the interpreter, so they are removed and the jumps adjusted.
+/// Removes moves into registers that are never read, and instructions that clear no sites. A `look` whose
+/// result is never read keeps only its checks. A jump to the next instruction would cost a step of the
+/// interpreter, so jumps are adjusted.
 fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
     let (look, check) = (builtin_id("look"), builtin_id("check_look"));
     loop {
@@ -134,7 +135,7 @@ fn drop_dead<S: Scalar>(f: &mut Function<S>, registers: usize) {
 pub(crate) fn rewrite<S: Scalar>(f: &mut Function<S>, map: impl Fn(Operand) -> Operand) {
     f.operands.iter_mut().for_each(|o| *o = map(*o));
     for o in &mut f.defaults {
-        // Defaults name captured inputs, whose numbers are the same in either place.
+        // Defaults refer to captured inputs, which have the same numbers in both places.
         *o = map(*o);
     }
     f.scope.iter_mut().for_each(|x| x.at = map(x.at));

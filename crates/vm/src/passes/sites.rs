@@ -1,8 +1,8 @@
-//! Lowering the expressions that suspend: each becomes one site of the function.
+//! Lowering of expressions that suspend: each becomes one site of the function.
 //!
-//! A site's *key* is a hash of the function's qualified name, what is called, the name assigned to and the
-//! occurrence among equals. Addresses, and so random streams, are made of keys: editing a comment or moving a
-//! line changes no random number.
+//! A site's *key* is a hash of the function's qualified name, the called function or family, the assigned name,
+//! and the occurrence among equals. Addresses, and so random streams, are built from keys. So an edited comment
+//! or a moved line changes no random number.
 
 use super::CompileError;
 use super::emit::{Binding, Builder, Result};
@@ -34,7 +34,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let fixed = |s: &str| Name::from(s);
         Ok(Some(match &e.kind {
             Call(f, args) if self.is_effectful(f) => {
-                let (function, operands) = self.called(f, args)?;
+                let (function, operands) = self.direct_call(f, args)?;
                 self.add_site(SiteKind::Call { function }, f, (&e.label, short(f).into()), &operands)?
             }
             Apply(f, args) => {
@@ -44,7 +44,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 self.add_site(SiteKind::Apply, &fixed("apply"), (&e.label, label), &operands)?
             }
             Future(f, args) => {
-                let (function, operands) = self.called(f, args)?;
+                let (function, operands) = self.direct_call(f, args)?;
                 let label = (&e.label, short(f).into());
                 self.add_site(SiteKind::Future { function, detached: false }, f, label, &operands)?
             }
@@ -60,19 +60,19 @@ impl<S: Scalar> Builder<'_, '_, S> {
                 )?
             }
             Sample(d) => {
-                let (kind, what, operands) = self.distribution(d, true)?;
-                let label = choice_label(&what);
-                self.add_site(kind, &what, (&e.label, label), &operands)?
+                let (kind, callee_name, operands) = self.distribution(d, true)?;
+                let label = choice_label(&callee_name);
+                self.add_site(kind, &callee_name, (&e.label, label), &operands)?
             }
             Observe(d, v) => {
-                let (kind, what, mut operands) = self.distribution(d, false)?;
+                let (kind, callee_name, mut operands) = self.distribution(d, false)?;
                 operands.push(self.expr(v)?);
-                let what = Name::from(format!("observe {what}"));
-                let observed = self.add_site(kind, &what, (&e.label, fixed("observe")), &operands)?;
+                let callee_name = Name::from(format!("observe {callee_name}"));
+                let score = self.add_site(kind, &callee_name, (&e.label, fixed("observe")), &operands)?;
                 if let Some(site) = self.sites.last_mut() {
                     site.subject = address::site_key(&print::expression(v), 0);
                 }
-                observed
+                score
             }
             Factor(x) => self.simple(SiteKind::Factor, "factor", &e.label, &[x])?,
             Condition(x) => self.simple(SiteKind::Condition, "condition", &e.label, &[x])?,
@@ -99,12 +99,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
     fn simple(
         &mut self,
         kind: SiteKind,
-        what: &str,
-        given: &Option<Name>,
+        callee_name: &str,
+        label: &Option<Name>,
         items: &[&Expr],
     ) -> Result<Operand> {
         let operands = items.iter().map(|e| self.expr(e)).collect::<Result<Vec<_>>>()?;
-        self.add_site(kind, &Name::from(what), (given, Name::from(what)), &operands)
+        self.add_site(kind, &Name::from(callee_name), (label, Name::from(callee_name)), &operands)
     }
 
     /// The name of a function value in an address: the variable that holds it, or the function itself.
@@ -117,7 +117,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// The site kind of a choice or observation, fused with its distribution where possible.
+    /// The site kind of a choice or an observation, together with its distribution if possible.
     fn distribution(&mut self, d: &Expr, sample: bool) -> Result<(SiteKind, Name, Vec<Operand>)> {
         let kind = if sample { SiteKind::Sample } else { SiteKind::Observe };
         match &d.kind {
@@ -178,7 +178,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// A collection made longer by one element.
+    /// Lowers an append to a collection.
     fn append(&mut self, list: Operand, item: &Expr) -> Result<Operand> {
         let value = self.expr(item)?;
         let (name, content) = (Name::from("[cell]"), self.register()?);
@@ -195,28 +195,29 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.add_site(SiteKind::Cell { content }, &name, (&None, name.clone()), &[value])
     }
 
-    /// Adds a site; its result has a register of its own. `label` is the one given in the text, and the one
-    /// made from names.
+    /// Adds a site, whose result has a register of its own. `label` is the label in the text, and the label
+    /// from names for sites without one.
     pub fn add_site(
         &mut self,
         kind: SiteKind,
-        what: &Name,
+        callee_name: &Name,
         label: (&Option<Name>, Name),
         operands: &[Operand],
     ) -> Result<Operand> {
-        // Not the number of a second variable of the name: it depends on the text around the function.
+        // The number of a second variable with this name is left out: it depends on the text around the
+        // function.
         let target = Name::from(self.target.as_deref().map_or("", readable));
         let args = if operands.is_empty() { Args::NONE } else { self.args(operands) };
         let to = self.register()?;
-        let key = self.occurrence(&format!("{}|{what}|{target}", self.name));
-        let (given, named) = label;
+        let key = self.occurrence(&format!("{}|{callee_name}|{target}", self.name));
+        let (text_label, named) = label;
         let repeated = self.occurrence(&format!("label {named}")).1;
         let from = self.scope.len() as u32;
         if matches!(kind, SiteKind::Sample(_)) {
             self.keep_scope();
         }
-        let label = match (given, repeated) {
-            (Some(given), _) => given.clone(),
+        let label = match (text_label, repeated) {
+            (Some(text_label), _) => text_label.clone(),
             (None, 0) => named,
             (None, n) => Name::from(format!("{named}#{n}")),
         };
@@ -240,12 +241,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(to)
     }
 
-    /// Notes the places of the variables to keep at the next site.
+    /// Records the places of the variables that can be read at the next site.
     fn keep_scope(&mut self) {
         let site = SiteId(self.sites.len() as u16);
         let is_set = |(x, binding): &(&Name, &Binding)| !binding.maybe_unset || ***x == *LOOK;
         let mut set: Vec<(&Name, &Binding)> =
-            self.env.iter().filter(|(x, _)| self.keeping.has(x)).filter(is_set).collect();
+            self.env.iter().filter(|(x, _)| self.scope_of_choices.has(x)).filter(is_set).collect();
         set.sort_by_key(|(_, binding)| binding.moment);
         let visible = |(x, binding): (&Name, &Binding)| Visible {
             site,
@@ -256,7 +257,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.scope.extend(set.into_iter().map(visible));
     }
 
-    /// The text, and the number of equal ones before it in this function.
+    /// The text, and the number of equal texts before it in this function.
     fn occurrence(&mut self, text: &str) -> (String, u32) {
         let count = self.occurrences.entry(text.to_string()).or_insert(0);
         *count += 1;

@@ -1,27 +1,28 @@
-//! Slices: the instructions of a function, or after a site, that depend on one changed register.
+//! Slices: the instructions of a function, or of the part after a site, that depend on one changed register.
 //!
-//! A kept activation that is entered again because one value has changed need not be run whole: an instruction that
-//! reads nothing that has changed has the same result as before. For each site, parameter and capture the instructions
-//! that depend on it are copied to the end of the function's code, in their order, with those that compute the scratch
-//! values which they read. [`Op::Done`] ends a slice whose return does not depend on it.
+//! A kept activation that is entered again because one value has changed need not run completely: an
+//! instruction that reads no changed value has the same result as before. For each site, parameter and capture,
+//! the pass copies the instructions that depend on it to the end of the function's code, in their order. The
+//! copy includes the instructions that compute scratch values which the slice reads. [`Op::Done`] ends a slice
+//! whose return does not depend on the changed value.
 //!
-//! A slice is optimistic where a test at run time is possible: a choice that keeps its value, or a call or a loop with
-//! the same result as before, changes nothing further. Otherwise the run continues in the whole code after it, which
-//! includes all instructions of the slice.
+//! A slice is optimistic where a test at run time is possible: a choice that keeps its value changes nothing
+//! further, nor does a call or a loop with the same result as before. Otherwise the run continues in the whole
+//! code after it, which includes all instructions of the slice.
 //!
-//! A branch on an unchanged value takes the same arm as before; at a branch on a changed one, or at a loop that is no
-//! site, a slice ends with a jump into the whole code.
+//! A branch on an unchanged value takes the same arm as before. At a branch on a changed value, or at a loop
+//! that is not a site, a slice ends with a jump into the whole code.
 
 use crate::code::flow::reads_and_writes;
 use crate::code::{Function, Mode, Op, Operand, Place, SiteId, SiteKind};
 use niwaki_math::Scalar;
 use std::collections::HashSet;
 
-/// All slices of a function together are at most this many times as long as its code.
-const MOST: usize = 8;
+/// The most length of all slices of a function together, as a multiple of the length of its code.
+const MAX_GROWTH: usize = 8;
 
-/// A slice has both arms of so many consecutive branches; after those the other arm is the whole code.
-const DEEPEST: usize = 3;
+/// The most consecutive branches of which a slice has both arms; after these, the other arm is the whole code.
+const MAX_BRANCHES: usize = 3;
 
 /// Appends the slices of a function to its code.
 pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
@@ -50,26 +51,26 @@ pub(crate) fn slice<S: Scalar>(f: &mut Function<S>) {
             }
             SiteKind::Sample(_) | SiteKind::Read => {}
             kind if kind.makes_activation() => {}
-            // No run begins after one of the others.
+            // No run begins after any other site.
             _ => continue,
         }
         f.sites[i].again = append(f, next, &results);
     }
 }
 
-/// Appends the slice from `start` on of what depends on those registers, and gives where it begins. That is `start`
-/// itself when the slice would leave nothing out, or would be too long.
+/// Appends the slice from `start` on of the instructions that depend on the changed registers, and returns its
+/// first instruction. Returns `start` itself if the slice would omit nothing, or would be too long.
 fn append<S: Scalar>(f: &mut Function<S>, start: u32, changed: &[Operand]) -> u32 {
     let base = f.code.len();
-    for deepest in [DEEPEST, 0] {
+    for deepest in [MAX_BRANCHES, 0] {
         let mut slice = Slice::forward(f, start as usize, changed.iter().copied().collect(), deepest);
         slice.backward(f);
-        if !slice.leaves_out(f) {
+        if !slice.omits_instructions(f) {
             return start;
         }
         let mut ops = Vec::new();
         slice.write(f, base, &mut ops);
-        if base + ops.len() <= f.body as usize * (1 + MOST) {
+        if base + ops.len() <= f.body as usize * (1 + MAX_GROWTH) {
             for (op, from) in ops {
                 f.code.push(op);
                 f.spans.push(f.spans[from]);
@@ -86,23 +87,25 @@ struct Slice {
     tainted: HashSet<Operand>,
     /// The instructions on the path.
     path: Vec<usize>,
-    /// Which of them are in the slice.
-    taken: Vec<bool>,
-    /// At a branch in `path`: the slice of its other arm, or nothing where that is the whole code.
-    others: Vec<(usize, Option<Slice>)>,
-    /// Where the slice continues in the whole code.
+    /// Whether each instruction on the path is in the slice.
+    is_in_slice: Vec<bool>,
+    /// The other arms of branches: the position of the branch in `path`, and the slice of the other arm. `None`
+    /// stands for the whole code.
+    other_arms: Vec<(usize, Option<Slice>)>,
+    /// The instruction where the slice continues in the whole code.
     rest: Option<usize>,
 }
 
 impl Slice {
-    /// Visits the path to the end and collects what depends on the changed registers; both arms at so many branches.
+    /// Visits the path to the end and collects the instructions that depend on the changed registers. Up to
+    /// `deepest` branches have both arms.
     fn forward<S: Scalar>(
         f: &Function<S>,
         mut at: usize,
         tainted: HashSet<Operand>,
         deepest: usize,
     ) -> Slice {
-        let mut slice = Slice { tainted, path: vec![], taken: vec![], others: vec![], rest: None };
+        let mut slice = Slice { tainted, path: vec![], is_in_slice: vec![], other_arms: vec![], rest: None };
         let mut left = deepest;
         loop {
             let op = f.code[at];
@@ -126,7 +129,7 @@ impl Slice {
                         left -= 1;
                         Slice::forward(f, target as usize, slice.tainted.clone(), left)
                     });
-                    slice.others.push((slice.path.len(), other));
+                    slice.other_arms.push((slice.path.len(), other));
                     slice.take(at, true);
                 }
                 Op::Jump { .. }
@@ -146,7 +149,7 @@ impl Slice {
                     // The values of a query are in registers.
                     slice.take(at, hit && !matches!(site.kind, SiteKind::Query));
                     let is_changed = match site.kind {
-                        // Whether their results change is known when they have run.
+                        // The results of these sites are compared when they have run.
                         SiteKind::Sample(_)
                         | SiteKind::Call { .. }
                         | SiteKind::Loop(_)
@@ -162,7 +165,8 @@ impl Slice {
                     }
                 }
                 _ => {
-                    // What was written anew before is written again here, whatever it now becomes.
+                    // A register that was written before with a changed value is written again here, even if
+                    // this value is unchanged.
                     let hit = hit || writes.iter().any(|o| slice.tainted.contains(o));
                     slice.take(at, hit);
                     if hit {
@@ -174,13 +178,14 @@ impl Slice {
         }
     }
 
-    fn take(&mut self, at: usize, taken: bool) {
+    fn take(&mut self, at: usize, is_in_slice: bool) {
         self.path.push(at);
-        self.taken.push(taken);
+        self.is_in_slice.push(is_in_slice);
     }
 
-    /// Adds what computes the scratch values that are read, which are valid up to the next site. The result: the
-    /// scratch values that are needed where the slice begins, and whether all those of the whole code are needed.
+    /// Adds the instructions that compute the scratch values which the slice reads; these are valid up to the
+    /// next site. Returns the scratch values that are needed where the slice begins, and whether all scratch
+    /// values of the whole code are needed.
     fn backward<S: Scalar>(&mut self, f: &Function<S>) -> (HashSet<Operand>, bool) {
         let mut needed: HashSet<Operand> = HashSet::new();
         let mut all = self.rest.is_some();
@@ -190,11 +195,12 @@ impl Slice {
                 all = false;
             }
             let (mut reads, writes) = reads_and_writes(f, op);
-            // The whole code needs all scratch values, and no other: registers of the node are as they were. One that is
-            // written in several places must not be set back to what the first of them gives.
+            // The whole code needs all scratch values and nothing else: registers of the node are as they were.
+            // A register that is written in several places must not be set back to the value of the first
+            // place.
             let is_needed = |o: &Operand| needed.contains(o) || all && o.place() == Place::Scratch;
-            self.taken[i] |= writes.iter().any(is_needed);
-            match self.others.iter_mut().find(|(place, _)| *place == i) {
+            self.is_in_slice[i] |= writes.iter().any(is_needed);
+            match self.other_arms.iter_mut().find(|(place, _)| *place == i) {
                 Some((_, Some(other))) => {
                     let theirs = other.backward(f);
                     needed.extend(theirs.0);
@@ -203,8 +209,8 @@ impl Slice {
                 Some((_, None)) => all = true,
                 None => {}
             }
-            if self.taken[i] {
-                if let Some(Op::Pass { site, arg }) = self.passed(f, op) {
+            if self.is_in_slice[i] {
+                if let Some(Op::Pass { site, arg }) = self.as_pass(f, op) {
                     let args = f.sites[site.0 as usize].args;
                     reads = vec![f.operands[args.start as usize + arg as usize]];
                 }
@@ -217,30 +223,33 @@ impl Slice {
         (needed, all)
     }
 
-    /// Whether it does less than the whole code.
-    fn leaves_out<S: Scalar>(&self, f: &Function<S>) -> bool {
-        let passes = |(at, taken): (&usize, &bool)| {
-            *taken
-                && matches!(self.passed(f, &f.code[*at]), Some(Op::Pass { site, .. })
+    /// Whether the slice does less than the whole code.
+    fn omits_instructions<S: Scalar>(&self, f: &Function<S>) -> bool {
+        let passes = |(at, is_in_slice): (&usize, &bool)| {
+            *is_in_slice
+                && matches!(self.as_pass(f, &f.code[*at]), Some(Op::Pass { site, .. })
                     if f.sites[site.0 as usize].args.len > 1)
         };
-        self.taken.contains(&false)
-            || self.path.iter().zip(&self.taken).any(passes)
-            || self.others.iter().any(|(_, other)| other.as_ref().is_some_and(|other| other.leaves_out(f)))
+        self.is_in_slice.contains(&false)
+            || self.path.iter().zip(&self.is_in_slice).any(passes)
+            || self
+                .other_arms
+                .iter()
+                .any(|(_, other)| other.as_ref().is_some_and(|other| other.omits_instructions(f)))
     }
 
-    /// Writes its instructions, each with its original, placed from `base` on.
+    /// Writes the slice's instructions, each with its original, from `base` on.
     fn write<S: Scalar>(&self, f: &Function<S>, base: usize, ops: &mut Vec<(Op, usize)>) {
         let mut branches = Vec::new();
-        for (i, at) in self.path.iter().enumerate().filter(|(i, _)| self.taken[*i]) {
-            if let Some((_, Some(other))) = self.others.iter().find(|(place, _)| *place == i) {
+        for (i, at) in self.path.iter().enumerate().filter(|(i, _)| self.is_in_slice[*i]) {
+            if let Some((_, Some(other))) = self.other_arms.iter().find(|(place, _)| *place == i) {
                 branches.push((ops.len(), other));
             }
-            ops.push((self.passed(f, &f.code[*at]).unwrap_or(f.code[*at]), *at));
+            ops.push((self.as_pass(f, &f.code[*at]).unwrap_or(f.code[*at]), *at));
         }
         match (self.rest, self.path.last()) {
             (Some(rest), _) => ops.push((Op::Jump { target: rest as u32 }, rest)),
-            (None, Some(last)) if !self.taken.last().copied().unwrap_or(false) => {
+            (None, Some(last)) if !self.is_in_slice.last().copied().unwrap_or(false) => {
                 ops.push((Op::Done, *last));
             }
             _ => {}
@@ -257,8 +266,8 @@ impl Slice {
         }
     }
 
-    /// A call of which one argument may have changed.
-    fn passed<S: Scalar>(&self, f: &Function<S>, op: &Op) -> Option<Op> {
+    /// The shorter form of a call if only one of its arguments may have changed.
+    fn as_pass<S: Scalar>(&self, f: &Function<S>, op: &Op) -> Option<Op> {
         let Op::Site { site: SiteId(number) } = *op else { return None };
         let site = &f.sites[number as usize];
         if !matches!(site.kind, SiteKind::Call { .. }) {
@@ -275,7 +284,7 @@ impl Slice {
 
 #[cfg(test)]
 mod tests {
-    //! Slices are those that a person would write by hand.
+    //! The claim: slices are as a person would write them by hand.
     use super::*;
     use crate::code::disassemble;
     use crate::core::parse::parse;
@@ -294,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slice_holds_what_depends_and_no_more() {
+    fn a_slice_has_the_dependent_instructions_and_no_others() {
         let text = r#"(module
           (fn "f" (params $n $m)
             (set $k (sample (dist poisson 2.0)))
@@ -321,9 +330,11 @@ mod tests {
             let part = |word: &str| slice.iter().any(|line| line.contains(word));
             (part("str"), part("Gaussian") && part("\"x\""), part("Mul"), part("Observe"), part("done"))
         };
-        // The count: not the key's text and the other choice, but the observation with what it reads.
+        // A change of the count runs neither the text of the key nor the other choice, but the observation and
+        // the values that it reads.
         assert_eq!(has(f.sites[0].again), (false, false, true, true, true));
-        // The mean of the other choice: that choice, and nothing else unless it changes.
+        // A change of the mean of the other choice runs that choice, and nothing else unless the choice
+        // changes.
         assert_eq!(has(f.inputs[1]), (false, true, false, false, true));
     }
 }

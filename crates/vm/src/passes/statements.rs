@@ -1,8 +1,8 @@
-//! Lowering statements. Every method returns whether control can continue after it.
+//! Lowering of statements. Every method returns whether control can continue after the statement.
 //!
-//! Assignment gives a variable a new register; where two arms meet, each arm writes the register of the
-//! merge. A loop that cannot suspend keeps its variables in registers that are written again in each round;
-//! one that can is lifted: its body becomes a function, one activation an iteration.
+//! An assignment gives a variable a new register; where two arms meet, each arm writes the register of the
+//! merge. A loop that cannot suspend keeps its variables in registers that are written again in each round. A
+//! loop that can suspend is lifted: its body becomes a function with one activation for each iteration.
 
 use super::CompileError;
 use super::emit::{Binding, Builder, Environment, LoopContext, Result, VALUES};
@@ -27,9 +27,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
             self.span = s.span;
         }
         self.target = s.targets().first().map(|x| (*x).clone());
-        let goes_on = match &s.kind {
-            // Where no choice reads it: the front end has put what can fail into a statement of its own.
-            StmtKind::Set(x, e) if **x == *LOOK && !self.keeping.has(x) && !self.unit.effects.in_expr(e) => {
+        let continues = match &s.kind {
+            // No choice reads the place here. The front end has put expressions that can fail into a statement
+            // of their own.
+            StmtKind::Set(x, e)
+                if **x == *LOOK && !self.scope_of_choices.has(x) && !self.unit.effects.in_expr(e) =>
+            {
                 true
             }
             StmtKind::Set(x, e) => {
@@ -91,7 +94,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         };
         self.span = outside;
         self.target = None;
-        Ok(goes_on)
+        Ok(continues)
     }
 
     fn return_value(&mut self, a: Operand) {
@@ -103,7 +106,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
     }
 
-    /// Leaves an iteration with the carried variables as they are now.
+    /// Leaves an iteration with the current values of the carried variables.
     fn return_iteration(&mut self, kind: i64, value: Option<Operand>) {
         let carried = self.carried.clone();
         let mut operands: Vec<Operand> = carried.iter().map(|x| self.current(x)).collect();
@@ -113,7 +116,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.op(Op::ReturnIteration { exit: kind as i8, args });
     }
 
-    /// Where a variable is now, assigned or not.
+    /// The operand of a variable, assigned or not.
     pub fn current(&mut self, x: &Name) -> Operand {
         match self.env.get(x) {
             Some(b) => b.at,
@@ -126,17 +129,17 @@ impl<S: Scalar> Builder<'_, '_, S> {
         self.branch_unless(c, other)?;
         let before = self.env.clone();
         let (head_of_a, first) = (self.code.len(), self.sites.len());
-        let a_goes_on = self.block(a)?;
+        let a_continues = self.block(a)?;
         let after_a = std::mem::replace(&mut self.env, before.clone());
         let end_of_a = self.code.len();
-        if a_goes_on {
+        if a_continues {
             self.jump(end);
         }
         let between = self.sites.len();
         self.bind(other);
         self.clear(first, between);
-        let b_goes_on = self.block(b)?;
-        match (a_goes_on, b_goes_on) {
+        let b_continues = self.block(b)?;
+        match (a_continues, b_continues) {
             (true, true) => {
                 let after_b = std::mem::take(&mut self.env);
                 self.merge(&after_a, &after_b, end_of_a)?;
@@ -146,11 +149,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
         }
         self.bind(end);
         self.clear_at(head_of_a, between, self.sites.len());
-        Ok(a_goes_on || b_goes_on)
+        Ok(a_continues || b_continues)
     }
 
-    /// One environment of two: where they differ, each arm writes the register of the merge. The first arm
-    /// ends with the jump at `end_of_a`, the second ends here.
+    /// Merges two environments: where they differ, each arm writes the register of the merge. The first arm
+    /// ends with the jump at `end_of_a`, the second arm ends here.
     fn merge(&mut self, a: &Environment, b: &Environment, end_of_a: usize) -> Result<()> {
         let names: Names = a.keys().chain(b.keys()).cloned().collect();
         let (mut moves_a, mut moves_b) = (Vec::new(), Vec::new());
@@ -177,7 +180,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(())
     }
 
-    /// `break` (or `continue`).
+    /// Lowers `break` (or `continue`).
     fn leave(&mut self, is_break: bool) -> Result<bool> {
         match self.loops.last() {
             None => return Err(CompileError("`break` or `continue` outside a loop".into())),
@@ -216,7 +219,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(())
     }
 
-    /// A loop that cannot suspend: a plain jump.
+    /// Lowers a loop that cannot suspend: a plain jump.
     fn plain(
         &mut self,
         s: &Stmt,
@@ -236,10 +239,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
             iteration = Some((x, held, index, length));
             variables_set.insert(x.clone());
         }
-        // Each variable that a round can pass to the next, or to what follows, has a register for the whole loop.
+        // Each variable that a round can pass to the next round, or to the code after the loop, has a register
+        // for the whole loop.
         let mut variables = Vec::new();
         let mut unset_before = Vec::new();
-        for x in self.handed_on(s, &variables_set) {
+        for x in self.carried_variables(s, &variables_set) {
             let to = self.register()?;
             let from = self.current(&x);
             self.op(Op::Move { to, from });
@@ -266,7 +270,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
             self.loop_body(body, &variables, head, end)?;
         }
         self.bind(end);
-        // After the loop its variables move on to registers of their own, so that those of the loop are scratch.
+        // After the loop its variables move to registers of their own, so that the registers of the loop are
+        // scratch.
         self.env = before;
         let mut after = Vec::new();
         for ((x, from), maybe_unset) in variables.into_iter().zip(unset_before) {
@@ -278,15 +283,15 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(true)
     }
 
-    /// Of the variables that a loop assigns, those that one iteration passes to the next, or to what follows.
-    fn handed_on(&self, s: &Stmt, assigned: &Names) -> Vec<Name> {
+    /// The assigned variables that one iteration passes to the next, or to the code after the loop.
+    fn carried_variables(&self, s: &Stmt, assigned: &Names) -> Vec<Name> {
         let live = self.heads.at(s);
-        // Choices cannot read what some path has left unassigned, but for the place to look from.
-        let kept = |x: &Name| self.keeping.has(x) && (**x == *LOOK || self.is_set(x));
-        assigned.iter().filter(|x| live.contains(*x) || kept(x)).cloned().collect()
+        // Choices cannot read variables that a path has left unassigned, except for the place to look from.
+        let is_kept = |x: &Name| self.scope_of_choices.has(x) && (**x == *LOOK || self.is_set(x));
+        assigned.iter().filter(|x| live.contains(*x) || is_kept(x)).cloned().collect()
     }
 
-    /// Gives variables their values after a loop, in the order in which its body assigns them.
+    /// Assigns variables after a loop, in the order in which its body assigns them.
     fn assign_all(&mut self, body: &[Stmt], values: &[(Name, Operand, bool)]) {
         let names: Vec<Name> = values.iter().map(|value| value.0.clone()).collect();
         for x in in_order_of_assignment(body, &names) {
@@ -304,16 +309,16 @@ impl<S: Scalar> Builder<'_, '_, S> {
         end: super::emit::Label,
     ) -> Result<()> {
         self.loops.push(LoopContext::Plain { variables: variables.to_vec(), next, end });
-        let goes_on = self.block(body)?;
+        let continues = self.block(body)?;
         self.loops.pop();
-        if goes_on {
+        if continues {
             self.write_back(variables)?;
             self.jump(next);
         }
         Ok(())
     }
 
-    /// A loop that can suspend.
+    /// Lowers a loop that can suspend.
     fn lifted(
         &mut self,
         s: &Stmt,
@@ -327,21 +332,22 @@ impl<S: Scalar> Builder<'_, '_, S> {
         };
         let mut set = assigned(body);
         set.extend(each.map(|(x, _)| x.clone()));
-        let carried = self.handed_on(s, &set);
+        let carried = self.carried_variables(s, &set);
         let mut reads = Names::new();
         test.into_iter().for_each(|t| t.reads(&mut reads));
         crate::core::visit::each_stmt(body, &mut |s| {
             s.expressions().into_iter().for_each(|e| e.reads(&mut reads))
         });
-        // What is kept for choices in the body; a variable that the body assigns is the iteration's own.
-        let kept = self.env.keys().filter(|x| self.keeping.has(x) && !set.contains(*x));
+        // The variables that choices in the body can read; a variable that the body assigns belongs to the
+        // iteration.
+        let kept = self.env.keys().filter(|x| self.scope_of_choices.has(x) && !set.contains(*x));
         reads.extend(kept.cloned());
         let captured: Vec<Name> =
             reads.into_iter().filter(|x| !carried.contains(x) && self.env.contains_key(x)).collect();
         let capture_at: Vec<Operand> = captured.iter().map(|x| self.env[x].at).collect();
         let carried_at: Vec<Operand> = carried.iter().map(|x| self.current(x)).collect();
         let label = each.map_or(Name::from("while"), |(x, _)| Name::from(readable(x)));
-        let what = Name::from(format!("loop {label}"));
+        let key = Name::from(format!("loop {label}"));
 
         let (header, function) = self.iteration(s, &label, &carried, &captured)?;
         let out = carried.iter().map(|_| self.register()).collect::<Result<Vec<_>>>()?;
@@ -356,8 +362,8 @@ impl<S: Scalar> Builder<'_, '_, S> {
             exit,
         });
         self.target = None;
-        self.add_site(kind, &what, (&s.label, Name::from(format!("{label}[]"))), &[])?;
-        // Whether the loop assigned it is known only at run time.
+        self.add_site(kind, &key, (&s.label, Name::from(format!("{label}[]"))), &[])?;
+        // Only the run knows whether the loop assigned the variable.
         let unset = |x: &Name| self.env.get(x).is_none_or(|b| b.maybe_unset);
         let after: Vec<_> = carried.into_iter().zip(out).map(|(x, at)| (x.clone(), at, unset(&x))).collect();
         self.assign_all(body, &after);
@@ -376,7 +382,7 @@ impl<S: Scalar> Builder<'_, '_, S> {
         Ok(true)
     }
 
-    /// Compiles the body of a lifted loop as a function of element and carried values.
+    /// Compiles the body of a lifted loop as a function of the element and the carried values.
     fn iteration(
         &mut self,
         s: &Stmt,
@@ -387,12 +393,12 @@ impl<S: Scalar> Builder<'_, '_, S> {
         let (each, test, body) = match &s.kind {
             StmtKind::For(x, _, body) => (Some(x), None, body),
             StmtKind::While(test, body) => (None, Some(test), body),
-            _ => return Err(CompileError("an iteration of something that is not a loop".into())),
+            _ => return Err(CompileError("an iteration of a statement that is not a loop".into())),
         };
         let n = self.occurrences.entry(format!("iteration {label}")).or_insert(0);
         let name = Name::from(format!("{}/{label}#{n}", self.name));
         *n += 1;
-        let analyses = (self.heads, self.keeping);
+        let analyses = (self.heads, self.scope_of_choices);
         let mut b = Builder::new(&mut *self.unit, analyses, name, self.file, Mode::Iteration);
         b.span = s.span;
         b.carried = carried.to_vec();
@@ -405,11 +411,11 @@ impl<S: Scalar> Builder<'_, '_, S> {
             b.env.insert(x.clone(), Binding { at: Operand::new(Place::Outer, i + 1), ..self.env[x] });
         }
         b.moment = self.moment;
-        let mut handed = Vec::new();
+        let mut values = Vec::new();
         for x in carried {
-            handed.push((x.clone(), b.register()?, self.env.get(x).is_none_or(|b| b.maybe_unset)));
+            values.push((x.clone(), b.register()?, self.env.get(x).is_none_or(|b| b.maybe_unset)));
         }
-        b.assign_all(body, &handed);
+        b.assign_all(body, &values);
         if let (Some(x), Some(at)) = (each, element) {
             b.assign(x, at);
         }

@@ -1,7 +1,8 @@
 //! The flat aggregates: tuples, records, dictionaries, closures, ranges and vectors.
 //!
-//! Each is one allocation behind one thin pointer (a tuple of up to four needs no second one). Those that hold values
-//! hand their children to `release` when dropped, so that nesting costs no host stack.
+//! Each has one allocation behind one thin pointer (a tuple of up to four elements needs no second one).
+//! Aggregates hand the values that they hold to `release` when they are dropped, so that nesting costs no host
+//! stack.
 
 use std::sync::Arc;
 
@@ -13,9 +14,9 @@ use super::{Scalar, Value, compare, release};
 #[derive(Clone)]
 pub struct Tuple<S: Scalar = f64>(pub(super) Arc<TupleBody<S>>);
 
-/// The elements of a tuple. Points, pairs and colours are most of the tuples of a model: they are stored in place.
+/// The elements of a tuple. Most tuples of a model are points, pairs and colours: they are stored in place.
 pub(super) enum TupleBody<S: Scalar> {
-    One([Value<S>; 1]),
+    Single([Value<S>; 1]),
     Two([Value<S>; 2]),
     Three([Value<S>; 3]),
     Four([Value<S>; 4]),
@@ -25,7 +26,7 @@ pub(super) enum TupleBody<S: Scalar> {
 impl<S: Scalar> TupleBody<S> {
     pub(super) fn items_mut(&mut self) -> &mut [Value<S>] {
         match self {
-            TupleBody::One(items) => items,
+            TupleBody::Single(items) => items,
             TupleBody::Two(items) => items,
             TupleBody::Three(items) => items,
             TupleBody::Four(items) => items,
@@ -45,7 +46,7 @@ impl<S: Scalar> Tuple<S> {
     #[inline]
     pub fn items(&self) -> &[Value<S>] {
         match &*self.0 {
-            TupleBody::One(items) => items,
+            TupleBody::Single(items) => items,
             TupleBody::Two(items) => items,
             TupleBody::Three(items) => items,
             TupleBody::Four(items) => items,
@@ -79,7 +80,7 @@ impl<S: Scalar> Tuple<S> {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
-    /// A tuple of two.
+    /// A tuple of two elements.
     pub fn pair(first: Value<S>, second: Value<S>) -> Tuple<S> {
         Tuple(Arc::new(TupleBody::Two([first, second])))
     }
@@ -92,7 +93,7 @@ impl<S: Scalar> From<Vec<Value<S>>> for Tuple<S> {
             Err(items) => items,
         };
         let items = match <[Value<S>; 1]>::try_from(items) {
-            Ok(one) => return Tuple(Arc::new(TupleBody::One(one))),
+            Ok(single) => return Tuple(Arc::new(TupleBody::Single(single))),
             Err(items) => items,
         };
         let items = match <[Value<S>; 3]>::try_from(items) {
@@ -106,12 +107,12 @@ impl<S: Scalar> From<Vec<Value<S>>> for Tuple<S> {
     }
 }
 
-/// How a class of records behaves beyond its fields.
+/// The kinds of record classes, by their behaviour beyond fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClassKind {
     /// A frozen dataclass: compared by class and fields.
     Dataclass,
-    /// A `NamedTuple`: also a tuple (indexed, iterated, compared as one).
+    /// A `NamedTuple`: also a tuple (indexed, iterated and compared like a tuple).
     NamedTuple,
 }
 
@@ -129,7 +130,7 @@ pub struct Class {
 }
 
 impl Class {
-    /// Whether it is a frame: a place and its directions, as the word `look` gives.
+    /// Whether the class is `Frame`: a place and its directions, which the word `look` returns.
     pub fn is_frame(&self) -> bool {
         self.name == "Frame" && self.fields == ["center", "forward", "up", "radius"]
     }
@@ -157,27 +158,27 @@ impl<S: Scalar> Drop for Record<S> {
     }
 }
 
-/// Which memoised function a function value is: it has one activation for each value of its arguments in a run.
+/// The identity of a memoised function: it has one activation for each value of its arguments in a run.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Memo {
-    /// The address of the place where it was made.
+    /// The address of the place where the function was memoised.
     pub path: u128,
-    /// Its readable address.
+    /// The readable form of that address.
     pub name: String,
 }
 
-/// A function value: the number of its code and what it captured.
+/// A function value: the number of its code, and its captured values.
 pub struct Closure<S: Scalar = f64> {
     /// Number of the function in the program.
     pub function: u32,
-    /// Of a memoised function: which one it is.
+    /// The identity of a memoised function; `None` for other functions.
     pub memo: Option<Arc<Memo>>,
     /// Captured values, in the order of the function's captures.
     pub captures: Vec<Value<S>>,
 }
 
 impl<S: Scalar> Closure<S> {
-    /// Bytes of its identity, where it is a memoised function.
+    /// Bytes of the identity of a memoised function.
     pub(super) fn memo_bytes(&self) -> usize {
         self.memo.as_ref().map_or(0, |memo| size_of::<Memo>() + memo.name.len())
     }
@@ -189,7 +190,7 @@ impl<S: Scalar> Drop for Closure<S> {
     }
 }
 
-/// A dictionary: distinct keys in order of writing, and their values.
+/// A dictionary: distinct keys in the order in which they were written, and their values.
 pub struct Dict<S: Scalar = f64> {
     pub(super) keys: Vec<Value<S>>,
     pub(super) values: Vec<Value<S>>,
@@ -198,8 +199,8 @@ pub struct Dict<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Dict<S> {
-    /// Below this many keys a search is as fast as an index.
-    const SEARCHED: usize = 8;
+    /// The number of keys below which a search is as fast as an index.
+    const MAX_WITHOUT_INDEX: usize = 8;
 
     pub(super) fn count<'v>(&'v self, census: &mut Census<'v, S>) {
         census.add_items(&self.keys, self.keys.len());
@@ -207,8 +208,8 @@ impl<S: Scalar> Dict<S> {
         census.add_bytes(block(self.index.len() * size_of::<(u64, u32)>()));
     }
 
-    /// A dictionary from pairs; a later pair with an equal key replaces the value of an earlier one, as in Python.
-    /// The keys must be hashable: anything but lists and dictionaries.
+    /// A dictionary from pairs. A later pair with an equal key replaces the value of an earlier pair, as in
+    /// Python. The keys must be hashable: lists and dictionaries are not.
     pub fn new(pairs: Vec<(Value<S>, Value<S>)>) -> Dict<S> {
         let mut dict = Dict { keys: Vec::new(), values: Vec::new(), index: Vec::new() };
         let mut hashed: Vec<(u64, usize)> =
@@ -232,7 +233,7 @@ impl<S: Scalar> Dict<S> {
                 dict.values[place[first[at]]] = value;
             }
         }
-        if dict.keys.len() > Self::SEARCHED {
+        if dict.keys.len() > Self::MAX_WITHOUT_INDEX {
             let hashes = dict.keys.iter().enumerate();
             dict.index = hashes.map(|(at, key)| (compare::hash(key), at as u32)).collect();
             dict.index.sort_unstable();
@@ -245,7 +246,7 @@ impl<S: Scalar> Dict<S> {
         self.keys.len()
     }
 
-    /// True without keys.
+    /// True for a dictionary without keys.
     pub fn is_empty(&self) -> bool {
         self.keys.is_empty()
     }
@@ -263,12 +264,12 @@ impl<S: Scalar> Dict<S> {
     /// The value of a key.
     pub fn get(&self, key: &Value<S>) -> Option<&Value<S>> {
         if self.index.is_empty() {
-            let at = self.keys.iter().position(|own| own == key)?;
+            let at = self.keys.iter().position(|present| present == key)?;
             return self.values.get(at);
         }
         let hash = compare::hash(key);
-        let from = self.index.partition_point(|&(own, _)| own < hash);
-        let twins = self.index[from..].iter().take_while(|&&(own, _)| own == hash);
+        let from = self.index.partition_point(|&(present, _)| present < hash);
+        let twins = self.index[from..].iter().take_while(|&&(present, _)| present == hash);
         let at = twins.map(|&(_, at)| at as usize).find(|&at| self.keys[at] == *key)?;
         self.values.get(at)
     }
@@ -286,16 +287,16 @@ impl<S: Scalar> Drop for Dict<S> {
 pub struct Range {
     /// First number.
     pub start: i64,
-    /// Where it ends, exclusive.
+    /// Where the range ends, exclusive.
     pub stop: i64,
     /// Difference between neighbours; never zero.
     pub step: i64,
-    /// How many numbers.
+    /// The number of elements.
     pub len: usize,
 }
 
 impl Range {
-    /// A range, or `None` for a step of zero or more numbers than an `i64` counts.
+    /// A range, or `None` for a step of zero and for more elements than an `i64` counts.
     pub fn new(start: i64, stop: i64, step: i64) -> Option<Range> {
         let (start_, stop_, step_) = (i128::from(start), i128::from(stop), i128::from(step));
         let len = match step {
@@ -307,7 +308,7 @@ impl Range {
         Some(Range { start, stop, step, len })
     }
 
-    /// The number at a position inside the range.
+    /// The number at a position inside of the range.
     pub fn at(&self, position: usize) -> i64 {
         self.start.wrapping_add(self.step.wrapping_mul(position as i64))
     }
@@ -328,12 +329,12 @@ pub struct Vector<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Vector<S> {
-    /// A vector of up to four components; further ones are cut off.
+    /// A vector of up to four components; further components are cut off.
     pub fn new(components: &[S]) -> Vector<S> {
-        let mut own = [S::from_f64(0.0); 4];
+        let mut padded = [S::from_f64(0.0); 4];
         let len = components.len().min(4);
-        own[..len].copy_from_slice(&components[..len]);
-        Vector { components: own, len: len as u8 }
+        padded[..len].copy_from_slice(&components[..len]);
+        Vector { components: padded, len: len as u8 }
     }
 
     /// The components.
@@ -342,7 +343,7 @@ impl<S: Scalar> Vector<S> {
         &self.components[..usize::from(self.len)]
     }
 
-    /// Each component through a function.
+    /// Applies a function to each component.
     #[inline]
     pub fn map(&self, f: impl FnMut(S) -> S) -> Vector<S> {
         Vector { components: self.components.map(f), len: self.len }
@@ -350,7 +351,7 @@ impl<S: Scalar> Vector<S> {
 
     /// The component called `x`, `y`, `z` or `w`.
     pub fn field(&self, name: &str) -> Option<S> {
-        let at = ["x", "y", "z", "w"].iter().position(|own| *own == name)?;
+        let at = ["x", "y", "z", "w"].iter().position(|letter| *letter == name)?;
         self.components().get(at).copied()
     }
 }

@@ -1,7 +1,7 @@
-//! What values take in memory: each shared part counted once.
+//! The memory that values take, with each shared part counted once.
 //!
-//! Sizes are those that an allocator needs. They depend on what a value is and never on who else holds it, so that two
-//! runs that hold the same values count the same bytes, whatever other threads do.
+//! Sizes are those that an allocator needs. They depend on the value alone and never on who else holds it. So
+//! two runs that hold the same values count the same bytes, whatever other threads do.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -9,13 +9,13 @@ use std::sync::Arc;
 use super::blocks::{block, shared};
 use super::{Scalar, Shape, Value};
 
-/// Values inside of one another that a census counts by calls; deeper ones wait in a list.
+/// The depth of nested values that a census counts by recursion; deeper values wait in a list.
 const DEPTH: usize = 16;
 
 /// Counts the bytes of values.
 #[derive(Default)]
 pub struct Census<'v, S: Scalar = f64> {
-    /// What was counted, by its address. What has one owner is met once, and is not noted.
+    /// The addresses of counted objects. An object with one owner is met once, and is not recorded.
     seen: HashSet<usize>,
     work: Vec<&'v Value<S>>,
     depth: usize,
@@ -23,7 +23,7 @@ pub struct Census<'v, S: Scalar = f64> {
 }
 
 impl<'v, S: Scalar> Census<'v, S> {
-    /// Counts nothing yet.
+    /// Creates a census that has counted nothing so far.
     pub fn new() -> Self {
         Census { seen: HashSet::new(), work: Vec::new(), depth: 0, bytes: 0 }
     }
@@ -33,7 +33,8 @@ impl<'v, S: Scalar> Census<'v, S> {
         self.bytes
     }
 
-    /// A value is not to be counted: it belongs to someone else. O(1): what it holds counts where it is held apart from it.
+    /// Excludes a value, which belongs to someone else, from the count. The cost is constant: parts of the
+    /// value that are also held elsewhere still count there.
     pub fn leave_out(&mut self, value: &Value<S>) {
         match value {
             Value::Str(text) => self.note(text.address()),
@@ -52,19 +53,19 @@ impl<'v, S: Scalar> Census<'v, S> {
         self.seen.insert(address);
     }
 
-    /// Counts bytes that are not those of a value.
+    /// Counts bytes that do not belong to a value.
     #[inline]
     pub fn add_bytes(&mut self, bytes: usize) {
         self.bytes += bytes;
     }
 
-    /// Whether a shared object is met for the first time.
+    /// Whether the census meets a shared object for the first time.
     #[inline]
     pub fn is_first<T: ?Sized>(&mut self, object: &Arc<T>) -> bool {
         Arc::strong_count(object) == 1 || self.seen.insert(Arc::as_ptr(object).cast::<()>() as usize)
     }
 
-    /// Counts a shared object of fixed size; whether it is met for the first time.
+    /// Counts a shared object of fixed size, and returns whether the census meets it for the first time.
     #[inline]
     pub(super) fn add_shared<T>(&mut self, object: &Arc<T>) -> bool {
         let first = self.is_first(object);
@@ -74,7 +75,7 @@ impl<'v, S: Scalar> Census<'v, S> {
         first
     }
 
-    /// Counts a value and all that it holds, not the value's own 16 bytes.
+    /// Counts a value and all that it holds, without the value's own 16 bytes.
     pub fn add(&mut self, value: &'v Value<S>) {
         if value.is_plain() {
             return;
@@ -98,7 +99,7 @@ impl<'v, S: Scalar> Census<'v, S> {
         }
     }
 
-    /// Counts what elements hold that are part of an object counted already.
+    /// Counts the data behind elements that are part of an object counted before.
     pub(super) fn add_in_place(&mut self, items: &'v [Value<S>]) {
         let values = items.iter().filter(|item| !item.is_plain());
         if self.depth == DEPTH {
@@ -149,8 +150,8 @@ impl<'v, S: Scalar> Census<'v, S> {
 }
 
 impl<S: Scalar> Value<S> {
-    /// Bytes of the allocation behind the value, or a little more, without the values that it holds. O(1), except for
-    /// mixtures.
+    /// Bytes of the allocation behind the value, or a little more, without the values that it holds. The cost
+    /// is constant, except for mixtures.
     pub fn own_bytes(&self) -> usize {
         let items = |count: usize| block(count * size_of::<Value<S>>());
         match self {
@@ -184,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shared_counts_once_and_versions_of_a_list_count_what_differs() {
+    fn shared_parts_count_once_and_versions_of_a_list_count_their_differences() {
         let long = Value::<f64>::list((0..10_000).map(Value::Int).collect());
         let once = count(std::slice::from_ref(&long));
         assert!((160_000..200_000).contains(&once), "{once}");
@@ -203,14 +204,14 @@ mod tests {
             Value::tuple(vec![row.clone(), Value::str("abc"), row, Value::vector(&[1.0, 2.0, 3.0])])
         };
         let (alone, held) = (make(), make());
-        let _others: Vec<Value> = (0..3).map(|_| held.clone()).collect();
+        let _owners: Vec<Value> = (0..3).map(|_| held.clone()).collect();
         let Value::Tuple(parts) = &held else { panic!("a tuple") };
         let _inner = parts.items().to_vec();
         assert_eq!(count(&[alone]), count(&[held]));
     }
 
     #[test]
-    fn own_bytes_cover_what_a_census_counts() {
+    fn own_bytes_are_at_least_the_bytes_of_a_census() {
         let values: Vec<Value> = vec![
             Value::str(&"x".repeat(1000)),
             Value::tuple((0..100).map(Value::Int).collect()),
@@ -219,8 +220,11 @@ mod tests {
             Value::vector(&[1.0, 2.0]),
         ];
         for value in values {
-            let (own, counted) = (value.own_bytes(), count(std::slice::from_ref(&value)));
-            assert!(own >= counted && own <= counted + counted / 4 + 600, "{value:?}: {own} for {counted}");
+            let (bytes, counted) = (value.own_bytes(), count(std::slice::from_ref(&value)));
+            assert!(
+                bytes >= counted && bytes <= counted + counted / 4 + 600,
+                "{value:?}: {bytes} for {counted}"
+            );
         }
     }
 

@@ -1,11 +1,12 @@
 //! Python's `==`, `<` and hashing of keys.
 //!
-//! Both values are visited in lockstep, on a stack of our own, up to the first place where they differ. `==` tests
-//! whether there is one; `<` compares the two elements there (lexicographic order at every level, as Python defines it
-//! for sequences). Numbers compare exactly across int, bool and float.
+//! Both values are visited in lockstep, on a stack of our own, up to the first place where they differ. `==`
+//! tests whether there is such a place; `<` compares the two elements there (lexicographic order at every
+//! level, as Python defines it for sequences). Numbers compare exactly across int, bool and float.
 //!
-//! differs: Python's containers treat an object as equal to itself before they call `==`, so a list of one NaN object
-//! equals another list of that object; here a NaN inside two different lists is unequal, inside one list equal.
+//! differs: Python's containers treat an object as equal to itself before they call `==`. So in Python a list
+//! with a NaN object equals another list with the same object. Here a NaN in two different lists is unequal,
+//! and in one list it is equal.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -13,11 +14,11 @@ use std::sync::Arc;
 use super::{ClassKind, Dict, List, Scalar, Value};
 use crate::fault::Fault;
 
-/// Pairs of elements that one comparison may visit: two unshared copies of a value that shares parts of itself
-/// would otherwise take exponential time.
+/// The most pairs of elements that one comparison may visit: two unshared copies of a value that shares parts
+/// of itself would otherwise take exponential time.
 const BUDGET: usize = 1 << 26;
 
-/// Refuses a future, and a value that holds one where the two values differ.
+/// The operation that the fault of a future names.
 const COMPARED: &str = "compared";
 
 /// Python's `a == b`.
@@ -34,8 +35,8 @@ pub fn equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
     }
 }
 
-/// Python's order of two values, `None` when one of them is a NaN at the first difference; a fault for values without
-/// an order. `sign` is the operator that the message names (`<`, `>=`, ...).
+/// Python's order of two values. `None` when one of them is a NaN at the first difference; a fault for values
+/// without an order. `sign` is the operator that the message names (`<`, `>=`, ...).
 pub fn order<S: Scalar>(a: &Value<S>, b: &Value<S>, sign: &str) -> Result<Option<Ordering>, Fault> {
     if let Some(order) = leaves_ordered(a, b) {
         return Ok(order);
@@ -58,7 +59,7 @@ fn no_order<S: Scalar>(a: &Value<S>, b: &Value<S>, sign: &str) -> Fault {
     Fault::type_mismatch(format!("`{sign}` has no meaning between {} and {}", a.described(), b.described()))
 }
 
-/// Exact order of a whole and a real number.
+/// The exact order of a whole number and a real number.
 pub fn int_to_real(a: i64, b: f64) -> Option<Ordering> {
     const LIMIT: f64 = 9_223_372_036_854_775_808.0; // 2^63
     if b.is_nan() {
@@ -68,12 +69,12 @@ pub fn int_to_real(a: i64, b: f64) -> Option<Ordering> {
     } else if b < -LIMIT {
         Some(Ordering::Greater)
     } else {
-        // In range: the whole part converts exactly, the rest breaks ties.
+        // In range, the whole part converts exactly, and the fraction breaks ties.
         Some(a.cmp(&(b.trunc() as i64)).then(0.0_f64.partial_cmp(&b.fract())?))
     }
 }
 
-/// Order of two values without parts: the outer `None` when they have none.
+/// The order of two values without parts. The outer `None` means that they have no order.
 #[inline]
 fn leaves_ordered<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<Option<Ordering>> {
     Some(match (a, b) {
@@ -90,7 +91,7 @@ fn leaves_ordered<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<Option<Orderi
     })
 }
 
-/// Equality of two values when no look inside is needed.
+/// The equality of two values, if no visit to their parts is needed.
 #[inline]
 fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
     let scalars_equal = |a: &[S], b: &[S]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b);
@@ -115,7 +116,7 @@ fn leaves_equal<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Option<bool> {
     })
 }
 
-/// A sequence seen element by element.
+/// A sequence, accessed element by element.
 #[derive(Clone, Copy)]
 enum Items<'a, S: Scalar> {
     Flat(&'a [Value<S>]),
@@ -148,7 +149,8 @@ impl<'a, S: Scalar> Items<'a, S> {
         }
     }
 
-    /// True when Python compares the two element by element: values of one kind, and a named tuple with tuples.
+    /// True when Python compares the two values element by element: values of one kind, and named tuples with
+    /// tuples.
     fn comparable(a: &Value<S>, b: &Value<S>) -> bool {
         let tuple_like = |value: &Value<S>| match value {
             Value::Tuple(_) => true,
@@ -162,7 +164,7 @@ impl<'a, S: Scalar> Items<'a, S> {
         }
     }
 
-    /// True when Python orders the two element by element (dataclasses have no order).
+    /// True when Python orders the two values element by element (dataclasses have no order).
     fn both_sequences(a: &Value<S>, b: &Value<S>) -> bool {
         let dataclass = |value: &Value<S>| matches!(value, Value::Record(record) if record.class.kind == ClassKind::Dataclass);
         Items::comparable(a, b) && !dataclass(a)
@@ -171,13 +173,13 @@ impl<'a, S: Scalar> Items<'a, S> {
 
 /// The first difference of two values, in order of reading.
 enum Difference<'a, S: Scalar> {
-    /// Two values at the same place; at least one has no parts, or they are of different kinds.
+    /// Two values at the same place: at least one has no parts, or they are of different kinds.
     Values(&'a Value<S>, &'a Value<S>),
     /// One sequence is the beginning of the other.
     Lengths(usize, usize),
 }
 
-/// Two values visited in lockstep, and the next place.
+/// Two values visited in lockstep, and the next place to visit.
 struct Lockstep<'a, S: Scalar> {
     sides: Sides<'a, S>,
     next: usize,
@@ -186,12 +188,12 @@ struct Lockstep<'a, S: Scalar> {
 #[derive(Clone, Copy)]
 enum Sides<'a, S: Scalar> {
     InOrder(Items<'a, S>, Items<'a, S>),
-    /// The order of keys is not part of a dictionary's value.
+    /// Values of equal keys: the order of keys is not part of a dictionary's value.
     ByKey(&'a Dict<S>, &'a Dict<S>),
 }
 
 impl<'a, S: Scalar> Sides<'a, S> {
-    /// How to visit two values of kinds that are compared inside; `None` when they differ already.
+    /// The way to visit two values whose parts are compared; `None` when they differ already.
     fn of(a: &'a Value<S>, b: &'a Value<S>) -> Option<Sides<'a, S>> {
         match (a, b) {
             (Value::Dict(a), Value::Dict(b)) => (a.len() == b.len()).then_some(Sides::ByKey(a, b)),
@@ -234,10 +236,10 @@ fn first_difference<'a, S: Scalar>(
             _ => return Ok(Some(Difference::Lengths(lengths.0, lengths.1))),
         }
     }
-    Err(Fault::step_budget("this comparison looks at more than 67108864 elements"))
+    Err(Fault::step_budget("this comparison visits more than 67108864 elements"))
 }
 
-/// A hash that equal keys share: `1`, `1.0` and `True` are one key, as in Python.
+/// A hash that is the same for equal keys: `1`, `1.0` and `True` are one key, as in Python.
 pub fn hash<S: Scalar>(value: &Value<S>) -> u64 {
     const PRIME: u64 = 0x9E37_79B9_7F4A_7C15;
     let mut state: u64 = 0;
@@ -269,10 +271,10 @@ pub fn hash<S: Scalar>(value: &Value<S>) -> u64 {
 }
 
 impl<S: Scalar> Value<S> {
-    /// Refuses what cannot be the key of a query.
+    /// Returns a fault if the value cannot be the key of a query.
     ///
     /// # Errors
-    /// A list, a dict, a shape, a function or a distribution, or a tuple or record that holds one.
+    /// The value is a list, a dict, a shape, a function or a distribution, or a tuple or record that holds one.
     pub fn refuse_as_key(&self) -> Result<(), Fault> {
         let mut work = vec![self];
         while let Some(value) = work.pop() {
@@ -289,7 +291,7 @@ impl<S: Scalar> Value<S> {
     }
 }
 
-/// Python's `==`, for tests and tables; values count as different beyond the budget of a comparison.
+/// Python's `==`, for tests and tables. Values count as different beyond the budget of a comparison.
 impl<S: Scalar> PartialEq for Value<S> {
     fn eq(&self, other: &Value<S>) -> bool {
         equal(self, other).unwrap_or(false)

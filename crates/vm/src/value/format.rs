@@ -8,7 +8,7 @@ use super::print;
 use super::{Scalar, Value};
 use crate::fault::Fault;
 
-/// A specification taken apart.
+/// The parts of a specification.
 #[derive(Debug, PartialEq)]
 struct Spec {
     fill: Option<char>,
@@ -18,7 +18,7 @@ struct Spec {
     sign: Option<char>,
     width: usize,
     grouped: bool,
-    /// The alignment comes from a leading zero, which text takes as `<`.
+    /// Whether the alignment comes from a leading zero, which text takes as `<`.
     zero: bool,
     precision: Option<usize>,
     kind: Option<char>,
@@ -67,7 +67,7 @@ impl Spec {
         rest.is_empty().then_some(spec)
     }
 
-    /// Puts sign, digits and what follows together and fills up to the width.
+    /// Joins the sign and the body, and fills up to the width.
     fn layout(&self, sign: &str, body: &str, default: char) -> String {
         let used = sign.chars().count() + body.chars().count();
         let fill = |n: usize| self.fill.unwrap_or(' ').to_string().repeat(n);
@@ -80,7 +80,7 @@ impl Spec {
         }
     }
 
-    /// A number's text: its sign as specified, thousands grouped, zeros filled in groups as well.
+    /// The text of a number: its sign as specified, thousands grouped, and zeros filled in by groups as well.
     fn number(&self, negative: bool, digits: &str) -> String {
         let sign = match (negative, self.sign) {
             (true, _) => "-",
@@ -103,7 +103,8 @@ impl Spec {
     }
 }
 
-/// A run of decimal digits: `None` inside when there is none, outside when it is too large.
+/// Reads a sequence of decimal digits. The inner `None` means that there is none, the outer that the number is
+/// too large.
 fn number(rest: &mut Vec<char>) -> Option<Option<usize>> {
     let mut number: Option<usize> = None;
     while let Some(digit) = rest.last().and_then(|c| c.to_digit(10)) {
@@ -167,7 +168,7 @@ pub fn format<S: Scalar>(value: &Value<S>, spec: &str) -> Result<String, Fault> 
     }
 }
 
-/// The digits of a number that is not negative, in the style of a specification.
+/// The digits of a non-negative number, in the style of a specification.
 fn real_digits(x: f64, spec: &Spec) -> Option<String> {
     let percent = if spec.kind == Some('%') { "%" } else { "" };
     if let Some('d' | 'x') = spec.kind {
@@ -195,13 +196,14 @@ fn exponent(text: &str) -> String {
     format!("{digits}e{}{:02}", if power < 0 { '-' } else { '+' }, power.abs())
 }
 
-/// `g`: so many significant digits, trailing zeros removed, an exponent for very small and large numbers. Without a
-/// type letter at least one digit stays behind the point.
+/// The style `g`: `precision` significant digits, trailing zeros removed, and an exponent for very small and
+/// very large numbers. With `keep_point` (no type letter) at least one digit stays behind the point.
 fn general(x: f64, precision: usize, keep_point: bool) -> String {
     let precision = precision.max(1);
     let scientific = format!("{x:.*e}", precision - 1);
     let power: i32 = scientific.split_once('e').and_then(|(_, power)| power.parse().ok()).unwrap_or(0);
-    // Without a letter one digit stays behind the point, so a number that fills the precision takes an exponent.
+    // With `keep_point` one digit stays behind the point, so a number that fills the precision takes an
+    // exponent.
     let limit = precision as i32 - i32::from(keep_point);
     if power < -4 || power >= limit.max(i32::from(!keep_point)) {
         let (digits, power) = scientific.split_once('e').unwrap_or((&scientific, "0"));
@@ -226,7 +228,7 @@ mod tests {
 
     /// Expected texts were checked against CPython 3.11.
     #[test]
-    fn numbers_and_text_are_laid_out_as_pythons() {
+    fn numbers_and_text_have_pythons_layout() {
         let cases: Vec<(V, &str, &str)> = vec![
             (V::real(3.14211), ".2f", "3.14"),
             (V::real(2.5), ".0f", "2"),
@@ -274,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_refused() {
+    fn a_format_that_does_not_fit_the_value_is_refused() {
         for (value, spec) in [
             (V::str("a"), "d"),
             (V::str("a"), "-5"),

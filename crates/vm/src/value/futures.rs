@@ -1,20 +1,21 @@
-//! Futures inside values. A model may pass a future on, and only `force` reads it: before that it may have no value.
-//! Results of the model contain the value.
+//! Futures inside of values. A model may pass a future on, but only `force` reads it: before that it may have
+//! no value. Results of the model contain the value.
 
 use super::{Closure, Dict, List, Record, Scalar, Value};
 use crate::fault::Fault;
 use std::sync::Arc;
 
-/// The next steps: visit a value, or build one from parts that are ready.
+/// The next step: visit a value, or build one from parts that are ready.
 enum Work<S: Scalar> {
     Look(Value<S>),
-    /// A value like this one, of so many parts.
+    /// Build a value like this one from the last parts; the number of parts.
     Build(Value<S>, usize),
     /// The value visited last replaces a handle.
     Changed,
 }
 
-/// Values that one search for a future may visit: a value that shares parts of itself could hold far more.
+/// The most values that one search for a future may visit: a value that shares parts of itself could hold far
+/// more.
 const BUDGET: usize = 1 << 26;
 
 impl<S: Scalar> Value<S> {
@@ -23,49 +24,50 @@ impl<S: Scalar> Value<S> {
         Value::Returned(vec![value].into())
     }
 
-    /// Whether it is a future.
+    /// Whether the value is a future.
     #[inline(always)]
     pub fn is_future(&self) -> bool {
         matches!(self, Value::Future(_) | Value::Returned(_))
     }
 
-    /// Whether it is a future or holds one, at any depth.
+    /// Whether the value is a future or holds one, at any depth.
     pub fn holds_future(&self) -> bool {
         let (mut work, mut visited) = (Vec::new(), 0);
         let mut next = Some(self);
         while let Some(value) = next {
             visited += 1;
-            let found = value.is_future()
+            let holds = value.is_future()
                 || any_part(value, &mut |part| {
                     if part.holds_values() {
                         work.push(part);
                     }
                     part.is_future()
                 });
-            if found || visited > BUDGET {
-                return found;
+            if holds || visited > BUDGET {
+                return holds;
             }
             next = work.pop();
         }
         false
     }
 
-    /// Accepts a value that is no future and holds none.
+    /// Returns a fault if the value is a future or holds one.
     ///
     /// # Errors
-    /// The future is not forced; `done` names the operation that is not possible.
+    /// The future is not forced; `operation` names the operation that is not possible.
     #[inline]
-    pub fn refuse_futures(&self, done: &str) -> Result<(), Fault> {
+    pub fn refuse_futures(&self, operation: &str) -> Result<(), Fault> {
         if (self.is_future() || self.holds_values()) && self.holds_future() {
-            return Err(Fault::not_forced(format!("a future cannot be {done}")));
+            return Err(Fault::not_forced(format!("a future cannot be {operation}")));
         }
         Ok(())
     }
 
-    /// A memoised function belongs to one run: it cannot be given to what runs outside of it.
+    /// Returns a fault if the value is or holds a memoised function: such a function belongs to one run and
+    /// cannot leave it.
     ///
     /// # Errors
-    /// The value is one, or holds one.
+    /// The value is a memoised function, or holds one.
     pub fn refuse_memoised(&self) -> Result<(), Fault> {
         let mut work = if self.holds_values() { vec![self.clone()] } else { vec![] };
         while let Some(value) = work.pop() {
@@ -83,9 +85,9 @@ impl<S: Scalar> Value<S> {
         Ok(())
     }
 
-    /// The value with each future that has returned, or that `known` has a value for, replaced by its value, at any
-    /// depth. What holds no such handle stays the same in memory, so that identity keeps its short-cuts.
-    pub fn replace_futures(&self, known: &dyn Fn(u32) -> Option<Value<S>>) -> Value<S> {
+    /// Replaces each future that has returned, or for which `known` has a value, by its value, at any depth. A
+    /// value without such a handle stays the same object in memory, so that tests of identity stay fast.
+    pub fn replace_futures(&self, value_of: &dyn Fn(u32) -> Option<Value<S>>) -> Value<S> {
         if !self.holds_future() {
             return self.clone();
         }
@@ -94,8 +96,8 @@ impl<S: Scalar> Value<S> {
         let mut done: Vec<(Value<S>, bool)> = Vec::new();
         while let Some(next) = work.pop() {
             match next {
-                Work::Look(Value::Future(id)) => match known(id) {
-                    // What a future returned may hold futures in turn, never itself.
+                Work::Look(Value::Future(id)) => match value_of(id) {
+                    // The value of a future may hold other futures, but never the future itself.
                     Some(value) => work.extend([Work::Changed, Work::Look(value)]),
                     None => done.push((Value::Future(id), false)),
                 },
@@ -131,12 +133,12 @@ impl<S: Scalar> Value<S> {
     }
 }
 
-/// False when none of a value's own parts is a handle or holds values: one scan avoids the copy of most lists.
+/// False when no direct part of a value is a handle or holds values: one scan avoids a copy of most lists.
 fn may_hold_futures<S: Scalar>(value: &Value<S>) -> bool {
     any_part(value, &mut |part| part.holds_values() || part.is_future())
 }
 
-/// Whether one of the values that a value holds passes the test; those before it are tested, too.
+/// Whether one of the direct parts of a value passes the test; the parts before it are tested as well.
 fn any_part<'v, S: Scalar>(value: &'v Value<S>, test: &mut dyn FnMut(&'v Value<S>) -> bool) -> bool {
     match value {
         Value::Tuple(tuple) => tuple.items().iter().any(test),
@@ -148,7 +150,7 @@ fn any_part<'v, S: Scalar>(value: &'v Value<S>, test: &mut dyn FnMut(&'v Value<S
     }
 }
 
-/// The values that a value holds.
+/// The direct parts of a value.
 fn parts<S: Scalar>(value: &Value<S>) -> Vec<Value<S>> {
     match value {
         Value::Tuple(tuple) => tuple.items().to_vec(),
@@ -160,7 +162,7 @@ fn parts<S: Scalar>(value: &Value<S>) -> Vec<Value<S>> {
     }
 }
 
-/// A value like that one, of those parts.
+/// A value of the same kind as `like` with the given parts.
 fn rebuild<S: Scalar>(like: &Value<S>, parts: Vec<Value<S>>) -> Value<S> {
     match like {
         Value::Tuple(_) => Value::tuple(parts),
@@ -184,12 +186,12 @@ mod tests {
         let inner = Value::list(vec![Value::Future(1), Value::returned(untouched.clone())]);
         let value = Value::tuple(vec![inner, untouched.clone(), Value::Future(7)]);
         // Future 1 returned a pair that holds future 2.
-        let known = |id| match id {
+        let value_of = |id| match id {
             1 => Some(Value::tuple(vec![Value::Future(2), Value::returned(Value::Int(5))])),
             2 => Some(Value::str("done")),
             _ => None,
         };
-        let replaced = value.replace_futures(&known);
+        let replaced = value.replace_futures(&value_of);
         let Value::Tuple(parts) = &replaced else { panic!("a tuple") };
         assert!(matches!((&parts.items()[1], &untouched), (Value::List(a), Value::List(b)) if a.ptr_eq(b)));
         assert!(value.holds_future() && !untouched.holds_future());
@@ -200,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_of_a_million_around_a_handle() {
+    fn a_chain_of_a_million_around_a_handle_is_replaced() {
         let chain = (0..1_000_000).fold(Value::<f64>::Future(0), |inner, _| Value::tuple(vec![inner]));
         let expected = (0..1_000_000).fold(Value::Int(3), |inner, _| Value::tuple(vec![inner]));
         assert!(chain.replace_futures(&|_| Some(Value::Int(3))) == expected);

@@ -1,6 +1,6 @@
 //! Elements of values: `x[i]`, `x[a:b:c]`, `x in xs`, `len`, and iteration.
 //!
-//! A named tuple is indexed as a tuple; a dictionary by key, and a loop visits its keys.
+//! A named tuple is indexed like a tuple. A dictionary is indexed by key, and a loop visits its keys.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::numbers::Number;
 use super::{ClassKind, List, Range, Scalar, Text, Value, equal, print};
 use crate::fault::Fault;
 
-/// The fields of a record that is a tuple too.
+/// The fields of a record that is also a tuple.
 fn as_tuple<S: Scalar>(value: &Value<S>) -> Option<&[Value<S>]> {
     match value {
         Value::Tuple(tuple) => Some(tuple.items()),
@@ -17,12 +17,12 @@ fn as_tuple<S: Scalar>(value: &Value<S>) -> Option<&[Value<S>]> {
     }
 }
 
-/// Number of elements that a loop over this value visits; a fault when it cannot be looped over.
+/// The number of elements that a loop over this value visits; a fault when it cannot be looped over.
 #[inline]
 pub fn iter_len<S: Scalar>(value: &Value<S>) -> Result<usize, Fault> {
     length(value).ok_or_else(|| {
         let fault =
-            Fault::type_mismatch(format!("cannot go through {}: it has no elements", value.described()));
+            Fault::type_mismatch(format!("cannot loop over {}: it has no elements", value.described()));
         match value {
             Value::Int(_) => fault.with_help("write `range(n)` to count"),
             _ => fault,
@@ -47,7 +47,7 @@ pub fn iter_get<S: Scalar>(value: &Value<S>, at: usize) -> Value<S> {
     }
 }
 
-/// `value[at]` without a copy, for a list or tuple and a whole number within it.
+/// `value[at]` without a copy, for a list or tuple and an integer position within it.
 #[inline(always)]
 pub fn index_ref<'a, S: Scalar>(value: &'a Value<S>, at: &Value<S>) -> Option<&'a Value<S>> {
     let Value::Int(at) = *at else { return None };
@@ -107,18 +107,18 @@ pub fn index<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, Fau
     };
     match item {
         Some(item) => Ok(item.clone()),
-        None => index_others(value, at),
+        None => index_slow(value, at),
     }
 }
 
-/// A position from the front, for one that may count from the back; `None` outside.
+/// Converts a position that may count from the back to a position from the front; `None` outside.
 #[inline]
 fn place(n: i64, len: usize) -> Option<usize> {
     let at = if n < 0 { n.checked_add(i64::try_from(len).ok()?)? } else { n };
     usize::try_from(at).ok().filter(|at| *at < len)
 }
 
-fn index_others<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, Fault> {
+fn index_slow<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, Fault> {
     if let Value::Dict(dict) = value {
         return dict.get(at).cloned().ok_or_else(|| missing_key(at));
     }
@@ -146,15 +146,15 @@ fn index_others<S: Scalar>(value: &Value<S>, at: &Value<S>) -> Result<Value<S>, 
     Ok(iter_get(value, at))
 }
 
-/// The fault of a key that a dictionary does not have.
+/// The fault for a key that a dictionary does not have.
 #[cold]
 pub fn missing_key<S: Scalar>(key: &Value<S>) -> Fault {
     let shown = print::repr(key).unwrap_or_else(|_| key.described());
     Fault::missing_key(format!("the dict has no key {shown}"))
-        .with_help("`d.get(key, default)` answers for every key")
+        .with_help("`d.get(key, default)` returns the default for a missing key")
 }
 
-/// How many elements `x[lo:hi:step]` has, where it makes a value of them.
+/// The number of elements of `x[lo:hi:step]`, if the slice builds a new value of them.
 pub fn slice_len<S: Scalar>(
     value: &Value<S>,
     lo: &Value<S>,
@@ -199,13 +199,13 @@ pub fn slice<S: Scalar>(
             let chars: Vec<char> = text.chars().collect();
             Value::Str(Text::from(places().map(|at| chars[at]).collect::<String>()))
         }
-        Value::Range(own) => {
-            let at = |n: i64| own.start.wrapping_add(own.step.wrapping_mul(n));
+        Value::Range(range_) => {
+            let at = |n: i64| range_.start.wrapping_add(range_.step.wrapping_mul(n));
             let stop = range.start.saturating_add(range.step.saturating_mul(range.len as i64));
             let part = Range {
                 start: at(range.start),
                 stop: at(stop),
-                step: own.step.saturating_mul(range.step),
+                step: range_.step.saturating_mul(range.step),
                 len: range.len,
             };
             Value::Range(Arc::new(part))
@@ -216,7 +216,7 @@ pub fn slice<S: Scalar>(
 
 /// The positions that a slice selects, as a range inside `0..len`.
 fn bounds<S: Scalar>(len: usize, lo: &Value<S>, hi: &Value<S>, step: &Value<S>) -> Result<Range, Fault> {
-    let given = |value: &Value<S>| match (value, Number::of(value)) {
+    let bound = |value: &Value<S>| match (value, Number::of(value)) {
         (Value::None, _) => Ok(None),
         (_, Some(Number::Int(n))) => Ok(Some(n)),
         _ => Err(Fault::type_mismatch(format!(
@@ -224,17 +224,17 @@ fn bounds<S: Scalar>(len: usize, lo: &Value<S>, hi: &Value<S>, step: &Value<S>) 
             value.described()
         ))),
     };
-    let step = given(step)?.unwrap_or(1);
+    let step = bound(step)?.unwrap_or(1);
     if step == 0 {
         return Err(Fault::bad_argument("the step of a slice cannot be zero"));
     }
     let len = len as i64;
-    // Going backwards, the first position is the last element and the end is before the first.
+    // Backwards, the first position is the last element, and the end is before the first.
     let (low, high) = if step > 0 { (0, len) } else { (-1, len - 1) };
     let clamp = |n: i64| (if n < 0 { n.saturating_add(len) } else { n }).clamp(low, high);
     let (start, stop) = if step > 0 { (low, high) } else { (high, low) };
-    let start = given(lo)?.map_or(start, clamp);
-    let stop = given(hi)?.map_or(stop, clamp);
+    let start = bound(lo)?.map_or(start, clamp);
+    let stop = bound(hi)?.map_or(stop, clamp);
     Range::new(start, stop, step).ok_or_else(|| Fault::bad_argument("the slice is out of range"))
 }
 
@@ -244,8 +244,8 @@ pub fn contains<S: Scalar>(value: &Value<S>, item: &Value<S>) -> Result<bool, Fa
     match (value, item) {
         (Value::List(list), _) => {
             value.refuse_futures("compared")?;
-            for own in list.iter() {
-                if equal(own, item)? {
+            for element in list.iter() {
+                if equal(element, item)? {
                     return Ok(true);
                 }
             }
@@ -281,12 +281,12 @@ pub fn contains<S: Scalar>(value: &Value<S>, item: &Value<S>) -> Result<bool, Fa
 
 /// `value.name`: a record's field or a vector's component.
 pub fn field<S: Scalar>(value: &Value<S>, name: &str) -> Result<Value<S>, Fault> {
-    let found = match value {
+    let part = match value {
         Value::Record(record) => record.field(name).cloned(),
         Value::Vector(v) => v.field(name).map(Value::Real),
         _ => None,
     };
-    found.ok_or_else(|| no_field(value, name))
+    part.ok_or_else(|| no_field(value, name))
 }
 
 #[cold]
@@ -297,30 +297,31 @@ fn no_field<S: Scalar>(value: &Value<S>, name: &str) -> Fault {
         Value::Vector(v) => ["x", "y", "z", "w"][..v.components().len()].join(", "),
         _ => String::new(),
     };
-    if has.is_empty() { fault } else { fault.with_help(format!("it has {has}")) }
+    if has.is_empty() { fault } else { fault.with_help(format!("its fields are: {has}")) }
 }
 
 #[cold]
-fn wrong_count(found: usize, expected: &str) -> Fault {
-    let s = if found == 1 { "" } else { "s" };
-    Fault::unpack_length(format!("cannot unpack {found} element{s} into {expected}"))
+fn wrong_count(count: usize, expected: &str) -> Fault {
+    let s = if count == 1 { "" } else { "s" };
+    Fault::unpack_length(format!("cannot unpack {count} element{s} into {expected}"))
 }
 
 /// The elements of `a, b, c = value`, exactly `count` of them.
 pub fn unpack<S: Scalar>(value: &Value<S>, count: usize) -> Result<Vec<Value<S>>, Fault> {
-    let found = iter_len(value)?;
-    if found != count {
+    let len = iter_len(value)?;
+    if len != count {
         let s = if count == 1 { "" } else { "s" };
-        return Err(wrong_count(found, &format!("{count} name{s}")));
+        return Err(wrong_count(len, &format!("{count} name{s}")));
     }
     iter_all(value)
 }
 
-/// The elements of `a, *rest, c = value`: the first `before`, the rest as a list, the last `after`.
+/// The elements of `a, *rest, c = value`: the first `before` elements, the rest as a list, and the last `after`
+/// elements.
 pub fn unpack_star<S: Scalar>(value: &Value<S>, before: usize, after: usize) -> Result<Vec<Value<S>>, Fault> {
     let mut items = iter_all(value)?;
     if items.len() < before + after {
-        return Err(wrong_count(items.len(), &format!("{} names and a starred one", before + after)));
+        return Err(wrong_count(items.len(), &format!("{} names and a starred name", before + after)));
     }
     let last = items.split_off(items.len() - after);
     let rest = items.split_off(before);
@@ -394,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn membership_asks_for_equality() {
+    fn membership_compares_by_equality() {
         let list = V::list(ints([1, 2]));
         assert_eq!(contains(&list, &V::real(2.0)), Ok(true));
         assert_eq!(contains(&V::str("house"), &V::str("us")), Ok(true));

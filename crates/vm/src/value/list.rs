@@ -1,4 +1,4 @@
-//! Lists: a persistent vector, as a trie of 32 children a node with a tail.
+//! Lists: persistent vectors, each a trie with 32 children per node and a tail.
 //!
 //! ```text
 //!   body: len 70, tail [64..70)        Elements are added to the tail; a full tail becomes a leaf. A list of up
@@ -6,9 +6,9 @@
 //!            +-- leaf [32..64)         element touch one node on each level, copied only where shared.
 //! ```
 //!
-//! Appending costs O(1) on average and writes in place when the list is not shared. [`List::diff`] finds what differs
-//! between two versions by skipping the nodes that they share, which is how a changed element of a long list wakes
-//! only its readers (no persistent vector in the package index can do this).
+//! Appending costs O(1) on average and writes in place when the list is not shared. [`List::diff`] finds the
+//! differences of two versions and skips the nodes that they share. So a changed element of a long list wakes
+//! only the readers of that element (no persistent vector in the package index can do this).
 //!
 //! Source: Bagwell's array mapped tries as in Clojure's vectors; the node width is measured, not derived.
 
@@ -30,10 +30,10 @@ pub struct List<S: Scalar = f64>(Arc<Body<S>>);
 #[derive(Clone)]
 struct Body<S: Scalar> {
     len: usize,
-    /// Bits of the position that the levels below the root decide: 0 when the root is a leaf.
+    /// The bits of a position that the levels below the root use: 0 when the root is a leaf.
     shift: u32,
     root: Option<Arc<Node<S>>>,
-    /// The last 0 to 32 elements (at least one in a list that is not empty).
+    /// The last 0 to 32 elements (at least one element in a list that is not empty).
     tail: Vec<Value<S>>,
 }
 
@@ -65,7 +65,7 @@ impl<S: Scalar> Body<S> {
         self.len - self.tail.len()
     }
 
-    /// Hangs a full leaf under the root. `start` is how many elements the trie held before.
+    /// Adds a full leaf below the root. `start` is the number of elements that the trie held before.
     fn push_leaf(&mut self, start: usize, leaf: Arc<Node<S>>) {
         let Some(root) = &mut self.root else {
             self.root = Some(leaf);
@@ -122,7 +122,7 @@ impl<S: Scalar> List<S> {
         List(Arc::new(body))
     }
 
-    /// The list so many times over; the elements are not stored anywhere else meanwhile.
+    /// Repeats the list `times` times, without a second copy of the elements meanwhile.
     pub fn repeated(&self, times: usize) -> List<S> {
         let mut body = Body { len: 0, shift: 0, root: None, tail: Vec::new() };
         let total = self.len() * times;
@@ -147,7 +147,7 @@ impl<S: Scalar> List<S> {
         self.0.len
     }
 
-    /// True without elements.
+    /// True for a list without elements.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.0.len == 0
@@ -169,7 +169,7 @@ impl<S: Scalar> List<S> {
     #[inline]
     pub fn get(&self, at: usize) -> Option<&Value<S>> {
         let start = self.0.tail_start();
-        // Most lists are this short.
+        // Most lists are so short that they have only a tail.
         if at >= start { self.0.tail.get(at - start) } else { self.chunk(at).first() }
     }
 
@@ -196,7 +196,7 @@ impl<S: Scalar> List<S> {
         Iter { list: self, chunk: self.chunk(0).iter(), next: self.chunk(0).len() }
     }
 
-    /// Adds an element at the end: in place when this is the only owner, else on a copy of the tail.
+    /// Adds an element at the end: in place when the list has one owner, else on a copy of the tail.
     pub fn append(&mut self, item: Value<S>) {
         let body = Arc::make_mut(&mut self.0);
         if body.tail.len() == WIDTH {
@@ -208,7 +208,7 @@ impl<S: Scalar> List<S> {
         body.len += 1;
     }
 
-    /// Replaces the element at a position; `false` when there is none.
+    /// Replaces the element at a position; `false` when there is no such position.
     pub fn set(&mut self, at: usize, item: Value<S>) -> bool {
         if at >= self.0.len {
             return false;
@@ -246,8 +246,8 @@ impl<S: Scalar> List<S> {
         }
     }
 
-    /// Calls `visit` with the position and both elements wherever two versions may differ: in the common
-    /// length, skipping all that they share in memory. Stops when `visit` breaks.
+    /// Calls `visit` with the position and both elements wherever two versions may differ: within the common
+    /// length, skipping the nodes that they share in memory. Stops when `visit` breaks.
     pub fn visit_unshared<'a, B>(
         old: &'a List<S>,
         new: &'a List<S>,
@@ -259,7 +259,7 @@ impl<S: Scalar> List<S> {
         let in_both = old.0.tail_start().min(new.0.tail_start());
         if let (true, Some(a), Some(b)) = (in_both > 0, &old.0.root, &new.0.root) {
             let (mut a, mut b) = (a, b);
-            // The first child of a higher trie covers all that a lower one can hold.
+            // The first child of the higher trie covers all elements that the lower trie can hold.
             for _ in (old.0.shift.min(new.0.shift)..old.0.shift).step_by(BITS as usize) {
                 a = first_child(a);
             }
@@ -268,7 +268,7 @@ impl<S: Scalar> List<S> {
             }
             visit_nodes(a, b, old.0.shift.min(new.0.shift), 0, visit)?;
         }
-        // What is left is the tail of one of them, 32 elements at most, against the tail or a leaf of the other.
+        // The rest is the tail of one list, 32 elements at most, against the tail or a leaf of the other.
         for at in in_both..old.len().min(new.len()) {
             if let (Some(a), Some(b)) = (old.get(at), new.get(at)) {
                 visit(at, a, b)?;
@@ -277,11 +277,11 @@ impl<S: Scalar> List<S> {
         ControlFlow::Continue(())
     }
 
-    /// Counts what the list takes; versions of it share nodes.
+    /// Counts the memory that the list takes; versions of a list share nodes.
     pub(super) fn count<'v>(&'v self, census: &mut Census<'v, S>) {
         if census.add_shared(&self.0) {
             let tail = &self.0.tail;
-            // A tail that grew in place has room for more, a copy of it has not: the same for both.
+            // A tail that grew in place has room for more, but a copy of it has not: both count alike.
             let room = if tail.is_empty() { 0 } else { tail.len().next_power_of_two().max(4) };
             census.add_items(tail, room);
             if let Some(root) = &self.0.root {
@@ -290,7 +290,8 @@ impl<S: Scalar> List<S> {
         }
     }
 
-    /// The list is not to be counted, nor what a version of it shares with it: the upper levels are enough for that.
+    /// Excludes the list, and the nodes that a version of it shares, from the count: the upper levels suffice
+    /// for that.
     pub(super) fn leave_out(&self, census: &mut Census<'_, S>) {
         census.note(self.address());
         let Some(root) = &self.0.root else { return };
@@ -306,7 +307,7 @@ impl<S: Scalar> List<S> {
         Arc::strong_count(&self.0) == 1
     }
 
-    /// Moves the elements that are dropped with this list to the work list.
+    /// Moves the elements that would be dropped with this list to the work list.
     pub(super) fn gather(self, work: &mut Vec<Value<S>>) {
         if let Some(mut body) = Arc::into_inner(self.0) {
             release::gather(&mut body.tail, work);
@@ -317,15 +318,15 @@ impl<S: Scalar> List<S> {
     }
 }
 
-/// Bytes of a list of so many elements, or a little more, without what the elements hold.
+/// Bytes of a list of `len` elements, or a little more, without the data behind the elements.
 pub(super) fn bytes_of<S: Scalar>(len: usize) -> usize {
     let leaf = shared::<Node<S>>() + WIDTH * size_of::<Value<S>>();
-    // A leaf takes a place in a branch, and a branch one in thirty-two of that.
+    // A leaf takes a place in a branch, and a branch takes one thirty-second of a place in a higher branch.
     let leaves = len / WIDTH * (leaf + 2 * size_of::<usize>());
     shared::<Body<S>>() + leaves + (len % WIDTH).next_power_of_two() * size_of::<Value<S>>()
 }
 
-/// The recursion is as deep as the trie, six levels at most.
+/// Counts a subtree; the recursion is as deep as the trie, six levels at most.
 fn count_node<'v, S: Scalar>(node: &'v Arc<Node<S>>, census: &mut Census<'v, S>) {
     if census.add_shared(node) {
         match &**node {
@@ -338,7 +339,7 @@ fn count_node<'v, S: Scalar>(node: &'v Arc<Node<S>>, census: &mut Census<'v, S>)
     }
 }
 
-/// Frees a subtree that has one owner; the recursion is as deep as the trie, six levels at most.
+/// Frees a subtree with one owner; the recursion is as deep as the trie, six levels at most.
 fn gather_node<S: Scalar>(node: Arc<Node<S>>, work: &mut Vec<Value<S>>) {
     if let Some(mut node) = Arc::into_inner(node) {
         match &mut node {
@@ -485,7 +486,7 @@ mod tests {
     }
 
     #[test]
-    fn diff_finds_what_changed_whatever_the_two_lengths() {
+    fn diff_finds_all_changes_for_any_two_lengths() {
         let mut dice = Dice(3);
         for _ in 0..300 {
             let n = 1 + dice.roll(2500);

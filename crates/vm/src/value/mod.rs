@@ -1,13 +1,14 @@
 //! Values: the contents of registers.
 //!
-//! A value is 16 bytes: a tag and either the number itself or one thin pointer to something shared that never changes.
-//! The kinds are in `variants`. [`List`] is a persistent trie of our own ([`list`]); tuples, records, dictionaries and closures
-//! are flat.
-//! Nothing in this module recurses on the host stack: dropping (`release`), identity (`same`), Python's
-//! `==` and `<` ([`compare`]), hashing and printing (`print`) all keep their own stack, so a chain of a million
-//! nested tuples is an ordinary value (a plain drop of such a chain overflows).
+//! A value has 16 bytes: a tag, and either the number itself or one thin pointer to shared data that never
+//! changes. The kinds are in `variants`. [`List`] is a persistent trie of our own ([`list`]); tuples, records,
+//! dictionaries and closures are flat.
 //!
-//! The scalar type is a parameter: `f64` when a model runs, a recording scalar when its gradient is wanted.
+//! Nothing in this module recurses on the host stack. Dropping (`release`), identity of bits ([`identity`]),
+//! Python's `==` and `<` ([`compare`]), hashing and printing (`print`) all keep a stack of their own. So a
+//! chain of a million nested tuples is an ordinary value (a plain drop of such a chain overflows the stack).
+//!
+//! The scalar type is a parameter: `f64` when a model runs, a recording scalar when its gradient is needed.
 
 pub mod aggregate;
 mod blocks;
@@ -15,25 +16,25 @@ pub mod census;
 pub mod compare;
 pub mod format;
 mod futures;
+pub mod identity;
 pub mod index;
 pub mod list;
 pub mod numbers;
 pub mod ops;
 pub mod print;
 mod release;
-pub mod same;
 pub mod text;
 mod variants;
 
 pub use aggregate::{Class, ClassKind, Closure, Dict, Memo, Range, Record, Tuple, Vector};
 pub use census::Census;
 pub use compare::{equal, hash, order};
+pub use identity::identical;
 pub use index::{iter_get, iter_len};
 pub use list::List;
 pub use niwaki_geom::Shape;
 pub use niwaki_math::{Dist, Draw, Family, Param, Scalar};
 pub use print::{repr, str_of};
-pub use same::same;
 pub use text::Text;
 pub use variants::{Cell, MAX_ELEMENTS, Value};
 

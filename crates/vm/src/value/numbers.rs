@@ -9,7 +9,7 @@ use std::any::TypeId;
 use super::{Scalar, Value};
 use crate::fault::Fault;
 
-/// A value that is a number: what int, bool and float have in common.
+/// A number in a value: an int, a bool or a float.
 #[derive(Clone, Copy, Debug)]
 pub enum Number<S> {
     /// int or bool.
@@ -40,16 +40,16 @@ impl<S: Scalar> Number<S> {
     }
 }
 
-/// The exact `f64` result where the scalar is an `f64`; elsewhere the same result by smooth arithmetic, so that a
-/// recording scalar records how it depends on its inputs.
+/// The exact `f64` result if the scalar is an `f64`; otherwise the result by smooth arithmetic, so that a
+/// recording scalar records its dependence on the inputs.
 #[inline]
 pub fn exact_or<S: Scalar>(exact: f64, smooth: impl FnOnce() -> S) -> S {
     if TypeId::of::<S>() == TypeId::of::<f64>() { S::from_f64(exact) } else { smooth() }
 }
 
 #[cold]
-fn by_zero(what: &str) -> Fault {
-    Fault::division_by_zero(format!("{what} by zero"))
+fn by_zero(operation: &str) -> Fault {
+    Fault::division_by_zero(format!("{operation} by zero"))
 }
 
 #[cold]
@@ -68,7 +68,8 @@ pub fn divide_ints(a: i64, b: i64) -> Result<f64, Fault> {
     if up <= EXACT && down <= EXACT {
         return Ok(a as f64 / b as f64);
     }
-    // 63 bits or more of the quotient, with what is left in the last bit, round as the true quotient does.
+    // The first 63 bits or more of the quotient round as the true quotient does, if the last bit says whether
+    // there is a remainder.
     let shift = u128::from(up).leading_zeros() - 1;
     let scaled = u128::from(up) << shift;
     let rest = u128::from(scaled % u128::from(down) != 0);
@@ -106,7 +107,7 @@ pub fn divide_reals<S: Scalar>(a: S, b: S) -> Result<S, Fault> {
     Ok(a / b)
 }
 
-/// Quotient and remainder of reals, rounded towards minus infinity.
+/// Quotient and remainder of reals; the quotient is rounded towards minus infinity.
 fn floor_parts(a: f64, b: f64) -> (f64, f64) {
     let mut rest = a % b;
     let mut quotient = (a - rest) / b;
@@ -123,7 +124,7 @@ fn floor_parts(a: f64, b: f64) -> (f64, f64) {
     (if quotient - floor > 0.5 { floor + 1.0 } else { floor }, rest)
 }
 
-/// Notes that the run uses a value that holds only while `lo <= x < hi`, such as a whole part. A recording
+/// Records that the run uses a value that is valid only while `lo <= x < hi`, such as a whole part. A recording
 /// scalar records a guard; a plain number does nothing.
 #[inline(always)]
 pub fn pin<S: Scalar>(x: S, lo: f64, hi: f64) {
@@ -183,9 +184,9 @@ pub fn pow_reals<S: Scalar>(base: S, exponent: S) -> Result<S, Fault> {
     Ok(power)
 }
 
-/// `int(x)` and the like: a whole real as an int.
+/// Converts a whole real to an int, for `int(x)` and similar functions.
 pub fn to_int(x: f64) -> Result<i64, Fault> {
-    // Both ends are exact floats; the upper one is excluded because i64::MAX is not.
+    // Both bounds are exact floats; the upper bound is excluded because `i64::MAX` is not a float.
     if (-9_223_372_036_854_775_808.0..9_223_372_036_854_775_808.0).contains(&x) {
         return Ok(x as i64);
     }
@@ -199,8 +200,8 @@ pub fn to_int(x: f64) -> Result<i64, Fault> {
     Err(Fault::integer_overflow(message))
 }
 
-/// `round(x, digits)` of a real, `inf` when it rounds out of range: to the nearest decimal, ties to even as seen by the
-/// exact binary value.
+/// `round(x, digits)` of a real: rounds to the nearest decimal, and the exact binary value decides ties to
+/// even. `inf` when the result is out of range.
 pub fn round_real(x: f64, digits: i64) -> f64 {
     if !x.is_finite() || digits > 323 {
         return x;
@@ -209,7 +210,7 @@ pub fn round_real(x: f64, digits: i64) -> f64 {
         return 0.0_f64.copysign(x);
     }
     if digits < 0 {
-        // So many significant digits are left; with none, more than half of the unit rounds up to it.
+        // `left` significant digits remain; with none, a number above half of the unit rounds up to the unit.
         let power = format!("{x:.20e}").split_once('e').and_then(|(_, power)| power.parse::<i64>().ok());
         let left = power.unwrap_or(0) + 1 + digits;
         let rounded = match left {
@@ -262,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn floor_division_and_remainder_fit_together() {
+    fn floor_division_and_remainder_satisfy_their_identity() {
         for (a, b, quotient, rest) in
             [(7, 2, 3, 1), (-7, 2, -4, 1), (7, -2, -4, -1), (-7, -2, 3, -1), (6, -3, -2, 0), (0, 5, 0, 0)]
         {

@@ -1,7 +1,7 @@
 //! The arithmetic and comparison of values: one function for each operator of the language.
 //!
-//! Real with real and int with int come first and are small enough to be inlined into the machine's dispatch. All
-//! else (strings, sequences, vectors, faults) is in a function that is marked cold.
+//! The cases real with real and int with int come first and are small enough to be inlined into the machine's
+//! dispatch. All other cases (strings, sequences, vectors, faults) are in functions that are marked cold.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub fn add<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
         },
         (Value::Real(a), Value::Int(b)) => Ok(Value::Real(*a + S::from_f64(*b as f64))),
         (Value::Int(a), Value::Real(b)) => Ok(Value::Real(S::from_f64(*a as f64) + *b)),
-        _ => add_others(a, b),
+        _ => add_slow(a, b),
     }
 }
 
@@ -39,7 +39,7 @@ pub fn sub<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
         },
         (Value::Real(a), Value::Int(b)) => Ok(Value::Real(*a - S::from_f64(*b as f64))),
         (Value::Int(a), Value::Real(b)) => Ok(Value::Real(S::from_f64(*a as f64) - *b)),
-        _ => sub_others(a, b),
+        _ => sub_slow(a, b),
     }
 }
 
@@ -54,7 +54,7 @@ pub fn mul<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
         },
         (Value::Real(a), Value::Int(b)) => Ok(Value::Real(*a * S::from_f64(*b as f64))),
         (Value::Int(a), Value::Real(b)) => Ok(Value::Real(S::from_f64(*a as f64) * *b)),
-        _ => mul_others(a, b),
+        _ => mul_slow(a, b),
     }
 }
 
@@ -63,7 +63,7 @@ pub fn mul<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 pub fn div<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (a, b) {
         (Value::Real(a), Value::Real(b)) => numbers::divide_reals(*a, *b).map(Value::Real),
-        _ => div_others(a, b),
+        _ => div_slow(a, b),
     }
 }
 
@@ -124,10 +124,10 @@ pub fn pos<S: Scalar>(a: &Value<S>) -> Answer<S> {
     }
 }
 
-/// Python's truth of a value: zero and empty are false.
+/// Python's truth of a value: zero and empty values are false.
 ///
 /// # Errors
-/// Of a future that is not forced.
+/// The value is a future that is not forced.
 #[inline]
 pub fn truth<S: Scalar>(a: &Value<S>) -> Result<bool, Fault> {
     Ok(match a {
@@ -264,7 +264,7 @@ fn fits(count: usize) -> Result<(), Fault> {
 }
 
 #[cold]
-fn add_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+fn add_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (a, b) {
         (Value::Vector(v), Value::Vector(w)) => componentwise("add", v, w, |x, y| x + y),
         (Value::List(xs), Value::List(ys)) => {
@@ -291,9 +291,11 @@ fn add_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
                         fault.with_help("write `xs + [x]` to make a list with one more element")
                     }
                     (Value::Vector(_), Value::Tuple(_) | Value::List(_)) => {
-                        fault.with_help("write `vec(x, y, z)` for the second one too")
+                        fault.with_help("write `vec(x, y, z)` for the second operand too")
                     }
-                    (Value::Str(_), _) => fault.with_help("write `str(x)` or an f-string to make text of it"),
+                    (Value::Str(_), _) => {
+                        fault.with_help("write `str(x)` or an f-string to convert it to text")
+                    }
                     _ => fault,
                 })
             }
@@ -302,7 +304,7 @@ fn add_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 }
 
 #[cold]
-fn sub_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+fn sub_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (a, b) {
         (Value::Vector(v), Value::Vector(w)) => componentwise("subtract", v, w, |x, y| x - y),
         _ => match (Number::of(a), Number::of(b)) {
@@ -316,7 +318,7 @@ fn sub_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
 }
 
 #[cold]
-fn mul_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+fn mul_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (a, b) {
         (Value::Rotation(r), Value::Vector(v)) => rotate(r, v),
         (Value::Rotation(r), Value::Rotation(s)) => Ok(Value::Rotation(Arc::new(matrix_product(r, s)))),
@@ -330,7 +332,7 @@ fn mul_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     }
 }
 
-/// A vector times a number, a sequence repeated; `None` when the two do not fit.
+/// A vector times a number, or a repeated sequence; `None` when the two do not fit.
 fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
     if let Value::Vector(v) = value {
         let by = by.real();
@@ -343,7 +345,7 @@ fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
             Some(fits(list.len().saturating_mul(count)).map(|()| Value::List(list.repeated(count))))
         }
         Value::Tuple(tuple) => Some(fits(tuple.items().len().saturating_mul(count)).map(|()| {
-            // Nothing, however often, takes no time.
+            // An empty tuple is repeated at once, however large the count is.
             let count = if tuple.items().is_empty() { 0 } else { count };
             let mut items = Vec::with_capacity(tuple.items().len() * count);
             (0..count).for_each(|_| items.extend_from_slice(tuple.items()));
@@ -357,7 +359,7 @@ fn times<S: Scalar>(value: &Value<S>, by: Number<S>) -> Option<Answer<S>> {
 }
 
 #[cold]
-fn div_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
+fn div_slow<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     match (Number::of(a), Number::of(b), a) {
         (Some(Number::Int(a)), Some(Number::Int(b)), _) => numbers::divide_ints(a, b).map(Value::real),
         (Some(a), Some(b), _) => numbers::divide_reals(a.real(), b.real()).map(Value::Real),
@@ -372,7 +374,7 @@ fn div_others<S: Scalar>(a: &Value<S>, b: &Value<S>) -> Answer<S> {
     }
 }
 
-/// A vector from two of equal length, component by component.
+/// Combines two vectors of equal length, component by component.
 fn componentwise<S: Scalar>(verb: &str, v: &Vector<S>, w: &Vector<S>, f: impl Fn(S, S) -> S) -> Answer<S> {
     let (v, w) = (v.components(), w.components());
     if v.len() != w.len() {
@@ -389,8 +391,8 @@ fn componentwise<S: Scalar>(verb: &str, v: &Vector<S>, w: &Vector<S>, f: impl Fn
 /// A rotation applied to a vector of three components.
 fn rotate<S: Scalar>(r: &[S; 9], v: &Vector<S>) -> Answer<S> {
     let &[x, y, z] = v.components() else {
-        let found = v.components().len();
-        let message = format!("a rotation turns vectors of 3 components, not of {found}");
+        let count = v.components().len();
+        let message = format!("a rotation turns vectors of 3 components, not of {count}");
         return Err(Fault::type_mismatch(message));
     };
     let row = |i: usize| r[i] * x + r[i + 1] * y + r[i + 2] * z;
@@ -405,7 +407,7 @@ fn matrix_product<S: Scalar>(r: &[S; 9], s: &[S; 9]) -> [S; 9] {
     })
 }
 
-/// `xs + [x]` without the second list.
+/// `xs + [x]` without a second list.
 pub fn append<S: Scalar>(xs: Value<S>, item: Value<S>) -> Answer<S> {
     match xs {
         Value::List(mut list) => {
@@ -468,21 +470,21 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_repeated_at_once() {
+    fn empty_sequences_are_repeated_at_once() {
         for empty in [V::list(vec![]), V::tuple(vec![])] {
-            let found = mul(&empty, &V::Int(i64::MAX)).unwrap();
-            assert!(matches!(found, V::List(_) | V::Tuple(_)));
+            let product = mul(&empty, &V::Int(i64::MAX)).unwrap();
+            assert!(matches!(product, V::List(_) | V::Tuple(_)));
         }
     }
 
     #[test]
     fn whole_numbers_overflow_with_a_fault() {
-        let (most, least, one) = (V::Int(i64::MAX), V::Int(i64::MIN), V::Int(1));
-        assert_eq!(message(add(&most, &one)), "9223372036854775807 + 1 does not fit in 64 bits");
-        assert_eq!(code(sub(&least, &one)), "integer-overflow");
+        let (most, least, unit) = (V::Int(i64::MAX), V::Int(i64::MIN), V::Int(1));
+        assert_eq!(message(add(&most, &unit)), "9223372036854775807 + 1 does not fit in 64 bits");
+        assert_eq!(code(sub(&least, &unit)), "integer-overflow");
         assert_eq!(code(mul(&most, &V::Int(2))), "integer-overflow");
         assert_eq!(code(neg(&least)), "integer-overflow");
-        assert_eq!(code(div(&one, &V::Int(0))), "division-by-zero");
+        assert_eq!(code(div(&unit, &V::Int(0))), "division-by-zero");
         assert_eq!(code(mod_(&V::real(1.0), &V::Int(0))), "division-by-zero");
     }
 

@@ -1,9 +1,10 @@
-//! `repr` and `str` as Python writes them, with a stack of our own and a limit on the length.
+//! `repr` and `str` as Python writes them, with a stack of our own and a limit on the length of the text.
 
 use super::{List, MAX_ELEMENTS, Scalar, Value};
 use crate::fault::{Fault, InvalidCall};
 
-/// Python's `repr` of a float: the shortest digits that read back, an exponent below 1e-4 and from 1e16.
+/// Python's `repr` of a float: the shortest digits that are read back, with an exponent below 1e-4 and from
+/// 1e16 on.
 pub fn float(x: f64) -> String {
     if !x.is_finite() {
         return if x.is_nan() {
@@ -14,8 +15,8 @@ pub fn float(x: f64) -> String {
             "-inf".into()
         };
     }
-    // The standard library gives the fewest digits that read back; where two such texts are equally near, Python
-    // takes the even one, which is what rounding the exact value to that many digits does.
+    // The standard library gives the fewest digits that are read back. If two such texts are equally near,
+    // Python takes the even one: the result of rounding the exact value to that many digits.
     let shortest = format!("{x:e}");
     let places = shortest.bytes().take_while(|byte| *byte != b'e').filter(u8::is_ascii_digit).count();
     let even = format!("{x:.*e}", places.saturating_sub(1));
@@ -27,12 +28,12 @@ pub fn float(x: f64) -> String {
         let decimals = (places as i32 - 1 - exponent).max(1) as usize;
         return format!("{x:.decimals$}");
     }
-    // Rust writes 1e16 and 1.5e-7; Python signs the exponent and gives it two digits.
+    // Rust writes 1e16 and 1.5e-7. Python adds a sign to the exponent and gives it two digits.
     let sign = if exponent < 0 { '-' } else { '+' };
     format!("{digits}e{sign}{:02}", exponent.abs())
 }
 
-/// Python's `repr` of a string: single quotes unless it holds single ones and no double ones.
+/// Python's `repr` of a string: single quotes, unless the string holds single and no double quotes.
 pub fn quoted(text: &str) -> String {
     let quote = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     let mut out = String::with_capacity(text.len() + 2);
@@ -73,7 +74,7 @@ struct Open<'a, S: Scalar> {
 enum Items<'a, S: Scalar> {
     Flat(&'a [Value<S>]),
     List(&'a List<S>),
-    /// Values, with a label before each.
+    /// Values with a label before each.
     Labelled(Labels<'a, S>, &'a [Value<S>]),
 }
 
@@ -91,10 +92,10 @@ pub fn repr<S: Scalar>(value: &Value<S>) -> Result<String, Fault> {
     Err(Fault::memory_budget("the text of this value has more than 67108864 characters"))
 }
 
-/// Most characters of the text of a call.
+/// The longest text of a call, in bytes.
 const CALL: usize = 240;
 
-/// A call as text, for a person: arguments that were left out at the end are not in it, and a long text is cut off.
+/// A call as text for a person, without `None` arguments at the end. A long text is cut off.
 pub fn call_text<S: Scalar>(name: &str, args: &[Value<S>]) -> String {
     let last = args.iter().rposition(|arg| !matches!(arg, Value::None)).map_or(0, |at| at + 1);
     let mut out = format!("{name}(");
@@ -114,7 +115,8 @@ pub fn call_text<S: Scalar>(name: &str, args: &[Value<S>]) -> String {
     out
 }
 
-/// Writes a value, its numbers as `number` gives them, up to so many characters. Whether that was all of it.
+/// Writes a value up to `most` bytes, with the numbers that `number` returns. Returns whether the text is
+/// complete.
 fn write<S: Scalar>(
     value: &Value<S>,
     out: &mut String,
@@ -151,7 +153,7 @@ fn write<S: Scalar>(
                 out.push('=');
             }
             Items::Labelled(Labels::Keys(keys), _) => {
-                // Keys hold no dictionaries: this does not recurse further.
+                // Keys hold no dictionaries: so the call does not recurse further.
                 out.push_str(&keys.get(at).map_or(Ok(String::new()), repr)?);
                 out.push_str(": ");
             }
@@ -161,7 +163,7 @@ fn write<S: Scalar>(
     }
 }
 
-/// Writes a value without parts, or the beginning of one with parts.
+/// Writes a value without parts, or the beginning of a value with parts.
 fn begin<'a, S: Scalar>(
     value: &'a Value<S>,
     out: &mut String,
@@ -221,7 +223,7 @@ impl<S: Scalar> std::fmt::Debug for Value<S> {
 }
 
 impl Fault {
-    /// The same fault, as that of a call whose arguments are of the right kinds, but have no result: the run is invalid.
+    /// Marks the run as invalid by this call: its arguments are of the right kinds, but it has no result.
     #[cold]
     pub fn of_call<S: Scalar>(self, name: &str, args: &[Value<S>]) -> Fault {
         self.invalid_by(InvalidCall { name: name.to_string(), text: call_text(name, args) })
@@ -237,7 +239,7 @@ mod tests {
     type V = Value<f64>;
 
     #[test]
-    fn floats_read_as_pythons() {
+    fn floats_are_printed_like_pythons() {
         let cases = [
             (1.0, "1.0"),
             (1e16, "1e+16"),
@@ -260,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn aggregates_read_as_pythons() {
+    fn aggregates_are_printed_like_pythons() {
         let class = Class {
             id: 0,
             name: "Leaf".into(),
@@ -283,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_call_reads_as_a_person_wrote_it_and_is_cut_where_it_is_long() {
+    fn a_call_is_printed_as_written_and_a_long_text_is_cut() {
         let size = V::tuple(vec![V::real(1.0), V::real(-0.3), V::Int(1)]);
         assert_eq!(call_text("box", &[V::None, size, V::None, V::None]), "box(None, (1.0, -0.3, 1))");
         assert_eq!(call_text::<f64>("coin", &[]), "coin()");
@@ -293,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_of_a_million_prints_and_a_doubling_one_is_refused() {
+    fn a_chain_of_a_million_is_printed_and_a_doubling_value_is_refused() {
         let chain = (0..1_000_000).fold(V::Int(1), |inner, _| V::list(vec![inner]));
         assert_eq!(repr(&chain).map(|text| text.len()), Ok(2_000_001));
         let doubled = (0..60).fold(V::Int(1), |inner, _| V::tuple(vec![inner.clone(), inner]));

@@ -1,17 +1,17 @@
 //! Dropping nested values without the host stack.
 //!
-//! A plain drop of a chain of a million tuples calls itself a million times. Here a body moves the
-//! children that would be dropped with it to a work list, and so on for theirs: bodies are empty when they are
-//! dropped. A body without such children (nearly all of them) costs one scan over its tags.
+//! A plain drop of a chain of a million tuples recurses a million times. Here a body moves the children that
+//! would be dropped with it to a work list, and so do the children's bodies: all bodies are empty when they are
+//! dropped. A body without such children (nearly every body) costs one scan over its tags.
 
 use std::sync::Arc;
 
 use super::{Scalar, Value};
 
-/// Takes the children out of a body that is being dropped, and frees them one by one.
+/// Takes the children out of a body that is being dropped, and frees them one after another.
 #[inline]
 pub(super) fn release<S: Scalar>(items: &mut [Value<S>]) {
-    if items.iter().any(goes_with_us) {
+    if items.iter().any(has_one_owner) {
         let mut work = Vec::new();
         gather(items, &mut work);
         run(work);
@@ -21,16 +21,16 @@ pub(super) fn release<S: Scalar>(items: &mut [Value<S>]) {
 /// Moves the children that are not shared to the work list.
 pub(super) fn gather<S: Scalar>(items: &mut [Value<S>], work: &mut Vec<Value<S>>) {
     for item in items {
-        if goes_with_us(item) {
+        if has_one_owner(item) {
             work.push(std::mem::take(item));
         }
     }
 }
 
-/// True for an aggregate with one owner. Another thread may drop a shared one at the same moment: that costs
-/// one level of host stack, once. A shared one is never taken for one with a single owner.
+/// True for an aggregate with one owner. Another thread may drop a shared aggregate at the same moment: this
+/// costs one level of host stack, once. A shared aggregate is never mistaken for one with a single owner.
 #[inline]
-fn goes_with_us<S: Scalar>(value: &Value<S>) -> bool {
+fn has_one_owner<S: Scalar>(value: &Value<S>) -> bool {
     match value {
         Value::Tuple(tuple) | Value::Returned(tuple) => Arc::strong_count(&tuple.0) == 1,
         Value::List(list) => list.has_one_owner(),
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_through_a_long_lists_inner_nodes_is_dropped_too() {
+    fn a_chain_through_inner_nodes_of_long_lists_is_dropped() {
         let deep = (0..30_000).fold(Value::<f64>::Int(1), |inner, _| {
             let mut items = vec![Value::Int(0); 40];
             items[3] = inner;

@@ -11,7 +11,8 @@ pub struct Text(Arc<Body>);
 #[derive(Debug)]
 struct Body {
     text: Box<str>,
-    /// Number of code points; equal to the number of bytes exactly when the text is ASCII, which makes indexing O(1).
+    /// Number of code points. It equals the number of bytes exactly when the text is ASCII; then indexing is
+    /// O(1).
     chars: usize,
 }
 
@@ -21,7 +22,7 @@ impl Text {
         self.0.chars
     }
 
-    /// The code point at a position inside the text, as a string.
+    /// The code point at a position inside of the text, as a string.
     pub fn char_at(&self, at: usize) -> &str {
         self.span(at, at + 1)
     }
@@ -43,7 +44,7 @@ impl Text {
         Arc::as_ptr(&self.0) as usize
     }
 
-    /// Whether something else holds it, too.
+    /// Whether another value holds the string, too.
     pub(super) fn is_shared(&self) -> bool {
         Arc::strong_count(&self.0) > 1
     }

@@ -12,9 +12,10 @@ pub const MAX_ELEMENTS: usize = 1 << 26;
 
 /// A value of the modelling language.
 ///
-/// The tag is a whole word, so that every payload begins at the second: a copy is two moves of eight bytes. (With a
-/// tag of one byte a truth value lies beside it, and every copy of a value whose kind is not known is taken apart
-/// into pieces of one, two and four bytes.) Kinds without shared data come first: one comparison finds them.
+/// The tag is a whole word, so that every payload begins at the second word: a copy is two moves of eight
+/// bytes. With a tag of one byte, a truth value would lie beside the tag. Then every copy of a value of unknown
+/// kind would be taken apart into pieces of one, two and four bytes. Kinds without shared data come first, so
+/// that one comparison recognises them.
 #[derive(Default)]
 #[repr(u64)]
 pub enum Value<S: Scalar = f64> {
@@ -29,13 +30,14 @@ pub enum Value<S: Scalar = f64> {
     Real(S),
     /// A future that may still run, by its number.
     Future(u32),
-    /// What a variable holds before it is assigned; no model ever sees it.
+    /// The content of a variable before it is assigned; no model ever sees it.
     Unset,
-    /// An element of a kept collection: it is in a register. Only lists hold cells, and no model ever sees one.
+    /// A reference to an element of a kept collection; the element is in a register. Only lists hold cells, and
+    /// no model ever sees a cell.
     Cell(Cell),
     /// A string.
     Str(Text),
-    /// A future that has returned; its value, the one element, is seen by `force` alone.
+    /// A future that has returned. The one element of the tuple is its value; only `force` looks at it.
     Returned(Tuple<S>),
     /// A tuple.
     Tuple(Tuple<S>),
@@ -74,7 +76,7 @@ impl<S: Scalar> Clone for Value<S> {
     #[inline(always)]
     fn clone_from(&mut self, source: &Self) {
         match source {
-            // Numbers are copied without a second test; many registers are empty, before and after.
+            // Numbers are copied without a second test. Many registers are empty before and after.
             Value::Real(x) => self.store_real(*x),
             Value::Int(n) => self.store_int(*n),
             Value::None if matches!(self, Value::None) => {}
@@ -118,7 +120,7 @@ impl<S: Scalar> Value<S> {
         }
     }
 
-    /// Whether it holds nothing that is shared: a number, a truth value, nothing.
+    /// Whether the value holds no shared data: a number, a truth value, `None`.
     #[inline(always)]
     pub fn is_plain(&self) -> bool {
         matches!(
@@ -133,8 +135,9 @@ impl<S: Scalar> Value<S> {
         )
     }
 
-    /// Whether it is a vector, a range, or a tuple of up to four values without shared data: so little that registers of the machine
-    /// may hold it uncounted. Machine code keeps these in the processor.
+    /// Whether the value is a vector, a range, or a tuple of up to four values without shared data. Such a
+    /// value is so small that registers of the machine may hold it uncounted. Machine code keeps these values
+    /// in the processor.
     pub fn is_small(&self) -> bool {
         match self {
             Value::Vector(_) | Value::Range(_) => true,
@@ -143,7 +146,8 @@ impl<S: Scalar> Value<S> {
         }
     }
 
-    /// Assigns. A register nearly always holds a number and gets one of the same kind: then one word is written.
+    /// Assigns a value. A register nearly always holds a number and gets a number of the same kind: then one
+    /// word is written.
     // Writing both words would use the stack, where a value stored as two words and loaded as sixteen
     // bytes delays the next instruction.
     #[inline(always)]
@@ -154,7 +158,7 @@ impl<S: Scalar> Value<S> {
             (Value::Bool(old), Value::Bool(new)) => *old = *new,
             _ => return self.replace(value),
         }
-        // A number: there is nothing to drop, but the compiler does not know that.
+        // The value is a number: there is nothing to drop, but the compiler does not know that.
         std::mem::forget(value);
     }
 
@@ -246,7 +250,8 @@ impl<S: Scalar> Value<S> {
         }
     }
 
-    /// Whether a number in it varies with the coordinates of a recording; of a function, what it has captured counts.
+    /// Whether a number in the value varies with the coordinates of a recording; for a function, its captures
+    /// count.
     pub fn varies(&self) -> bool {
         let any = |mut items: &mut dyn Iterator<Item = &Value<S>>| Iterator::any(&mut items, Value::varies);
         match self {
@@ -270,7 +275,7 @@ impl<S: Scalar> Value<S> {
         }
     }
 
-    /// True when the value holds other values: what the work lists of this module are for.
+    /// True when the value holds other values: the work lists of this module visit these.
     #[inline]
     pub fn holds_values(&self) -> bool {
         matches!(

@@ -8,7 +8,7 @@ use chain::{Chain, fresh_totals};
 use niwaki_vm::code::Op;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::machine::kept::{Changed, Proposed, Strategy};
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 use niwaki_vm::value::Value;
 use programs::{PROGRAMS, compiled};
 
@@ -46,7 +46,7 @@ fn to_keep_all_variables_changes_nothing() {
     for (name, text) in PROGRAMS {
         let plain = compiled(text);
         let keeping =
-            compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+            compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
         kept += keeping.functions.iter().map(|f| f.scope.len()).sum::<usize>();
         for seed in 0..3 {
             let mut rerun = Chain::start(&plain, Strategy::Rerun, seed);

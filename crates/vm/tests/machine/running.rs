@@ -11,7 +11,7 @@ use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Limits, Machine, Stop};
-use niwaki_vm::passes::{Kept, compile, compile_keeping};
+use niwaki_vm::passes::{Scope, compile, compile_with_scope};
 use niwaki_vm::value::{Value, repr};
 use std::collections::BTreeSet;
 
@@ -422,7 +422,8 @@ impl Answers<f64> for Scopes {
 
 /// What all choices of a program see.
 fn scopes(text: &str) -> Vec<(String, String, Option<f64>)> {
-    let program = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+    let program =
+        compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
     let (mut machine, mut scopes) = (Machine::new(&program, Limits::default()), Scopes::default());
     let mut state = machine.start(&[], true).expect("a start");
     machine.finish(&mut state, &mut scopes).expect("a run");
@@ -500,7 +501,8 @@ fn the_frame_that_was_assigned_last_is_looked_from() {
 
 /// Of each function: the variables and choices that are angles, and those that are not.
 fn angles(text: &str) -> Vec<(String, String, String)> {
-    let program = compile_keeping(&parse(text).expect("core form"), vec![], Kept::All).expect("a program");
+    let program =
+        compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
     let sorted = |names: BTreeSet<String>| names.into_iter().collect::<Vec<_>>().join(" ");
     let of = |f: &Function| {
         let named = |is_angle: bool| {

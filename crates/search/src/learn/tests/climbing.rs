@@ -14,7 +14,7 @@ use niwaki_run::Task;
 use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::forward::forward;
 use niwaki_vm::core::parse::parse;
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -34,7 +34,7 @@ const ONE_FALLS: &str = r#"(module (fn "m" (params)
   (return 0)) (entry "m"))"#;
 
 fn task(text: &str) -> Task {
-    Task::new(Arc::new(compile_keeping(&parse(text).unwrap(), vec![], Kept::All).unwrap()))
+    Task::new(Arc::new(compile_with_scope(&parse(text).unwrap(), vec![], Scope::All).unwrap()))
 }
 
 fn making(objective: &str, changes: &Value) -> Making {

@@ -29,7 +29,7 @@ use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::{Change, Propose, Proposed, Strategy};
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 use niwaki_vm::value::{Value, repr};
 use serde_json::json;
 use std::collections::HashMap;
@@ -50,7 +50,7 @@ const LIMBS: &str = r#"(module
   (fn "m" (params) (do (future "limb" 0.0 -2.0 0)) (return 0)) (entry "m"))"#;
 
 pub(crate) fn limbs() -> Task {
-    let program = compile_keeping(&parse(LIMBS).unwrap(), vec![], Kept::All).unwrap();
+    let program = compile_with_scope(&parse(LIMBS).unwrap(), vec![], Scope::All).unwrap();
     let page = Page::new([-3.0, -3.0], [3.0, 3.0], [12, 12]).unwrap();
     let greys: Vec<u8> = (0..144).map(|pixel| if pixel / 3 % 2 == 0 { 0 } else { 255 }).collect();
     let sketch = match_drawing(Arc::new(Drawing::new(page, &greys).unwrap()), 0.3).unwrap();

@@ -27,7 +27,7 @@ use niwaki_run::resampling::Resampling;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
-use niwaki_vm::passes::{Kept, compile_keeping};
+use niwaki_vm::passes::{Scope, compile_with_scope};
 use std::sync::Arc;
 
 /// Strokes to the left or to the right of a line that the drawing has on one side; where it goes on is a choice.
@@ -44,7 +44,7 @@ const STROKES: &str = r#"(module
 
 /// A program compiled to keep all variables.
 fn kept(text: &str) -> Task {
-    Task::new(Arc::new(compile_keeping(&parse(text).unwrap(), vec![], Kept::All).unwrap()))
+    Task::new(Arc::new(compile_with_scope(&parse(text).unwrap(), vec![], Scope::All).unwrap()))
 }
 
 fn strokes() -> Task {

@@ -14,7 +14,7 @@ use super::strategy::Step;
 use super::trace::Kept;
 use crate::code::{FunctionId, Mode, Program, Site, SiteId, SiteKind};
 use crate::fault::Fault;
-use crate::value::{Value, same};
+use crate::value::{Value, identical};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
@@ -60,7 +60,7 @@ impl<S: Scalar> Kept<S> {
         let inputs = &machine.program.function(function).inputs;
         for (i, o) in operands.iter().enumerate() {
             let value = r.get(state, &machine.scratch, *o);
-            if !same(value, &state.registers[to + i]) {
+            if !identical(value, &state.registers[to + i]) {
                 let value = value.clone();
                 self.journal.set(&mut state.registers[to + i], to + i, value);
                 changed.add(inputs[i]);
@@ -174,7 +174,7 @@ impl<S: Scalar> Kept<S> {
             return Onward::END;
         }
         if parent == NodeId::NONE {
-            if !same(&value, &self.result) {
+            if !identical(&value, &self.result) {
                 let old = std::mem::replace(&mut self.result, value);
                 self.result_before.get_or_insert(old);
             }

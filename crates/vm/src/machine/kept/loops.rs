@@ -16,7 +16,7 @@ use super::strategy::Step;
 use super::trace::{Active, Kept};
 use crate::code::{Args, Loop, Operand, Site, SiteId, SiteKind, exit};
 use crate::fault::Fault;
-use crate::value::{Value, iter_get, iter_len, same};
+use crate::value::{Value, identical, iter_get, iter_len};
 use niwaki_math::Scalar;
 
 /// The carried values that an iteration gets.
@@ -82,14 +82,14 @@ impl<S: Scalar> Kept<S> {
             let to = state.nodes[held as usize].registers as usize;
             let outers = &machine.program.function(l.body).outers;
             if let Some(over) = over!()
-                && !same(over, &state.registers[to])
+                && !identical(over, &state.registers[to])
             {
                 let over = over.clone();
                 active.over = self.write_to(state, false, to, over);
             }
             for (i, o) in captures.iter().enumerate() {
                 let value = r.get(state, &machine.scratch, *o);
-                if !same(value, &state.registers[to + 1 + i]) {
+                if !identical(value, &state.registers[to + 1 + i]) {
                     let value = value.clone();
                     self.write_to(state, false, to + 1 + i, value);
                     active.captures.add(outers.get(1 + i).copied().unwrap_or(0));
@@ -234,7 +234,7 @@ impl<S: Scalar> Kept<S> {
                 let to = state.nodes[next.0 as usize].registers as usize + first;
                 for (k, o) in operands.iter().enumerate() {
                     let value = r.get(state, &machine.scratch, *o);
-                    if !same(value, &state.registers[to + k]) {
+                    if !identical(value, &state.registers[to + k]) {
                         let value = value.clone();
                         self.journal.set(&mut state.registers[to + k], to + k, value);
                         changed.add(r.f.inputs[first + k]);
@@ -261,11 +261,11 @@ impl<S: Scalar> Kept<S> {
                 Some(next) => {
                     let to = state.nodes[next.0 as usize].registers as usize
                         + usize::from(self.is_for(state, header));
-                    (0..operands.len()).all(|k| same(value(k), &state.registers[to + k]))
+                    (0..operands.len()).all(|k| identical(value(k), &state.registers[to + k]))
                 }
                 None => {
                     let (own, left) = left(machine, state, header, kind);
-                    left.enumerate().all(|(k, o)| same(value(k), &state.registers[own + o.index()]))
+                    left.enumerate().all(|(k, o)| identical(value(k), &state.registers[own + o.index()]))
                 }
             };
         }

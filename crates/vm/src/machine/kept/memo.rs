@@ -25,7 +25,7 @@ use super::slot::Slot;
 use super::strategy::Step;
 use super::trace::Kept;
 use crate::code::{FunctionId, Program, Site, SiteId};
-use crate::value::{Memo, Value, same};
+use crate::value::{Memo, Value, identical};
 use niwaki_math::Scalar;
 use std::collections::{BTreeSet, HashMap};
 
@@ -278,7 +278,7 @@ impl<S: Scalar> Kept<S> {
 
     /// A memoised call returns. False where the run is confined to it, so that it must end here.
     pub(super) fn settle(&mut self, number: u32, value: &Value<S>) -> bool {
-        let changed = !same(&self.memos.at(number).value, value);
+        let changed = !identical(&self.memos.at(number).value, value);
         if self.depth == 0 {
             if changed {
                 self.leaves_its_activation();

@@ -18,7 +18,7 @@ use super::trace::{ChoiceAt, Kept};
 use crate::builtins::value_to_draw;
 use crate::code::{Args, Operand, Site, SiteId, SiteKind, Source};
 use crate::fault::Fault;
-use crate::value::{Value, ops, same};
+use crate::value::{Value, identical, ops};
 use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, Family, Scalar, grid};
 
@@ -326,7 +326,7 @@ impl<S: Scalar> Kept<S> {
                     && p.shapes()
                         .iter()
                         .zip(shapes)
-                        .all(|(a, b)| same::<S>(&Value::Shape(a.clone()), &Value::Shape(b.clone())))
+                        .all(|(a, b)| identical::<S>(&Value::Shape(a.clone()), &Value::Shape(b.clone())))
             });
             if unchanged {
                 return;

@@ -14,7 +14,7 @@ use super::strategy::Step;
 use super::trace::{Active, Kept};
 use crate::code::{Function, Mode, Site, SiteId, exit};
 use crate::fault::Fault;
-use crate::value::same;
+use crate::value::identical;
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
@@ -49,7 +49,7 @@ impl<S: Scalar> Kept<S> {
         let n = &state.nodes[child.0 as usize];
         let (place, function) = (n.registers as usize + arg as usize, n.function);
         let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize + arg as usize]);
-        if same(value, &state.registers[place]) {
+        if identical(value, &state.registers[place]) {
             return After::Next;
         }
         let value = value.clone();

@@ -10,7 +10,7 @@ use super::readers::{Reader, Readers};
 use super::slot::Slot;
 use super::strategy::{Change, Counters, Step, Totals};
 use crate::code::{Mode, Program};
-use crate::value::{Value, same};
+use crate::value::{Value, identical};
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
 
@@ -165,7 +165,7 @@ impl<S: Scalar> Kept<S> {
         value: Value<S>,
     ) -> bool {
         let register = &mut state.registers[place];
-        if same(register, &value) {
+        if identical(register, &value) {
             return false;
         }
         if node_is_new {

@@ -11,7 +11,7 @@ use super::strategy::{Change, Step, Strategy, Totals};
 use super::trace::{ChoiceAt, Kept, Trace};
 use crate::code::Program;
 use crate::fault::Fault;
-use crate::value::{Value, same};
+use crate::value::{Value, identical};
 use niwaki_geom::Primitive;
 use niwaki_math::{Dist, Scalar, Total, grid};
 
@@ -319,7 +319,7 @@ impl<S: Scalar> Machine<'_, S> {
                 return Err(Box::new(self.report(state, fault)));
             }
         };
-        if same(&proposed.value, &state.registers[place]) {
+        if identical(&proposed.value, &state.registers[place]) {
             return Ok(Change::Same);
         }
         let at_choice = strategy.starts_at_choice() && !kept.is_remembered(state, node);

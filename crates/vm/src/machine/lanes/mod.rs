@@ -24,7 +24,7 @@ pub use questions::{Dists, LaneAnswers, Logs};
 
 use super::Machine;
 use super::state::{FutureId, Node, NodeId, State, Status};
-use crate::value::{Value, same};
+use crate::value::{Value, identical};
 
 /// The lanes cannot go on together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,7 @@ impl Lanes {
         }
         for (at, column) in columns.iter_mut().enumerate() {
             let value = &first.registers[at];
-            if is_live[at] && states[1..].iter().all(|other| same(&other.registers[at], value)) {
+            if is_live[at] && states[1..].iter().all(|other| identical(&other.registers[at], value)) {
                 continue;
             }
             state.registers[at] = Value::None;
