@@ -108,7 +108,7 @@ fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
     for (weight, dist) in weights.iter().zip(dists) {
         match dist {
             Dist::Mixture(inner) => {
-                let given = inner.weights.given();
+                let given = inner.weights.unscaled();
                 let total = given.iter().fold(S::from_f64(0.0), |total, w| total + *w);
                 flat_weights.extend(given.iter().map(|w| *weight * *w / total));
                 flat.extend(inner.components.iter().cloned());
