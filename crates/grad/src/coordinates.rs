@@ -1,20 +1,20 @@
-//! Coordinates: maps a continuous choice to numbers without bounds, and back.
+//! Coordinates: maps of continuous choices to numbers without bounds, and back.
 //!
-//! Numbers use [`Interval`], with the transform's log Jacobian in the density. Beyond these:
+//! Numbers use [`Interval`], with the transform's log Jacobian in the density. Other supports:
 //!
 //! | support | value | log Jacobian |
 //! | --- | --- | --- |
 //! | line | `u v`; the unit `u` is 1 (see [`unit`]) | `ln u` |
 //! | circle (von Mises) | `v` less whole turns, within half a turn of zero | 0: the line winds around the circle |
-//! | simplex of `n` | `n - 1` sticks: `z_k = s(v_k - ln(n - 1 - k))` of what is left | `sum ln(z_k (1 - z_k) left_k)` |
+//! | simplex of `n` | `n - 1` sticks: `z_k = s(v_k - ln(n - 1 - k))` of the rest | `sum ln(z_k (1 - z_k) left_k)` |
 //! | vectors | `v` | 0 |
 //!
-//! Values stay inside their interval where the coordinate leaves the numbers of 64 bits: the program sees the last number,
+//! Values stay inside their interval if the coordinate leaves the range of numbers of 64 bits: the program sees the last number,
 //! and the density is that of the coordinate, which has no end (`niwaki_math`, `distributions/ends.rs`). The circle is for
-//! targets that may repeat: over the line its density has no finite mass, over one turn its mass is one.
+//! targets that may repeat: over the line its density has infinite mass, over one turn its mass is one.
 //!
 //! The bounds may depend on other choices. The stick breaking is centred, so that zeros are the middle of the simplex
-//! (Stan reference manual, "Unit simplexes"). A choice that is held is the line, or vectors, whatever its support.
+//! (Stan reference manual, "Unit simplexes"). A held choice is on the line, or a vector, for any support.
 
 use crate::graph::{Graph, Id};
 use crate::operation::apply;
@@ -26,7 +26,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 use std::f64::consts::{PI, TAU};
 
-/// How a choice's value follows from its coordinates.
+/// The map from coordinates to a choice's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transform {
     /// The coordinate itself.
@@ -35,9 +35,9 @@ pub enum Transform {
     Above,
     /// Two bounds and a logistic.
     Between,
-    /// Whole turns taken off.
+    /// The coordinate less whole turns.
     Circle,
-    /// Sticks broken off what is left.
+    /// Sticks broken off the rest of a stick.
     Simplex,
     /// The coordinates themselves.
     Vector,
@@ -60,36 +60,36 @@ impl Transform {
 /// A continuous choice.
 #[derive(Clone, Debug)]
 pub struct Continuous {
-    /// Hash of its address.
+    /// Hash of the address.
     pub address: u128,
     /// Readable address.
     pub path: String,
-    /// Its family.
+    /// The family of the choice.
     pub family: Family,
-    /// From coordinates to value.
+    /// The map from coordinates to the value.
     pub transform: Transform,
-    /// Its first coordinate.
+    /// The first coordinate.
     pub first: usize,
-    /// How many coordinates it has.
+    /// The number of coordinates.
     pub coordinates: usize,
-    /// The size of one step of its coordinate on the line, in units of its value; 1 for other transforms.
+    /// The size of a unit step of the coordinate on the line, in units of the value; 1 for other transforms.
     pub unit: f64,
-    /// Whether it keeps its value: its coordinates are its value, and do not move.
+    /// Whether the choice keeps its value: its coordinates are its value, and do not move.
     pub is_held: bool,
-    /// Nodes of its value: one, or one for each entry of a vector.
+    /// Nodes of the value: one for each number.
     pub(crate) values: Vec<Id>,
-    /// Its bounds, where it has some.
+    /// The bounds, if the choice has some.
     pub(crate) edges: [Edge; 2],
 }
 
 /// A bound of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Edge {
-    /// There is none.
+    /// No bound.
     Open,
     /// A number.
     At(f64),
-    /// Computed from other choices: a node before the choice's own coordinate.
+    /// A node that computes the bound from other choices, before the choice's own coordinate.
     Node(Id),
 }
 
@@ -106,11 +106,11 @@ impl Edge {
 /// A choice with its coordinates in a run.
 pub(crate) struct Placed {
     pub transform: Transform,
-    /// The value: one number, or one for each entry of a vector.
+    /// The numbers of the value.
     pub values: Vec<Var>,
     /// Log density of the choice over its coordinates.
     pub log: Var,
-    /// The part of that which is the log Jacobian.
+    /// The log Jacobian, which is a part of `log`.
     pub slope: Var,
     pub bounds: [Option<Var>; 2],
     pub unit: f64,
@@ -123,13 +123,13 @@ impl Placed {
 }
 
 impl Continuous {
-    /// How many numbers its value has.
+    /// The number of numbers in the value.
     pub fn width(&self) -> usize {
         self.values.len()
     }
 
-    /// Whether a coordinate belongs to the last number inside an open interval, which stands for all coordinates beyond:
-    /// the direction of these.
+    /// The direction beyond an open interval's last number, if the coordinate belongs to this number, which stands for all
+    /// coordinates beyond.
     pub fn beyond(&self, v: f64) -> Option<f64> {
         let is_open = matches!(self.family.space(), Space::Positive | Space::Unit | Space::Components);
         let high = match self.transform {
@@ -142,22 +142,22 @@ impl Continuous {
             .or((is_open && v >= high - 1e-3).then_some(1.0))
     }
 
-    /// Whether its value is a list of numbers rather than a number.
+    /// Whether the value is a list of numbers.
     pub fn is_vector(&self) -> bool {
         matches!(self.transform, Transform::Simplex | Transform::Vector)
     }
 }
 
-/// Scales between these and their inverses are coordinates as they are: gradient methods can learn them.
+/// Scales between this number and its inverse need no unit: gradient methods can learn them.
 const NEAR: f64 = 1e18;
-/// Squares of scales between these and their inverses are normal numbers.
+/// Squares of scales between this number and its inverse are normal numbers.
 const FAR: f64 = 1e140;
 
-/// The unit of a choice on the line: a power of two near its scale, if that scale is so far from 1 that squares of it,
-/// and the steps to it, leave the range of numbers.
+/// The unit of a choice on the line. It is a power of two near the choice's scale, if that scale is so far from 1 that its
+/// squares, and steps to it, leave the range of numbers.
 ///
 /// # Errors
-/// A scale that depends on other choices and is too far from 1 to be learnt: a unit is a constant.
+/// A scale that depends on other choices and is too far from 1 to be learnt, since a unit is a constant.
 fn unit(dist: &Dist<Var>) -> Result<f64, Fault> {
     let Some(scale) = dist.scale() else { return Ok(1.0) };
     if scale.varies() {
@@ -172,9 +172,9 @@ fn learnt(dist: &Dist<Var>, scale: f64) -> Result<f64, Fault> {
     if (1.0 / FAR..=FAR).contains(&scale) {
         return Ok(1.0);
     }
-    let what =
+    let message =
         format!("a choice from a `{}` of scale {scale:.0e}, which has to be learnt", dist.family().name());
-    Err(Fault::new("extreme-scale", what)
+    Err(Fault::new("extreme-scale", message)
         .with_help("draw from a scale of 1, and multiply: `mean + spread * gaussian(0, 1)`"))
 }
 
@@ -184,7 +184,7 @@ impl Recorder<'_> {
         Var::input(v)
     }
 
-    /// A continuous choice with its value; `None` where it has no coordinates of this kind.
+    /// A continuous choice with its value; `None` if it has no coordinates of this kind.
     pub(crate) fn place(
         &mut self,
         dist: &Dist<Var>,
@@ -234,7 +234,7 @@ impl Recorder<'_> {
         }))
     }
 
-    /// A real choice.
+    /// A real choice on its coordinate.
     fn real(&mut self, dist: &Dist<Var>, interval: Interval<Var>, x: f64) -> Result<Placed, Fault> {
         let at = |value: Var| dist.log_density_of_real(value);
         let placed = |transform, value, log, slope| Placed {
@@ -297,7 +297,7 @@ impl Recorder<'_> {
         Ok(placed(Transform::Between, value, log, log_width + number.log_slope))
     }
 
-    /// A point of the simplex.
+    /// A point of the simplex on its coordinates.
     fn simplex(&mut self, concentrations: &[Var], x: &[f64]) -> Placed {
         let c = Var::from_f64;
         let n = concentrations.len();
@@ -318,11 +318,11 @@ impl Recorder<'_> {
             let log_z = z.ln() + (centred - c(COORDINATES.0)).min(c(0.0));
             values.push((left * z).within(0.0, 1.0).max(c(LEAST)).at(x[k]));
             // ln x_k = ln left + ln z; the Jacobian of this stick is z (1 - z) left.
-            let own = (log_z + log_z - centred) + log_left;
-            log = log + (*a - c(1.0)) * (log_left + log_z) + own;
-            slope = slope + own;
+            let term = (log_z + log_z - centred) + log_left;
+            log = log + (*a - c(1.0)) * (log_left + log_z) + term;
+            slope = slope + term;
             log_left = log_left + (log_z - centred);
-            // Near one the rest has its digits from the exponential.
+            // Near one, the exponential gives the digits of the rest.
             let rest = near.above(NEAR_ONE, || z * (-near).exp(), || c(1.0) - z);
             left = (left * rest).within(0.0, 1.0);
             left_at -= x[k];
@@ -332,7 +332,7 @@ impl Recorder<'_> {
     }
 }
 
-/// The log Jacobian: beyond the numbers that whose density of the value is the one that the value is scored with.
+/// The log Jacobian. Beyond the last numbers it is `beyond`, so that the density of the coordinate agrees with the score of the value.
 fn slope_within(v: Var, (least, most): (f64, f64), beyond: Var, inside: Var) -> Var {
     v.above(most, || beyond, || v.above(least, || inside, || beyond))
 }
@@ -348,10 +348,10 @@ const HIGHEST: f64 = 36.7;
 const HIGHEST_BUT_ONE: f64 = 36.736;
 /// The coordinate above which one less a share has few digits.
 const NEAR_ONE: f64 = 20.0;
-/// What is left of a stick has digits above this.
+/// Least rest of a stick that has digits.
 const LEFT: f64 = 1e-6;
 
-/// The coordinate of the `k`-th stick, of what is left; `x` are the shares from this one on.
+/// The coordinate of the `k`-th stick of a rest; `x` holds the shares from this one on.
 fn stick(x: &[f64], left: f64, n: usize, k: usize) -> f64 {
     let share = x[0] / left;
     let v = share.ln() - (-share).ln_1p();
@@ -361,9 +361,9 @@ fn stick(x: &[f64], left: f64, n: usize, k: usize) -> f64 {
 }
 
 impl Recorded {
-    /// The coordinates of other values of the same choices: the inverse of [`Recorded::numbers`]. `value` gives the
-    /// value of each choice, in their order; the coordinates that are none of a choice are those of the recorded run.
-    /// `None` where a value is of another kind, or outside its bounds.
+    /// The coordinates of other values of the same choices: the inverse of [`Recorded::numbers`]. `value` returns the
+    /// value of each choice, in order; coordinates that belong to no choice are those of the recorded run.
+    /// `None` if a value is of another kind, or outside its bounds.
     pub fn coordinates<'a>(
         &self,
         mut value: impl FnMut(&Continuous) -> Option<&'a Value>,
@@ -376,7 +376,7 @@ impl Recorded {
             let mut edge = |edge: Edge| match edge {
                 Edge::Open => None,
                 Edge::At(bound) => Some(bound),
-                // Its node is before the choice's coordinate, so it depends only on known coordinates.
+                // The node of the bound is before the choice's coordinate, so it depends only on known coordinates.
                 Edge::Node(id) => Some(self.node(id, &x, &mut nodes)),
             };
             let interval = Interval { lo: edge(choice.edges[0]), hi: edge(choice.edges[1]) };
@@ -404,7 +404,7 @@ impl Recorded {
         Some(x)
     }
 
-    /// A node's number at `x`; `known` holds those of the first nodes.
+    /// The value of a node at `x`; `known` holds the values of the first nodes.
     fn node(&self, id: Id, x: &[f64], known: &mut Vec<f64>) -> f64 {
         for (_, node) in self.density.graph().nodes().take(id.index() + 1).skip(known.len()) {
             let number = match (node.constant(), node.input()) {

@@ -18,7 +18,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// Whether it holds. For a NaN only [`Comparison::NotEqual`] holds.
+    /// Whether the comparison holds. For a NaN only [`Comparison::NotEqual`] holds.
     #[inline]
     pub fn holds(self, a: f64, b: f64) -> bool {
         match self {
@@ -30,14 +30,14 @@ impl Comparison {
     }
 }
 
-/// A comparison on which the run branched: where it does not hold, the run takes another path.
+/// A comparison on which the run branched: if it does not hold, the run takes another path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Guard {
     /// The comparison.
     pub comparison: Comparison,
-    /// One number.
+    /// The left number.
     pub a: Id,
-    /// The other.
+    /// The right number.
     pub b: Id,
 }
 
@@ -51,24 +51,24 @@ pub struct Density {
 }
 
 impl Density {
-    /// Differentiates `value`; guards that always hold are left out.
+    /// Differentiates `value`; guards that always hold are omitted.
     pub fn new(graph: Graph, value: Id, guards: &[Guard]) -> Density {
         let moves = vec![true; graph.inputs()];
         Density::along(graph, value, guards, &moves)
     }
 
-    /// The same, with derivatives by the coordinates that move only; the others are zeros.
+    /// Differentiates `value` by the coordinates that move; the other derivatives are zeros.
     pub fn along(mut graph: Graph, value: Id, guards: &[Guard], moves: &[bool]) -> Density {
         let mut gradient = reverse::gradient(&mut graph, value);
         let zero = graph.constant(0.0);
         gradient.iter_mut().zip(moves).filter(|(_, moves)| !**moves).for_each(|(slope, _)| *slope = zero);
-        let mut kept: Vec<Guard> = Vec::new();
+        let mut open: Vec<Guard> = Vec::new();
         for guard in guards {
             if !is_sure(&graph, guard) {
-                kept.push(*guard);
+                open.push(*guard);
             }
         }
-        Density { graph, value, gradient, guards: kept }
+        Density { graph, value, gradient, guards: open }
     }
 
     /// The operations.
@@ -76,7 +76,7 @@ impl Density {
         &self.graph
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         self.gradient.len()
     }
@@ -86,7 +86,7 @@ impl Density {
         self.value
     }
 
-    /// The nodes of its derivatives, one for each coordinate.
+    /// The nodes of the derivatives, one for each coordinate.
     pub fn gradient(&self) -> &[Id] {
         &self.gradient
     }
@@ -96,7 +96,7 @@ impl Density {
         &self.guards
     }
 
-    /// How many operations a value with its gradient takes, and a gradient alone.
+    /// The number of operations of a value with its gradient, and of a gradient alone.
     pub fn operations(&self) -> (usize, usize) {
         let guards = || self.guards.iter().flat_map(|g| [g.a, g.b]).chain(self.gradient.iter().copied());
         let count = |ids: Vec<Id>| ids.iter().filter(|id| self.graph.node(**id).op.arity() > 0).count();
@@ -105,10 +105,10 @@ impl Density {
 
     /// The value, with the gradient in `g`, by plain interpretation: the reference for the tape and the machine code.
     ///
-    /// Outside the guards all are NaN.
+    /// Outside the guards all numbers are NaN.
     ///
     /// # Panics
-    /// When `x` or `g` has not one number for each coordinate.
+    /// If `x` or `g` does not have one number for each coordinate.
     pub fn interpret(&self, x: &[f64], g: &mut [f64]) -> f64 {
         let values = self.values(x);
         if self

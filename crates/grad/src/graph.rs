@@ -1,6 +1,6 @@
-//! The graph: operations, each kept once, simplified as they are added.
+//! The graph of operations, each stored once and simplified as it is added.
 //!
-//! Arguments come before the operations that use them, so the order of ids is an order of evaluation. Each node knows
+//! Arguments come before the operations that use them, so the order of ids is an order of evaluation. Each node has
 //! an interval that contains its values, which proves most guards.
 
 use crate::operation::{Op, apply};
@@ -12,7 +12,7 @@ use std::hash::{BuildHasherDefault, Hasher};
 pub struct Id(pub(crate) u32);
 
 impl Id {
-    /// Its place in the order of evaluation.
+    /// Position of the node in the order of evaluation.
     #[inline]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -22,7 +22,7 @@ impl Id {
 /// An operation with its arguments: ids of nodes; the bits of a constant; the number of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Node {
-    /// What it computes.
+    /// The operation.
     pub op: Op,
     args: [u32; 3],
 }
@@ -40,14 +40,14 @@ impl Node {
         Id(self.args[k])
     }
 
-    /// The number, for a constant.
+    /// The number of a constant.
     #[inline]
     pub fn constant(&self) -> Option<f64> {
         let [low, high, _] = self.args;
         (self.op == Op::Constant).then(|| f64::from_bits(u64::from(low) | u64::from(high) << 32))
     }
 
-    /// Which coordinate, for an input.
+    /// The coordinate of an input.
     #[inline]
     pub fn input(&self) -> Option<usize> {
         (self.op == Op::Input).then_some(self.args[0] as usize)
@@ -57,11 +57,11 @@ impl Node {
 /// Known facts about a node's values: an interval, and whether zero is ruled out.
 #[derive(Clone, Copy, Debug)]
 pub struct Range {
-    /// No value is below.
+    /// Lower bound of the values.
     pub lo: f64,
-    /// No value is above.
+    /// Upper bound of the values.
     pub hi: f64,
-    /// Never zero.
+    /// Whether no value is zero.
     pub nonzero: bool,
 }
 
@@ -74,18 +74,18 @@ impl Range {
         Range { lo, hi, nonzero: nonzero || lo > 0.0 || hi < 0.0 }
     }
 
-    /// Zero or more.
+    /// Whether all values are at least zero.
     pub fn is_not_negative(&self) -> bool {
         self.lo >= 0.0
     }
 
-    /// Above zero.
+    /// Whether all values are above zero.
     pub fn is_positive(&self) -> bool {
         self.lo >= 0.0 && self.nonzero
     }
 }
 
-/// Hashes words by a multiplication: the keys are small and come from this crate.
+/// A hasher that multiplies words: the keys are small and come from this crate.
 #[derive(Default)]
 pub(crate) struct Mix(u64);
 
@@ -116,13 +116,13 @@ impl Hasher for Mix {
     }
 }
 
-/// A number of operations, coordinates or places as the programs have it: 2^32 of them would take 160 GB.
+/// A count of operations, coordinates or places as 32 bits, the size in programs: 2^32 of them would take 160 GB.
 #[inline]
 pub(crate) fn small(n: usize) -> u32 {
     u32::try_from(n).expect("fewer than 2^32 operations")
 }
 
-/// Operations, each kept once.
+/// Operations, each stored once.
 #[derive(Clone, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
@@ -137,17 +137,17 @@ impl Graph {
         Graph::default()
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no nodes.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// How many inputs there are.
+    /// The number of inputs.
     pub fn inputs(&self) -> usize {
         self.inputs
     }
@@ -174,13 +174,13 @@ impl Graph {
         self.ranges[id.index()]
     }
 
-    /// The number, where the node is a constant.
+    /// The number of a constant node.
     #[inline]
     pub fn constant_of(&self, id: Id) -> Option<f64> {
         self.node(id).constant()
     }
 
-    /// The nodes that these need, with themselves, in an order of evaluation.
+    /// The nodes that the roots depend on, with the roots, in an order of evaluation.
     pub fn needed(&self, roots: impl Iterator<Item = Id>) -> Vec<Id> {
         let mut marked = vec![false; self.nodes.len()];
         roots.for_each(|id| marked[id.index()] = true);
@@ -204,7 +204,7 @@ impl Graph {
         Id(id)
     }
 
-    /// A number.
+    /// A constant.
     #[expect(clippy::cast_possible_truncation, reason = "the two halves of the bits")]
     pub fn constant(&mut self, x: f64) -> Id {
         let bits = x.to_bits();
@@ -308,7 +308,7 @@ impl Graph {
         self.unary(Op::Neg, a)
     }
 
-    /// The constant factor of a product and the rest of it.
+    /// The constant factor of a product, and the other factor.
     fn scaled(&self, id: Id) -> Option<(f64, Id)> {
         let node = self.node(id);
         match node.op {
@@ -318,14 +318,14 @@ impl Graph {
         }
     }
 
-    /// The same, of a factor that may be multiplied by others like it: squares of an extreme one are zero or infinite,
-    /// where those of the product are not.
+    /// A [`Graph::scaled`] whose factor may be multiplied by others of its size. The square of an extreme factor would be zero or
+    /// infinite, while the product itself is not.
     fn scaled_mildly(&self, id: Id) -> Option<(f64, Id)> {
         const MOST: f64 = 1e60;
         self.scaled(id).filter(|(c, _)| (1.0 / MOST..=MOST).contains(&c.abs()))
     }
 
-    /// `a * b`. Zero times anything is zero, as derivatives want it.
+    /// `a * b`. Zero times any number is zero, as derivatives need it.
     pub fn mul(&mut self, a: Id, b: Id) -> Id {
         let (ca, cb) = (self.constant_of(a), self.constant_of(b));
         match (ca, cb) {
@@ -335,7 +335,7 @@ impl Graph {
             (Some(1.0), None) => return b,
             (Some(-1.0), None) => return self.neg(b),
             (Some(x), None) => {
-                // A constant times a scaled value is a value scaled once.
+                // A constant times a scaled value is a value with a single scale.
                 if let Some((y, rest)) = self.scaled(b)
                     && (x * y).is_normal()
                 {
@@ -346,7 +346,7 @@ impl Graph {
             }
             (None, None) => {}
         }
-        // Constants move out: (c z) w = c (z w), and so (c z) z holds a square.
+        // Constants move outwards: (c z) w = c (z w), so that (c z) z contains a square.
         if let Some((c, rest)) = self.scaled_mildly(a) {
             let (c, product) = (self.constant(c), self.mul(rest, b));
             return self.mul(c, product);
@@ -358,7 +358,7 @@ impl Graph {
         if a == b {
             let node = *self.node(a);
             match node.op {
-                // The square of a norm has a derivative at zero, the norm has none.
+                // The square of a norm has a derivative at zero, while the norm has none.
                 Op::Sqrt if self.range(node.arg(0)).is_not_negative() => return node.arg(0),
                 Op::Div if self.node(node.arg(0)).op == Op::Sqrt => {
                     let (root, by) = (node.arg(0), node.arg(1));
@@ -424,13 +424,13 @@ impl Graph {
             }
         }
         if n < 0 {
-            let one = self.constant(1.0);
-            return self.div(one, result);
+            let unity = self.constant(1.0);
+            return self.div(unity, result);
         }
         result
     }
 
-    /// `yes` where `test` is not zero, else `no`.
+    /// `yes` if `test` is not zero, else `no`.
     pub fn select(&mut self, test: Id, yes: Id, no: Id) -> Id {
         match self.constant_of(test) {
             _ if yes == no => yes,
@@ -440,11 +440,11 @@ impl Graph {
         }
     }
 
-    /// The interval that an operation's values lie in.
+    /// The interval of an operation's values.
     fn range_of(&self, node: &Node) -> Range {
         let r = |k: usize| self.ranges[node.args[k] as usize];
         let products = |a: Range, b: Range| {
-            // Zero times an unbounded end is zero here: the end is not reached.
+            // Zero times an infinite end is zero here, since the end is never reached.
             let by = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
             let all = [by(a.lo, b.lo), by(a.lo, b.hi), by(a.hi, b.lo), by(a.hi, b.hi)];
             (all.into_iter().fold(f64::INFINITY, f64::min), all.into_iter().fold(f64::NEG_INFINITY, f64::max))
@@ -539,23 +539,23 @@ mod tests {
     }
 
     #[test]
-    fn extreme_factors_stay_with_what_they_scale() {
+    fn extreme_factors_stay_with_their_values() {
         for c in [-997.0_f64, 997.0].map(f64::exp2) {
             let mut g = Graph::new();
             let (x, scale) = (g.input(), g.constant(c));
             let small = g.mul(scale, x);
-            // Moved out, the factor would be squared: zero, or infinite.
+            // If the factor moved out, it would be squared: zero, or infinite.
             let square = g.mul(small, small);
             let expected = g.intern(Op::Mul, [small.0, small.0, 0]);
             assert_eq!(square, expected);
-            // What scales it back is one factor with it.
+            // The inverse scale and the factor become a single factor.
             let back = g.div(small, scale);
             assert_eq!(back, x);
         }
     }
 
     #[test]
-    fn the_square_of_a_norm_loses_its_root() {
+    fn squares_of_norms_have_no_root() {
         let mut g = Graph::new();
         let (x, y, s) = (g.input(), g.input(), g.input());
         let (xx, yy) = (g.mul(x, x), g.mul(y, y));
@@ -573,14 +573,14 @@ mod tests {
     }
 
     #[test]
-    fn a_logistic_lies_between_zero_and_one() {
+    fn ranges_of_logistics_lie_between_zero_and_one() {
         let mut g = Graph::new();
         let x = g.input();
-        let one = g.constant(1.0);
+        let unity = g.constant(1.0);
         let minus = g.neg(x);
         let e = g.unary(Op::Exp, minus);
-        let below = g.add(one, e);
-        let s = g.div(one, below);
+        let below = g.add(unity, e);
+        let s = g.div(unity, below);
         let range = g.range(s);
         assert!(range.lo == 0.0 && range.hi == 1.0 && range.is_positive(), "{range:?}");
         let less = g.binary(Op::Less, s, minus);

@@ -1,7 +1,7 @@
 //! A recorded density as the text of a JAX function.
 //!
-//! It holds on the path that was recorded: outside the guards it is NaN, so that a sampler rejects the point instead
-//! of using a wrong density. JAX differentiates the function itself.
+//! The function holds on the recorded path. Outside the guards it is NaN, so that a sampler rejects the point instead
+//! of using a wrong density. JAX differentiates the function.
 
 use crate::density::{Comparison, Density};
 use crate::graph::Id;
@@ -106,7 +106,7 @@ pub fn source(density: &Density) -> String {
     out
 }
 
-/// A number as Python reads it, negative ones in brackets.
+/// A number as Python reads it, with brackets around negative numbers.
 fn number(x: f64) -> String {
     if x.is_nan() {
         "jnp.nan".into()

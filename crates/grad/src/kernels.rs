@@ -1,20 +1,20 @@
 //! Functions over many numbers: `exp`, `log`, `pow`, `sin`, `cos` without branches, so that the compiler makes vector
-//! code of the loops; the others one by one.
+//! code of the loops; other functions number by number.
 //!
-//! Compiled for AVX-512, for AVX2 and for any processor, and chosen when run. Only additions, multiplications and
-//! divisions in a fixed order, none fused: the bits are the same on every machine. Errors are below one unit in the
-//! last place for `exp` and `log`; `pow` is `exp(b log a)`, which loses about `|b log a|` units.
+//! The code is compiled for AVX-512, for AVX2 and for any processor, and chosen at run time. It uses only additions,
+//! multiplications and divisions in a fixed order, none fused, so the bits are equal on every machine. Errors are below one
+//! unit in the last place for `exp` and `log`; `pow` is `exp(b log a)`, which loses about `|b log a|` units.
 
 #![allow(unsafe_code)] // Calls of functions compiled for AVX2 or AVX-512, after a test of the processor.
 
 use crate::operation::{Op, apply, max, min};
 
-/// 1.5 * 2^52: adding and taking it away rounds to a whole number, whose bits are then the low ones.
+/// 1.5 * 2^52: adding and subtracting it rounds to a whole number, whose bits are then the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 const LN2_HI: f64 = 6.931_471_803_691_238e-1;
 const LN2_LO: f64 = 1.908_214_929_270_587_7e-10;
 
-/// e to this power. Reduction by Cody & Waite; Taylor series to the 13th power on half of `ln 2`.
+/// The exponential. Reduction by Cody & Waite; Taylor series to the 13th power on half of `ln 2`.
 #[inline(always)]
 pub(crate) fn exp(x: f64) -> f64 {
     let x = if x > 710.0 { 710.0 } else { x };
@@ -28,7 +28,7 @@ pub(crate) fn exp(x: f64) -> f64 {
     let high = (1.0 / 3_628_800.0 + r * (1.0 / 39_916_800.0))
         + r2 * (1.0 / 479_001_600.0 + r * (1.0 / 6_227_020_800.0));
     let p = 1.0 + (r + r2 * (low + r4 * (mid + r4 * high)));
-    // 2^k in two factors: one alone would overflow or underflow too early.
+    // 2^k in two factors, since a single factor would overflow or underflow too early.
     let half = (k * 0.5 + ROUND) - ROUND;
     let power = |n: f64| f64::from_bits(((n + ROUND).to_bits() << 52).wrapping_add(1023 << 52));
     p * power(half) * power(k - half)
@@ -107,7 +107,7 @@ fn cos(x: f64) -> f64 {
     if quarter.wrapping_add(1) & 2 == 0 { y } else { -y }
 }
 
-/// Beyond it the three parts of `pi / 2` lose digits.
+/// Largest angle by this reduction; beyond it the three parts of `pi / 2` lose digits.
 const LARGEST_ANGLE: f64 = 1e5;
 
 macro_rules! one {
@@ -125,7 +125,7 @@ macro_rules! two {
     };
 }
 
-/// Angles beyond it, one by one: the result of an angle never depends on its neighbours.
+/// Replaces the results of larger angles one by one, so that the result of an angle never depends on its neighbours.
 #[inline(always)]
 fn large_angles(f: fn(f64) -> f64, a: &[f64], to: &mut [f64]) {
     let small = a.iter().fold(true, |all, a| all & (a.abs() < LARGEST_ANGLE));
@@ -186,19 +186,19 @@ fn any_avx512(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
     any(op, a, b, c, to);
 }
 
-/// The widest vectors that this processor has and code was compiled for.
+/// The widest vectors of this processor for which code was compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Vectors {
     /// 512 bits.
     Avx512,
     /// 256 bits.
     Avx2,
-    /// Those of any processor.
+    /// The vectors of any processor.
     Any,
 }
 
 impl Vectors {
-    /// The widest available; detected once.
+    /// The widest vectors available; detected once.
     #[inline]
     pub fn here() -> Vectors {
         #[cfg(target_arch = "x86_64")]
@@ -215,10 +215,10 @@ impl Vectors {
     }
 }
 
-/// `to[k] = op(a[k], b[k], c[k])`. Slices of arguments that the operation does not take may be empty.
+/// `to[k] = op(a[k], b[k], c[k])`. Slices of arguments that the operation does not have may be empty.
 ///
 /// # Panics
-/// For a select whose slices are shorter than `to`.
+/// If the slices of a select are shorter than `to`.
 #[inline]
 pub fn apply_all(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
     match Vectors::here() {
@@ -236,20 +236,20 @@ pub fn apply_all(op: Op, a: &[f64], b: &[f64], c: &[f64], to: &mut [f64]) {
 mod tests {
     use super::*;
 
-    fn close(name: &str, x: f64, found: f64, expected: f64, units: f64) {
-        let same = found == expected || found.is_nan() && expected.is_nan();
+    fn close(name: &str, x: f64, actual: f64, expected: f64, units: f64) {
+        let are_equal = actual == expected || actual.is_nan() && expected.is_nan();
         let size = expected.abs().max(f64::MIN_POSITIVE);
         assert!(
-            same || (found - expected).abs() <= units * f64::EPSILON * size,
-            "{name}({x}): {found} {expected}"
+            are_equal || (actual - expected).abs() <= units * f64::EPSILON * size,
+            "{name}({x}): {actual} {expected}"
         );
     }
 
     #[test]
-    fn agree_with_libm_over_their_domains() {
+    fn kernels_agree_with_libm_over_their_domains() {
         let mut x = -750.0;
         while x < 715.0 {
-            // Below, results are subnormal: an absolute error.
+            // Below, results are subnormal, so the error is absolute.
             close("exp", x, exp(x), libm::exp(x), if x < -708.0 { 1e16 } else { 1.0 });
             x += 0.0137;
         }
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_of_the_line_are_those_of_libm() {
+    fn ends_of_the_line_agree_with_libm() {
         for x in [0.0, -0.0, -1.0, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 710.5, -800.0] {
             close("exp", x, exp(x), libm::exp(x), 1.0);
             close("log", x, log(x), libm::log(x), 1.0);
@@ -300,19 +300,20 @@ mod tests {
     }
 
     #[test]
-    fn all_compilations_have_the_same_bits() {
+    fn all_compilations_give_equal_bits() {
         let a: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.123).collect();
         for op in [Op::Exp, Op::Log, Op::Sin, Op::Cos, Op::Pow] {
-            let (mut one, mut other) = (vec![0.0; 1000], vec![0.0; 1000]);
-            apply_all(op, &a, &a, &[], &mut one);
-            any(op, &a, &a, &[], &mut other);
-            let same = |one: &[f64]| one.iter().zip(&other).all(|(x, y)| x.to_bits() == y.to_bits());
-            assert!(same(&one), "{op:?}");
+            let (mut actual, mut expected) = (vec![0.0; 1000], vec![0.0; 1000]);
+            apply_all(op, &a, &a, &[], &mut actual);
+            any(op, &a, &a, &[], &mut expected);
+            let has_equal_bits =
+                |actual: &[f64]| actual.iter().zip(&expected).all(|(x, y)| x.to_bits() == y.to_bits());
+            assert!(has_equal_bits(&actual), "{op:?}");
             #[cfg(target_arch = "x86_64")]
             if Vectors::here() != Vectors::Any {
                 // SAFETY: the processor has AVX2, or what holds it.
-                unsafe { any_avx2(op, &a, &a, &[], &mut one) };
-                assert!(same(&one), "{op:?}");
+                unsafe { any_avx2(op, &a, &a, &[], &mut actual) };
+                assert!(has_equal_bits(&actual), "{op:?}");
             }
         }
     }

@@ -1,15 +1,15 @@
-//! A run as a graph.
+//! Recordings of runs as graphs, and their gradients.
 //!
-//! * [`operation`]: what a node computes; [`graph`]: nodes, each kept once, simplified as they are added;
+//! * [`operation`]: the operations of nodes; [`graph`]: nodes, each stored once, simplified as they are added;
 //! * [`reverse`]: the gradient, as more nodes; [`density`]: a value with its gradient and guards, and its interpreter;
 //! * [`tape`]: a density over lanes, one for each chain, without compilation; [`kernels`]: functions over many numbers;
 //! * [`wide`]: the tapes of a density with their memory;
 //! * [`native`]: machine code by Cranelift;
-//! * [`scalar`]: the number that records its operations; [`mod@record`]: a run of a program, recorded;
-//! * [`mod@positions`]: where the shapes of a run are, by its choices;
-//! * [`coordinates`]: from bounded values to coordinates without bounds and back;
-//! * [`live`]: records again where a guard fails, over [`live::compiled`]: the tape first, then machine code;
-//! * [`jax`]: the same density as Python text.
+//! * [`scalar`]: the number that records its operations; [`mod@record`]: the recording of a program's run;
+//! * [`mod@positions`]: positions of the shapes of a run, as functions of its choices;
+//! * [`coordinates`]: maps from bounded values to coordinates without bounds, and back;
+//! * [`live`]: new recordings when a guard fails, over [`live::compiled`]: the tape first, then machine code;
+//! * [`jax`]: a density as Python text for JAX.
 
 #![cfg_attr(not(test), warn(clippy::cast_possible_truncation))]
 

@@ -1,11 +1,11 @@
 //! The operations of a graph, and their values.
 //!
-//! Everything else in this crate (simplification, differentiation, tape, machine code, the JAX text) is a table over
+//! All other parts of this crate (simplification, differentiation, tape, machine code, the JAX text) are tables over
 //! [`Op`].
 
 use libm::{asin, atan, log1p, tan};
 
-/// What a node of the graph computes from its arguments.
+/// The operation of a node of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Op {
@@ -25,17 +25,17 @@ pub enum Op {
     Neg,
     /// Square root.
     Sqrt,
-    /// The nearest whole number, the even one of two.
+    /// The nearest whole number; of two equally near ones, the even one.
     Round,
     /// Distance from zero.
     Abs,
-    /// The smaller of two; NaN when either is.
+    /// The smaller of two; NaN if either is NaN.
     Min,
-    /// The larger of two; NaN when either is.
+    /// The larger of two; NaN if either is NaN.
     Max,
-    /// 1 when `a < b`, else 0.
+    /// 1 if `a < b`, else 0.
     Less,
-    /// `b` when `a` is not 0, else `c`. The one not taken is computed, and its value is ignored.
+    /// `b` if `a` is not 0, else `c`. Both are computed, and the value of the other is ignored.
     Select,
     /// e to this power.
     Exp,
@@ -65,7 +65,7 @@ pub enum Op {
     Tanh,
     /// Logarithm of the gamma function's absolute value.
     LnGamma,
-    /// Its derivative.
+    /// The derivative of [`Op::LnGamma`].
     Digamma,
     /// Error function.
     Erf,
@@ -82,7 +82,7 @@ pub enum Op {
 }
 
 impl Op {
-    /// How many arguments it takes.
+    /// The number of arguments.
     pub const fn arity(self) -> usize {
         match self {
             Op::Constant | Op::Input => 0,
@@ -92,7 +92,7 @@ impl Op {
         }
     }
 
-    /// Whether it is computed by a routine over many numbers, not by an instruction.
+    /// Whether a routine over many numbers computes the operation, not an instruction.
     pub const fn is_call(self) -> bool {
         self as u8 >= Op::Exp as u8
     }
@@ -146,13 +146,13 @@ pub fn apply(op: Op, a: f64, b: f64, c: f64) -> f64 {
     }
 }
 
-/// The smaller of two, NaN when either is: `f64::min` would drop a NaN, and with it a trajectory that has diverged.
+/// The smaller of two, NaN if either is NaN. `f64::min` would drop a NaN, and with it the sign of a diverged trajectory.
 #[inline(always)]
 pub fn min(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
 
-/// The larger of two, NaN when either is.
+/// The larger of two, NaN if either is NaN.
 #[inline(always)]
 pub fn max(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
@@ -168,7 +168,7 @@ pub fn digamma(x: f64) -> f64 {
         if x == x.floor() {
             return f64::NAN;
         }
-        // The period of the cotangent is one: the fraction keeps its digits.
+        // The period of the cotangent is one, so the fraction keeps its digits.
         return digamma(1.0 - x) - PI / libm::tan(PI * (x - x.floor()));
     }
     let (mut x, mut shift) = (x, 0.0);
@@ -187,8 +187,8 @@ pub fn digamma(x: f64) -> f64 {
 
 /// `I_1(x) / I_0(x)`, odd in `x`, between -1 and 1: the mean cosine of a von Mises angle.
 ///
-/// Both by their power series below 20 and their asymptotic series from there on (Abramowitz & Stegun 9.6.10,
-/// 9.7.1), as [`niwaki_math::special::ln_bessel_i0e`].
+/// Power series of both functions below 20, and their asymptotic series from there on (Abramowitz & Stegun 9.6.10,
+/// 9.7.1), as in [`niwaki_math::special::ln_bessel_i0e`].
 pub fn bessel_ratio(x: f64) -> f64 {
     let z = x.abs();
     let ratio = if z < 20.0 {

@@ -1,12 +1,12 @@
-//! Where the shapes of a run are, as functions of its continuous choices.
+//! Positions of the shapes of a run, as functions of its continuous choices.
 //!
 //! The coordinates are the values of the choices themselves, within their supports. The point of a shape is its middle
-//! plus a sum of three directions that the shape was made with (`niwaki_vm::builtins::shapes`), so a point fixed to a
+//! plus a sum of the three directions with which the shape was made (`niwaki_vm::builtins::shapes`), so a point fixed to a
 //! shape moves, turns and stretches with it. Its derivatives are three reverse sweeps over the recorded graph. Factors,
-//! observations and scores of the scene are not looked at: an impossible run has positions, too.
+//! observations and scores of the scene are ignored: an impossible run has positions, too.
 //!
-//! Where numbers of the program may move, a choice whose distribution they change keeps its place in it: so many
-//! deviations from the mean, or its share of the way between two bounds.
+//! Numbers of the program may move, too. A choice whose distribution they change then keeps its place in the distribution:
+//! its distance from the mean in deviations, or its share of the way between two bounds.
 
 use crate::graph::{Graph, Id};
 use crate::operation::Op;
@@ -27,50 +27,50 @@ use niwaki_vm::value::Value;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// A number that may move: a real choice, or a number that the program was given.
+/// A number that may move: a real choice, or an input of the program.
 #[derive(Clone, Debug)]
 pub struct Movable {
-    /// Hash of the choice's address; the number of the input, for one that is no choice.
+    /// Hash of the choice's address; for an input, its number.
     pub address: u128,
-    /// Its readable address; empty for an input.
+    /// Readable address of the choice; empty for an input.
     pub path: String,
-    /// Its value in the run.
+    /// Value of the number in the run.
     pub value: f64,
-    /// Its support; infinite where there is no bound.
+    /// Lower bound of the support; infinite if there is none.
     pub low: f64,
-    /// The same.
+    /// Upper bound of the support; infinite if there is none.
     pub high: f64,
-    /// How far it usually varies: the deviation of a uniform number between two bounds, the scale of a family on the
-    /// line, the distance from one bound, a radian for an angle; in units of its value.
+    /// Typical variation of the number: the deviation of a uniform number between two bounds, the scale of a family on the
+    /// line, the distance from a single bound, a radian for an angle; in units of the value.
     pub spread: f64,
-    /// Whether it is an angle, without bounds.
+    /// Whether the number is an angle, without bounds.
     pub is_angle: bool,
 }
 
-/// A shape of a part. The numbers are of its middle and three directions; none where it does not vary.
+/// A shape of a part: the nodes of its middle and three directions; none if they do not vary.
 type Framed = Option<[Id; 12]>;
 
 /// The positions of a run's shapes.
 pub struct Positions {
-    /// What they depend on, in the order of the run.
+    /// The numbers that the positions depend on, in the order of the run.
     pub movables: Vec<Movable>,
     /// The parts of the scene: their readable addresses, and their shapes.
     pub parts: Vec<(String, Vec<Framed>)>,
-    /// Choices that keep their place in a distribution that inputs change: their addresses and values.
+    /// Choices that keep their place in a distribution while inputs change it: their addresses and values.
     followed: Vec<(u128, Id)>,
     graph: Graph,
 }
 
-/// The program of a run and its arguments, of the inputs that they are given.
-pub type Given<'a> = dyn Fn(&[Var]) -> Result<(Arc<Program<Var>>, Vec<Value<Var>>), Fault> + 'a;
+/// Builds the program of a run and its arguments from the inputs.
+pub type Build<'a> = dyn Fn(&[Var]) -> Result<(Arc<Program<Var>>, Vec<Value<Var>>), Fault> + 'a;
 
-/// A run whose positions are wanted.
+/// A run whose positions are recorded.
 pub struct Placed<'a> {
-    /// The program and its arguments, made while the run is recorded.
-    pub given: &'a Given<'a>,
-    /// Numbers that they are given and that may move: no choices, but arguments or numbers in the source.
+    /// Builds the program and its arguments while the run is recorded.
+    pub build: &'a Build<'a>,
+    /// Numbers of the arguments or of the source, not choices, that may move.
     pub inputs: Vec<Movable>,
-    /// Choices whose values are given, and observed.
+    /// Choices with fixed values, which are observed.
     pub held: Option<&'a Held<Var>>,
     /// The limits of the run.
     pub limits: Limits,
@@ -98,7 +98,7 @@ pub fn positions(run: &Placed<'_>) -> Result<Positions, Box<RunFault>> {
     let (finished, sheet) = with_notes(|| {
         let inputs: Vec<Var> = run.inputs.iter().map(|input| Var::input(input.value)).collect();
         let bare = |fault| Box::new(RunFault { fault, stack: vec![], omitted: 0, path: String::new() });
-        let (program, args) = (run.given)(&inputs).map_err(bare)?;
+        let (program, args) = (run.build)(&inputs).map_err(bare)?;
         let mut machine = Machine::new(&program, run.limits).holding(run.held);
         let mut state = machine.start(&args, true).map_err(bare)?;
         state.remember_origins();
@@ -118,12 +118,14 @@ pub fn positions(run: &Placed<'_>) -> Result<Positions, Box<RunFault>> {
 }
 
 impl Placer<'_> {
-    /// A real choice that may move; `None` for another.
+    /// A real choice that may move; `None` for any other choice.
     fn moving(&mut self, at: &At<'_, Var>, dist: &Dist<Var>, x: f64) -> Option<Var> {
         let (address, number) = (at.address(), |bound: Option<Var>, or: f64| bound.map_or(or, Scalar::value));
         let (low, high, is_angle) = match dist.support() {
             _ if !self.run.free.contains(&address) => return None,
-            Support::Reals(one) => (number(one.lo, f64::NEG_INFINITY), number(one.hi, f64::INFINITY), false),
+            Support::Reals(bounds) => {
+                (number(bounds.lo, f64::NEG_INFINITY), number(bounds.hi, f64::INFINITY), false)
+            }
             Support::Circle => (f64::NEG_INFINITY, f64::INFINITY, true),
             _ => return None,
         };
@@ -139,7 +141,7 @@ impl Placer<'_> {
     }
 }
 
-/// The value with the place in its distribution that `x` has in the recorded one; `None` for families without one.
+/// The value whose place in the distribution is that of `x` in the recorded distribution; `None` for families without places.
 fn keeping_its_place(dist: &Dist<Var>, x: f64) -> Option<Var> {
     let c = Var::from_f64;
     let scaled = |from: Var, by: Var| from + c((x - from.value()) / by.value()) * by;
@@ -156,14 +158,14 @@ impl Answers<Var> for Placer<'_> {
         if let Dist::Delta(value) = dist {
             return Ok(Answer::Go(draw_to_value(value.clone())));
         }
-        let Some(given) = self.run.choices.get(&at.address()) else {
+        let Some(value) = self.run.choices.get(&at.address()) else {
             let path = at.path();
             return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
                 .about(path)
                 .with_help("record with the model that the choices are from"));
         };
-        let Some(draw) = value_to_draw(given) else {
-            return Err(Fault::type_mismatch(format!("no distribution draws {}", given.described())));
+        let Some(draw) = value_to_draw(value) else {
+            return Err(Fault::type_mismatch(format!("no distribution draws {}", value.described())));
         };
         if let Draw::Real(x) = draw
             && let Some(moving) = self.moving(at, dist, x)
@@ -171,10 +173,10 @@ impl Answers<Var> for Placer<'_> {
             return Ok(Answer::Go(Value::Real(moving)));
         }
         if let Draw::Real(x) = draw
-            && let Some(same) = keeping_its_place(dist, x).filter(|same| same.varies())
+            && let Some(shifted) = keeping_its_place(dist, x).filter(|shifted| shifted.varies())
         {
-            self.followed.push((at.address(), same));
-            return Ok(Answer::Go(Value::Real(same.at(x))));
+            self.followed.push((at.address(), shifted));
+            return Ok(Answer::Go(Value::Real(shifted.at(x))));
         }
         Ok(Answer::Go(draw_to_value(draw.convert(&Var::from_f64))))
     }
@@ -185,28 +187,28 @@ impl Answers<Var> for Placer<'_> {
         Ok(Answer::Go(()))
     }
 
-    /// What a host function gives does not vary: its derivative is not known.
+    /// Calls a host function; its result does not vary, since its derivative is unknown.
     fn host(&mut self, constant: u16, args: &[Value<Var>], steps: &mut u64) -> Result<Value<Var>, Fault> {
         let fixed = |x: Var| Var::from_f64(x.value());
-        let given: Vec<Value<Var>> = args.iter().map(|arg| arg.convert(&fixed)).collect();
-        (self.run.host)(constant, &given, steps)
+        let plain_args: Vec<Value<Var>> = args.iter().map(|arg| arg.convert(&fixed)).collect();
+        (self.run.host)(constant, &plain_args, steps)
     }
 }
 
 impl Positions {
-    /// The middle of a shape and its three directions, scene units; `None` where nothing that may move moves it.
+    /// The middle of a shape and its three directions, scene units; `None` if they depend on no movable number.
     ///
     /// # Panics
-    /// When there is no such part or shape.
+    /// If there is no such part or shape.
     pub fn frame(&self, part: usize, shape: usize) -> Option<Vec<f64>> {
         self.parts[part].1[shape].map(|frame| self.numbers(&self.graph, &frame))
     }
 
     /// The derivatives of the point `middle + sum(share * direction)` by all movables, scene units for each unit of a
-    /// value: the three rows one after another. `None` as for [`Positions::frame`].
+    /// value: the three rows in order. `None` as for [`Positions::frame`].
     ///
     /// # Panics
-    /// As for [`Positions::frame`].
+    /// See [`Positions::frame`].
     pub fn slopes(&self, part: usize, shape: usize, shares: [f64; 3]) -> Option<Vec<f64>> {
         let frame = self.parts[part].1[shape]?;
         let mut graph = self.graph.clone();
@@ -223,19 +225,19 @@ impl Positions {
         Some(self.numbers(&graph, &rows))
     }
 
-    /// The values of the choices that keep their places, by address, where the movables have the values `x`.
+    /// The values of the choices that keep their places, by address, at the values `x` of the movables.
     ///
     /// # Panics
-    /// When there is not one number for each movable.
+    /// If there is not one number for each movable.
     pub fn followed(&self, x: &[f64]) -> HashMap<u128, f64> {
         let nodes: Vec<Id> = self.followed.iter().map(|(_, id)| *id).collect();
         let addresses = self.followed.iter().map(|(address, _)| *address);
         addresses.zip(numbers(&self.graph, &nodes, x)).collect()
     }
 
-    /// Numbers of nodes in the run.
+    /// Values of nodes at the numbers of the run.
     fn numbers(&self, graph: &Graph, nodes: &[Id]) -> Vec<f64> {
-        let x: Vec<f64> = self.movables.iter().map(|one| one.value).collect();
+        let x: Vec<f64> = self.movables.iter().map(|movable| movable.value).collect();
         numbers(graph, nodes, &x)
     }
 }

@@ -1,8 +1,8 @@
-//! Recording: one run of a program, its continuous choices as coordinates, becomes a [`Density`].
+//! Recording: a run of a program, with its continuous choices as coordinates, becomes a [`Density`].
 //!
 //! Coordinates are unconstrained: see [`crate::coordinates`]. Discrete choices keep their values; their probabilities
-//! belong to the density. Scores of a scene are no part of it: see the caller. A [`Scope`] gives the continuous choices
-//! that keep their values too, and the power of the score.
+//! belong to the density. Scores of a scene do not belong to it; the caller adds them. A [`Scope`] names the continuous
+//! choices that also keep their values, and the power of the score.
 
 use crate::coordinates::{Continuous, Edge, Placed, Transform};
 use crate::density::Density;
@@ -34,42 +34,42 @@ pub struct Recorded {
     pub fixed: Vec<(u128, Value)>,
     /// The coordinates of the recorded run.
     pub start: Vec<f64>,
-    /// Hash of the addresses, supports and fixed values: runs of one key differ in coordinates and guards only.
+    /// Hash of the addresses, supports and fixed values: runs with equal hashes differ in coordinates and guards only.
     pub structure: u128,
-    /// How many primitives the run emitted. Their scores are no part of the density.
+    /// The number of primitives that the run emitted. Their scores are not in the density.
     pub emitted: usize,
-    /// The coordinates that move: all but those of held choices and of the power.
+    /// The coordinates that move: all except those of held choices and of the power.
     pub moving: Vec<usize>,
-    /// From coordinates to values, and last to the log Jacobian.
+    /// The tape from coordinates to values, and last the log Jacobian.
     unpack: Tape,
 }
 
-/// A call of a pure host function, by the number of the constant that names it. The last argument are the steps of the run so
-/// far, to which it adds its own. Of arguments that vary it has the derivative, or refuses.
+/// A call of a pure host function, by the number of the constant that names it. The last argument is the number of steps of the
+/// run so far, to which the call adds its steps. For arguments that vary, the function has a derivative or refuses the call.
 pub type HostCall<'a> = dyn Fn(u16, &[Value<Var>], &mut u64) -> Result<Value<Var>, Fault> + Send + Sync + 'a;
 
-/// What is recorded.
+/// A run to be recorded.
 pub struct Run<'a> {
     /// The program, over recording numbers: [`Program::over`].
     pub program: &'a Program<Var>,
     /// The arguments of its entry function.
     pub args: &'a [Value<Var>],
-    /// Choices whose values are given, and observed: not those of the scope, which have coordinates.
+    /// Choices with fixed values, which are observed; not those of the scope, which have coordinates.
     pub held: Option<&'a Held<Var>>,
     /// The limits of the run.
     pub limits: Limits,
     /// Pure functions of the host, by the number of the constant that names them.
     pub host: &'a HostCall<'a>,
-    /// What varies.
+    /// The choices that vary.
     pub scope: &'a Scope,
 }
 
-/// Which choices of a run vary, and the power of its score.
+/// The choices of a run that vary, and the power of its score.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
     /// Continuous choices that keep their values, by address: they have coordinates, which do not move.
     pub held: Option<Arc<HashSet<u128>>>,
-    /// The power of factors and observations, as the first coordinate, which does not move; left out, it is 1.
+    /// The power of factors and observations, as the first coordinate, which does not move; without it, the power is 1.
     pub power: Option<f64>,
 }
 
@@ -84,7 +84,7 @@ pub(crate) struct Recorder<'a> {
     pub(crate) start: Vec<f64>,
     structure: u128,
     emitted: usize,
-    /// A held choice that the run does not make.
+    /// A held choice that the run never makes.
     unmet: Option<String>,
     /// Whether each term must have a finite gradient.
     strict: bool,
@@ -155,8 +155,8 @@ pub(crate) fn no_coordinates(dist: &Dist<Var>) -> Fault {
 }
 
 #[cold]
-fn impossible(what: &str) -> Fault {
-    Fault::new("impossible-trace", format!("{what} makes this run impossible: it has no gradient to follow"))
+fn impossible(cause: &str) -> Fault {
+    Fault::new("impossible-trace", format!("{cause} makes this run impossible: it has no gradient to follow"))
         .with_help("start from a run that is possible, for example a result of particles or of rejection")
 }
 
@@ -164,18 +164,18 @@ impl Answers<Var> for Recorder<'_> {
     fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
         let address = at.address();
         if let Dist::Delta(value) = dist {
-            // It may vary with other choices.
+            // The distribution may vary with other choices.
             self.mix(address);
             return Ok(Answer::Go(draw_to_value(value.clone())));
         }
-        let Some(given) = self.choices.get(&address) else {
+        let Some(stored) = self.choices.get(&address) else {
             let path = at.path();
-            return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
+            return Err(Fault::new("missing-choice", format!("there is no stored for the choice `{path}`"))
                 .about(path)
                 .with_help("record with the model that the choices are from"));
         };
-        let unfit = || Fault::type_mismatch(format!("no distribution draws {}", given.described()));
-        let draw = value_to_draw(given).ok_or_else(unfit)?;
+        let unfit = || Fault::type_mismatch(format!("no distribution draws {}", stored.described()));
+        let draw = value_to_draw(stored).ok_or_else(unfit)?;
         self.mix(address);
         let (first, family) = (self.start.len(), dist.family());
         let is_held = self.run.scope.held.as_ref().is_some_and(|held| held.contains(&address));
@@ -186,7 +186,7 @@ impl Answers<Var> for Recorder<'_> {
                 return Err(impossible("a choice of probability zero"));
             }
             self.add(log)?;
-            let kept = match &draw {
+            let hash = match &draw {
                 Draw::Bool(b) => u128::from(*b),
                 Draw::Int(i) => *i as u128,
                 Draw::Real(x) => u128::from(x.to_bits()),
@@ -194,10 +194,10 @@ impl Answers<Var> for Recorder<'_> {
                 Draw::Counts(v) => v.iter().fold(0, |hash, k| join(hash, *k as u128)),
                 Draw::Truths(v) => v.iter().fold(0, |hash, b| join(hash, u128::from(*b))),
             };
-            self.mix(kept);
-            self.fixed.push((address, given.clone()));
-            // As it was given: of a list of counts the draw is a vector of real numbers.
-            return Ok(Answer::Go(given.convert(&Var::from_f64)));
+            self.mix(hash);
+            self.fixed.push((address, stored.clone()));
+            // The stored itself: for a list of counts, the draw would be a vector of real numbers.
+            return Ok(Answer::Go(stored.convert(&Var::from_f64)));
         };
         if placed.log.value() == f64::NEG_INFINITY {
             return Err(impossible("a choice outside its support"));
@@ -294,7 +294,7 @@ pub fn record(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Result<Recorded,
     })
 }
 
-/// The first term of the log density whose gradient is not finite, as a fault of its line; the fault of the run, where
+/// The first term of the log density whose gradient is not finite, as a fault of its line; or the fault of the run, if
 /// it has one.
 pub fn blame(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Option<Box<RunFault>> {
     let mut recorder = Recorder::new(run, choices, true);
@@ -302,7 +302,7 @@ pub fn blame(run: &Run<'_>, choices: &HashMap<u128, Value>) -> Option<Box<RunFau
 }
 
 impl Recorded {
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         self.start.len()
     }
@@ -310,23 +310,23 @@ impl Recorded {
     /// The values of all choices at these coordinates, fixed ones included.
     ///
     /// # Panics
-    /// When there is not one number for each coordinate.
+    /// If there is not one number for each coordinate.
     pub fn values(&self, x: &[f64]) -> HashMap<u128, Value> {
         self.values_of(&self.numbers(x))
     }
 
-    /// The values of the continuous choices at these coordinates, one after another: [`Continuous::width`] each.
+    /// The values of the continuous choices at these coordinates, in order: [`Continuous::width`] numbers for each.
     ///
     /// # Panics
-    /// When there is not one number for each coordinate.
+    /// If there is not one number for each coordinate.
     pub fn numbers(&self, x: &[f64]) -> Vec<f64> {
         self.numbers_and_slope(x).0
     }
 
-    /// The same, and the log Jacobian of values by coordinates, nats.
+    /// The values of the continuous choices as [`Recorded::numbers`], and the log Jacobian of values by coordinates, nats.
     ///
     /// # Panics
-    /// When there is not one number for each coordinate.
+    /// If there is not one number for each coordinate.
     pub fn numbers_and_slope(&self, x: &[f64]) -> (Vec<f64>, f64) {
         let mut lanes: Lanes<1> = self.unpack.lanes();
         let mut numbers = lanes.outputs(&self.unpack, x).to_vec();
@@ -334,10 +334,10 @@ impl Recorded {
         (numbers, slope)
     }
 
-    /// The values of all choices by address, from the numbers of the continuous ones.
+    /// The values of all choices by address, from the numbers of the continuous choices.
     ///
     /// # Panics
-    /// When there are fewer numbers than [`Recorded::numbers`] gives.
+    /// If there are fewer numbers than [`Recorded::numbers`] returns.
     pub fn values_of(&self, numbers: &[f64]) -> HashMap<u128, Value> {
         let mut all: HashMap<u128, Value> = self.fixed.iter().cloned().collect();
         let mut at = 0;

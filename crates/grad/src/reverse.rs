@@ -1,8 +1,8 @@
 //! Reverse-mode differentiation: the gradient of a node, as more nodes of the same graph.
 //!
-//! Griewank & Walther, "Evaluating derivatives" (2008), chapter 3. Where a function has no derivative (the corner of
-//! `abs`, a tie of `min`) the slope of one side is taken. A branch of a select that is not taken gets the adjoint zero
-//! by a select of its own, never by a product: zero times infinity is NaN.
+//! Griewank & Walther, "Evaluating derivatives" (2008), chapter 3. If a function has no derivative (the corner of
+//! `abs`, a tie of `min`), the gradient uses the slope of one side. The other branch of a select gets the adjoint zero
+//! from another select, never from a product: zero times infinity is NaN.
 
 use crate::graph::{Graph, Id, small};
 use crate::operation::Op;
@@ -52,7 +52,7 @@ fn depends_on_inputs(graph: &Graph, end: usize) -> Vec<bool> {
     depends
 }
 
-/// A product as its constant and its factors, the second of which may be missing.
+/// A product as its constant and one or two factors.
 fn factors(graph: &Graph, id: Id) -> (f64, Id, Option<Id>) {
     let node = graph.node(id);
     if node.op == Op::Neg {
@@ -71,9 +71,9 @@ fn factors(graph: &Graph, id: Id) -> (f64, Id, Option<Id>) {
     }
 }
 
-/// `a + b`, two parts of an adjoint. Where one is a multiple of a factor of the other, both become one product:
-/// `c u v + d u = u (c v + d)`, so that `v`, which is often known long before `u`, waits for nothing. Only nodes of
-/// the gradient, from `first` on, are split: nothing else needs them.
+/// The sum of two parts of an adjoint, `a + b`. If one is a multiple of a factor of the other, both become one product:
+/// `c u v + d u = u (c v + d)`. Then `v`, which is often known long before `u`, waits for nothing. Only nodes of
+/// the gradient, from `first` on, are split, since no other node needs them.
 fn add(graph: &mut Graph, a: Id, b: Id, first: Id) -> Id {
     if a < first || b < first {
         return graph.add(a, b);
@@ -94,11 +94,11 @@ fn add(graph: &mut Graph, a: Id, b: Id, first: Id) -> Id {
     graph.mul(w, sum)
 }
 
-/// What argument `k` of a node adds to its adjoint, `out` being the node's; `None` for nothing.
+/// The addend of argument `k` of a node to the argument's adjoint, where `out` is the node's adjoint; `None` for zero.
 fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
     let node = *g.node(id);
     let (a, b) = (node.arg(0), node.arg(1));
-    let one = |g: &mut Graph| g.constant(1.0);
+    let unity = |g: &mut Graph| g.constant(1.0);
     let square = |g: &mut Graph, x: Id| g.mul(x, x);
     Some(match (node.op, k) {
         (Op::Add, _) | (Op::Sub, 0) => out,
@@ -130,7 +130,7 @@ fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
             g.select(below, minus, out)
         }
         (Op::Min, _) | (Op::Max, _) => {
-            // The first of equals, as Python's `min` and `max` choose.
+            // In a tie the first argument counts, as in Python's `min` and `max`.
             let second = if node.op == Op::Min { g.binary(Op::Less, b, a) } else { g.binary(Op::Less, a, b) };
             let zero = g.constant(0.0);
             if k == 0 { g.select(second, zero, out) } else { g.select(second, out, zero) }
@@ -143,13 +143,13 @@ fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
         (Op::Exp, _) => g.mul(out, id),
         (Op::Log, _) => g.div(out, a),
         (Op::Log1p, _) => {
-            let one = one(g);
-            let below = g.add(one, a);
+            let unity = unity(g);
+            let below = g.add(unity, a);
             g.div(out, below)
         }
         (Op::Expm1, _) => {
-            let one = one(g);
-            let slope = g.add(one, id);
+            let unity = unity(g);
+            let slope = g.add(unity, id);
             g.mul(out, slope)
         }
         (Op::Sin, _) => {
@@ -162,20 +162,20 @@ fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
             g.neg(product)
         }
         (Op::Tan, _) => {
-            let (one, square) = (one(g), square(g, id));
-            let slope = g.add(one, square);
+            let (unity, square) = (unity(g), square(g, id));
+            let slope = g.add(unity, square);
             g.mul(out, slope)
         }
         (Op::Asin, _) | (Op::Acos, _) => {
-            let (one, square) = (one(g), square(g, a));
-            let rest = g.sub(one, square);
+            let (unity, square) = (unity(g), square(g, a));
+            let rest = g.sub(unity, square);
             let root = g.unary(Op::Sqrt, rest);
             let share = g.div(out, root);
             if node.op == Op::Asin { share } else { g.neg(share) }
         }
         (Op::Atan, _) => {
-            let (one, square) = (one(g), square(g, a));
-            let below = g.add(one, square);
+            let (unity, square) = (unity(g), square(g, a));
+            let below = g.add(unity, square);
             g.div(out, below)
         }
         (Op::Sinh, _) => {
@@ -187,8 +187,8 @@ fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
             g.mul(out, slope)
         }
         (Op::Tanh, _) => {
-            let (one, square) = (one(g), square(g, id));
-            let slope = g.sub(one, square);
+            let (unity, square) = (unity(g), square(g, id));
+            let slope = g.sub(unity, square);
             g.mul(out, slope)
         }
         (Op::LnGamma, _) => {
@@ -224,8 +224,8 @@ fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
                 let product = g.mul(b, id);
                 g.div(product, a)
             } else {
-                let one = one(g);
-                let less = g.sub(b, one);
+                let unity = unity(g);
+                let less = g.sub(b, unity);
                 let power = g.pow(a, less);
                 g.mul(b, power)
             };
@@ -250,7 +250,7 @@ fn part(g: &mut Graph, id: Id, k: usize, out: Id) -> Option<Id> {
                 g.neg(product)
             }
         }
-        // Only in gradients, which are not differentiated again.
+        // These operations are only in gradients, which are not differentiated again.
         (Op::Digamma | Op::BesselRatio, _) => g.constant(f64::NAN),
         (Op::Constant | Op::Input, _) => return None,
     })

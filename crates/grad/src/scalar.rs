@@ -1,7 +1,7 @@
 //! The number that records its operations.
 //!
-//! A [`Var`] is its value at the recorded point and the node that computes it; a number that does not vary has no
-//! node. Operations go to the sheet of the thread that records ([`with_sheet`]); comparisons become guards. A machine
+//! A [`Var`] holds its value at the recorded point and the node that computes it; a number that does not vary has no
+//! node. Operations go to the sheet of the recording thread ([`with_sheet`]); comparisons become guards. A machine
 //! or a density over `Var` instead of `f64` is recorded as it runs: the non-standard interpretation of dissertation
 //! 7.2.1.
 
@@ -20,25 +20,25 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 pub struct Sheet {
     /// The operations.
     pub graph: Graph,
-    /// The comparisons on which the run branched, each once, in order.
+    /// The comparisons on which the run branched, each stored once, in order.
     pub guards: Vec<Guard>,
-    /// Whether a comparison met a NaN: the run branches on it, and no guard can express that.
+    /// Whether a comparison met a NaN: the run branches on it, and no guard can express that branch.
     pub met_nan: bool,
-    /// Numbers by the address of what they are of ([`Scalar::note`]), where they are wanted.
+    /// The numbers of objects by their addresses ([`Scalar::note`]), if the recording needs them.
     notes: Option<HashMap<usize, Vec<Var>>>,
-    seen: HashSet<Guard, BuildHasherDefault<Mix>>,
+    met: HashSet<Guard, BuildHasherDefault<Mix>>,
 }
 
 thread_local! {
     static SHEET: RefCell<Option<Sheet>> = const { RefCell::new(None) };
 }
 
-/// Records what `f` computes. A nested recording has its own sheet.
+/// Records the operations of `f`. A nested recording has its own sheet.
 pub fn with_sheet<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
     on_sheet(Sheet::default(), f)
 }
 
-/// The same, with the numbers that are noted: see [`Var::noted`].
+/// Records the operations of `f`, and the numbers that it notes: see [`Var::noted`].
 pub fn with_notes<R>(f: impl FnOnce() -> R) -> (R, Sheet) {
     on_sheet(Sheet { notes: Some(HashMap::new()), ..Sheet::default() }, f)
 }
@@ -69,17 +69,17 @@ pub struct Var {
 }
 
 impl Var {
-    /// The next coordinate, at that value. Outside a recording, the number.
+    /// The next coordinate, with this value at the recorded point. Outside a recording, a plain number.
     pub fn input(value: f64) -> Var {
         Var::written(value, |sheet| sheet.graph.input())
     }
 
-    /// The node that computes it; a constant gets one.
+    /// The node that computes the number; a constant gets one.
     pub fn id(self, graph: &mut Graph) -> Id {
         if self.node == FIXED { graph.constant(self.value) } else { Id(self.node) }
     }
 
-    /// The same number where it is known to lie between two others, which guards then need not test.
+    /// The number, known to lie between two bounds, so that guards need not test it.
     #[must_use]
     pub fn within(self, lo: f64, hi: f64) -> Var {
         if self.node != FIXED {
@@ -92,14 +92,14 @@ impl Var {
         self
     }
 
-    /// The same number, its value at the recorded point being this one up to rounding.
+    /// The number, with its value at the recorded point replaced by `value`, which equals it up to rounding.
     #[must_use]
     pub fn at(self, value: f64) -> Var {
         Var { value, ..self }
     }
 
-    /// Its derivatives by the coordinates of the recording so far, at `x`; none for a number that does not vary. It
-    /// takes as long as the whole recording: for messages.
+    /// The derivatives of the number by the coordinates of the recording so far, at `x`; none for a number that does not vary.
+    /// A call takes as long as the whole recording, so it is for messages.
     pub fn slopes(self, x: &[f64]) -> Vec<f64> {
         let mut slopes = vec![0.0; x.len()];
         SHEET.with_borrow(|sheet| {
@@ -116,14 +116,14 @@ impl Var {
         self.unary(Op::Round, self.value.round_ties_even())
     }
 
-    /// `yes` where the number is below the bound or at it, else `no`: one operation, and no guard.
+    /// `yes` if the number is at most the bound, else `no`: a single operation, without a guard.
     #[must_use]
     pub fn below_or(self, bound: f64, yes: Var, no: Var) -> Var {
-        let taken = if self.value <= bound { yes } else { no };
+        let branch = if self.value <= bound { yes } else { no };
         if self.node == FIXED {
-            return taken;
+            return branch;
         }
-        Var::written(taken.value, |sheet| {
+        Var::written(branch.value, |sheet| {
             let g = &mut sheet.graph;
             let (bound, yes, no) = (g.constant(bound), yes.id(g), no.id(g));
             let above = g.binary(Op::Less, bound, Id(self.node));
@@ -136,7 +136,7 @@ impl Var {
             Some(sheet) => {
                 let id = write(sheet);
                 let node = if sheet.graph.constant_of(id).is_some() { FIXED } else { id.0 };
-                // An operation may turn out constant (`x - x`); its value is then the graph's.
+                // An operation may turn out constant (`x - x`); then its value is the graph's.
                 let value = sheet.graph.constant_of(id).unwrap_or(value);
                 Var { value, node }
             }
@@ -163,7 +163,7 @@ impl Var {
         })
     }
 
-    /// What was noted last under an address; empty where nothing was that varies.
+    /// The last note under an address; empty if there is none that varies.
     pub fn noted(address: usize) -> Vec<Var> {
         SHEET.with_borrow(|sheet| {
             let notes = sheet.as_ref().and_then(|sheet| sheet.notes.as_ref());
@@ -176,7 +176,7 @@ impl Var {
         SHEET.with_borrow(|sheet| sheet.as_ref().is_some_and(|sheet| sheet.met_nan))
     }
 
-    /// Notes that a comparison held.
+    /// Notes that a comparison holds.
     fn guard(comparison: Comparison, a: Var, b: Var) {
         if a.node == FIXED && b.node == FIXED {
             return;
@@ -189,7 +189,7 @@ impl Var {
                 }
                 let (a, b) = (a.id(&mut sheet.graph), b.id(&mut sheet.graph));
                 let guard = Guard { comparison, a, b };
-                if sheet.seen.insert(guard) {
+                if sheet.met.insert(guard) {
                     sheet.guards.push(guard);
                 }
             }
@@ -316,8 +316,8 @@ impl Scalar for Var {
             return if self.value > bound { over() } else { under() };
         }
         let (over, under) = (over(), under());
-        let taken = if self.value > bound { over } else { under };
-        Var::written(taken.value, |sheet| {
+        let branch = if self.value > bound { over } else { under };
+        Var::written(branch.value, |sheet| {
             let g = &mut sheet.graph;
             let (bound, over, under) = (g.constant(bound), over.id(g), under.id(g));
             let test = g.binary(Op::Less, bound, Id(self.node));

@@ -1,8 +1,8 @@
 //! The tape: a density as a list of instructions over lanes, one lane for each chain.
 //!
-//! Each instruction is a loop over the lanes, which the compiler turns into vector code, so the cost of decoding an
-//! instruction is shared by 16 or 64 chains. It needs no compilation. The slots of values whose last reader has run
-//! are reused, which keeps the lanes of a large graph in the cache.
+//! Each instruction is a loop over the lanes, which the compiler turns into vector code, so 16 or 64 chains share the time to
+//! decode an instruction. A tape needs no compilation. Slots are reused after the last reader of their value has run,
+//! which keeps the lanes of a large graph in the cache.
 
 #![allow(unsafe_code)] // Slices of one memory, disjoint by construction; calls of code for AVX2 and AVX-512.
 
@@ -21,11 +21,11 @@ enum Step {
 #[derive(Clone, Debug)]
 pub struct Tape {
     steps: Vec<Step>,
-    /// Slots with numbers in them from the start.
+    /// Slots that hold a constant from the start.
     constants: Vec<(u32, f64)>,
     slots: usize,
     inputs: usize,
-    /// Of a density, the derivatives and then the value.
+    /// The slots of the outputs; for a density, of its derivatives and then of its value.
     outputs: Vec<u32>,
 }
 
@@ -52,7 +52,7 @@ impl Tape {
                 last[arg.index()] = id.0;
             }
         }
-        // Guards run right after the later of their two numbers.
+        // A guard runs right after the later of its two numbers.
         let mut guards: Vec<_> = guards.iter().map(|g| (g.a.max(g.b), *g)).collect();
         guards.sort_by_key(|(at, _)| *at);
         for (at, guard) in &guards {
@@ -80,7 +80,7 @@ impl Tape {
             if let Some(x) = node.constant() {
                 tape.constants.push((to, x));
             } else if !permanent {
-                // An argument that is not taken is the first one again: never the slot that is written.
+                // An argument beyond the arity repeats the first: it is never the slot of the result.
                 let at = |k: usize| slot[node.arg(if k < node.op.arity() { k } else { 0 }).index()];
                 tape.steps.push(Step::Compute { op: node.op, to, a: at(0), b: at(1), c: at(2) });
             }
@@ -92,7 +92,7 @@ impl Tape {
             }
             done.sort_unstable();
             done.dedup();
-            // Freed only now: what is written never lies where its arguments are.
+            // Slots are freed only here, so that a result never overwrites its arguments.
             free.extend(
                 done.iter()
                     .filter(|arg| last[arg.index()] == id.0 && graph.node(**arg).op.arity() > 0)
@@ -103,17 +103,17 @@ impl Tape {
         tape
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         self.inputs
     }
 
-    /// How many numbers a lane keeps.
+    /// The number of slots in a lane.
     pub fn slots(&self) -> usize {
         self.slots
     }
 
-    /// Memory for that many lanes.
+    /// Memory for `L` lanes.
     pub fn lanes<const L: usize>(&self) -> Lanes<L> {
         let mut memory = vec![[0.0; L]; self.slots];
         for &(slot, x) in &self.constants {
@@ -122,7 +122,7 @@ impl Tape {
         Lanes { memory }
     }
 
-    /// Computes all at `x`, and writes the first outputs to `g`; returns which lanes are inside.
+    /// Computes all nodes at `x`, and writes the first outputs to `g`; returns which lanes are inside the guards.
     #[inline(always)]
     fn run<const L: usize>(
         &self,
@@ -146,7 +146,7 @@ impl Tape {
             match *step {
                 Step::Compute { op, to, a, b, c } => {
                     debug_assert!([to, a, b, c].iter().all(|&slot| (slot as usize) < slots));
-                    // SAFETY: `Tape::of` hands out slots below `slots`, and to what is written one that none of its
+                    // SAFETY: `Tape::of` hands out slots below `slots`, and gives a result a slot that none of its
                     // arguments has.
                     let (a, b, c, to) = unsafe {
                         (
@@ -193,7 +193,7 @@ impl Tape {
     }
 }
 
-/// Copies lanes number by number: the caller gets vector moves, where a call of `memcpy` would take as long as an
+/// Copies lanes number by number: the caller gets vector moves, while a call of `memcpy` would take as long as an
 /// instruction.
 #[inline(always)]
 fn copy<const L: usize>(from: &[f64; L], to: &mut [f64; L]) {
@@ -214,7 +214,7 @@ impl<const L: usize> Lanes<L> {
     /// Coordinate `k` of chain `l` is `x[k][l]`: shape (dim, L), as for `g`. A chain outside the guards gets NaN.
     ///
     /// # Panics
-    /// When `x` or `g` does not have one entry for each coordinate, or the memory is another tape's.
+    /// If `x` or `g` does not have one entry for each coordinate, or the memory belongs to another tape.
     pub fn value_and_gradient(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [f64; L] {
         assert!(tape.outputs.len() == x.len() + 1);
         let inside = self.covered(tape, x, g);
@@ -229,21 +229,21 @@ impl<const L: usize> Lanes<L> {
     }
 
     /// Writes the first outputs of a tape, one for each coordinate, to `g`, and returns which lanes are inside the
-    /// guards; the others' numbers have no meaning.
+    /// guards; the numbers of lanes outside have no meaning.
     ///
     /// # Panics
-    /// As for [`Lanes::value_and_gradient`]; for a tape of fewer outputs.
+    /// See [`Lanes::value_and_gradient`]; also if the tape has fewer outputs.
     pub fn covered(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
         assert!(g.len() == x.len() && tape.outputs.len() >= x.len());
         self.run(tape, x, g)
     }
 
-    /// The last output of the last evaluation: of a density's tape, its values.
+    /// The last output of the last evaluation: for a density's tape, its values.
     pub fn value(&self, tape: &Tape) -> [f64; L] {
         tape.outputs.last().map_or([f64::NAN; L], |slot| self.memory[*slot as usize])
     }
 
-    /// Computes all, with the first outputs in `g`, and returns which lanes are inside the guards.
+    /// Computes all nodes, with the first outputs in `g`, and returns which lanes are inside the guards.
     fn run(&mut self, tape: &Tape, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
         assert!(x.len() == tape.dim() && self.memory.len() == tape.slots);
         let mut inside = [true; L];
@@ -261,10 +261,10 @@ impl<const L: usize> Lanes<L> {
 }
 
 impl Lanes<1> {
-    /// The same; `None` outside the guards.
+    /// The log density of one point, with its gradient in `g`; `None` outside the guards.
     ///
     /// # Panics
-    /// As for [`Lanes::value_and_gradient`].
+    /// See [`Lanes::value_and_gradient`].
     pub fn inside(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> Option<f64> {
         assert!(g.len() == x.len() && tape.outputs.len() == x.len() + 1);
         let [inside] = self.run(tape, x.as_chunks().0, g.as_chunks_mut().0);
@@ -275,17 +275,17 @@ impl Lanes<1> {
         Some(self.memory[tape.outputs[x.len()] as usize][0])
     }
 
-    /// The outputs at one point.
+    /// The outputs at a point.
     pub(crate) fn outputs(&mut self, tape: &Tape, x: &[f64]) -> Vec<f64> {
         self.run(tape, x.as_chunks().0, &mut []);
         tape.outputs.iter().map(|slot| self.memory[*slot as usize][0]).collect()
     }
 
-    /// The log density of one point, with its gradient in `g`.
+    /// The log density of one point, with its gradient in `g`; NaN outside the guards.
     ///
     /// # Panics
-    /// As for [`Lanes::value_and_gradient`].
-    pub fn one(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> f64 {
+    /// See [`Lanes::value_and_gradient`].
+    pub fn at_point(&mut self, tape: &Tape, x: &[f64], g: &mut [f64]) -> f64 {
         self.inside(tape, x, g).unwrap_or(f64::NAN)
     }
 }

@@ -1,9 +1,9 @@
-//! A density at several points at once: its tapes with their memory.
+//! A density at several points at once: the tapes with their memory.
 
 use crate::density::Density;
 use crate::tape::{Lanes, Tape};
 
-/// A density over `L` lanes. Coordinate `k` of lane `l` is `x[k][l]`, shape (dim, L), as for gradients.
+/// A density over `L` lanes. Coordinate `k` of lane `l` is `x[k][l]`, shape (dim, L); gradients have the same shape.
 #[derive(Clone, Debug)]
 pub struct Wide<const L: usize> {
     both: (Tape, Lanes<L>),
@@ -20,11 +20,11 @@ impl<const L: usize> Wide<L> {
         Wide { both: with_memory(Tape::new(density)), slope: with_memory(Tape::of_gradient(density)) }
     }
 
-    /// The log densities, nats, with the gradients in `g`, and which lanes are inside the guards; the others' numbers
+    /// The log densities, nats, with the gradients in `g`, and which lanes are inside the guards; the numbers of lanes outside
     /// have no meaning.
     ///
     /// # Panics
-    /// When `x` or `g` does not have one entry for each coordinate.
+    /// If `x` or `g` does not have one entry for each coordinate.
     pub fn value_and_gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> ([f64; L], [bool; L]) {
         let (tape, memory) = &mut self.both;
         let inside = memory.covered(tape, x, g);
@@ -34,7 +34,7 @@ impl<const L: usize> Wide<L> {
     /// The gradients alone.
     ///
     /// # Panics
-    /// As for [`Wide::value_and_gradient`].
+    /// See [`Wide::value_and_gradient`].
     pub fn gradient(&mut self, x: &[[f64; L]], g: &mut [[f64; L]]) -> [bool; L] {
         let (tape, memory) = &mut self.slope;
         memory.covered(tape, x, g)

@@ -262,7 +262,7 @@ fn every_evaluator(density: &Density, x: &[f64]) {
     };
     let tape = Tape::new(density);
     let mut g = vec![0.0; x.len()];
-    let found = tape.lanes::<1>().one(&tape, x, &mut g);
+    let found = tape.lanes::<1>().at_point(&tape, x, &mut g);
     same("tape", found, &g);
     let rows: Vec<[f64; 16]> = x.iter().map(|x| [*x; 16]).collect();
     let mut many = vec![[0.0; 16]; x.len()];

@@ -1,8 +1,8 @@
 //! Guides: small networks that draw choices in place of the prior.
 //!
 //! A guide is a proposal. It sees windows of the scene and values that are live at a site, and gives a density for the
-//! choice there; the weight of a run is corrected by the prior's density over the guide's, so a bad guide costs time and
-//! never changes the answer. A share of the prior in every density bounds that quotient by one over the share.
+//! choice there. The weight of a run is corrected by the quotient of the prior's density to the guide's, so a bad guide costs
+//! time but never changes the answer. A share of the prior in every density bounds that quotient by one over the share.
 //!
 //! | part | what it holds |
 //! | --- | --- |

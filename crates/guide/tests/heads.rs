@@ -320,9 +320,9 @@ fn sites_have_the_heads_of_their_families() {
             && !die.fits(&Dist::DiscreteUniform { lo: 1, hi: 5 })
     );
     assert!(die.fits(&categorical(&[1.0; 4])) && !die.fits(&categorical(&[1.0; 7])));
-    assert_eq!(die.also(&categorical(&[1.0; 7]), 4), Some(Head::Finite { values: 7 }));
-    assert_eq!(die.also(&Dist::DiscreteUniform { lo: 1, hi: 5 }, 4), Some(Head::Count { components: 4 }));
-    assert_eq!(die.also(&dist(Family::Gaussian, &[0.0, 1.0]), 4), None);
+    assert_eq!(die.widen(&categorical(&[1.0; 7]), 4), Some(Head::Finite { values: 7 }));
+    assert_eq!(die.widen(&Dist::DiscreteUniform { lo: 1, hi: 5 }, 4), Some(Head::Count { components: 4 }));
+    assert_eq!(die.widen(&dist(Family::Gaussian, &[0.0, 1.0]), 4), None);
 }
 
 /// Where the head does not fit, the prior draws.

@@ -1,4 +1,4 @@
-//! Reals as the numbers of their bits, for data that is written as text: JSON has no infinity.
+//! Reals as the integers of their bits, for data in JSON, which has no infinity.
 //!
 //! `#[serde(with = "niwaki_math::bits")]`
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serializer};
 /// Writes the bits of a number.
 ///
 /// # Errors
-/// Those of the writer.
+/// An error of the writer.
 pub fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_u64(x.to_bits())
 }
@@ -15,7 +15,7 @@ pub fn serialize<S: Serializer>(x: &f64, to: S) -> Result<S::Ok, S::Error> {
 /// Reads a number from its bits.
 ///
 /// # Errors
-/// What is no whole number of 64 bits.
+/// The input is not a whole number of 64 bits.
 pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     u64::deserialize(from).map(f64::from_bits)
 }

@@ -2,8 +2,8 @@
 //!
 //! A colour is three numbers; the function's name gives the colour space. sRGB components are in `[0, 1]` (IEC
 //! 61966-2-1, white point D65); hue, saturation and value are in `[0, 1]`, the hue in turns; CIELAB has L in `[0,
-//! 100]`. Nothing is clamped: a CIELAB colour that no screen can show has sRGB parts outside of `[0, 1]`, and comes
-//! back as it was.
+//! 100]`. Nothing is clamped: a CIELAB colour that no screen can show has sRGB components outside `[0, 1]`, and converts
+//! back to the same CIELAB colour.
 
 use crate::Scalar;
 use std::f64::consts::TAU;
@@ -30,11 +30,11 @@ fn product<S: Scalar>(matrix: &[[f64; 3]; 3], v: [S; 3]) -> [S; 3] {
 ///
 /// `f(n) = v - v s max(0, min(k, 4 - k, 1))` with `k = (n + 6 h) mod 6`, at n = 5, 3, 1.
 pub fn srgb_from_hsv<S: Scalar>([h, s, v]: [S; 3]) -> [S; 3] {
-    let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
+    let (zero, unity) = (S::from_f64(0.0), S::from_f64(1.0));
     [5.0, 3.0, 1.0].map(|n| {
         let k = S::from_f64(n) + S::from_f64(6.0) * h;
         let k = k - S::from_f64(6.0) * (k / S::from_f64(6.0)).floor();
-        v - v * s * k.min(S::from_f64(4.0) - k).min(one).max(zero)
+        v - v * s * k.min(S::from_f64(4.0) - k).min(unity).max(zero)
     })
 }
 
@@ -75,7 +75,7 @@ fn displayed<S: Scalar>(light: S) -> S {
     )
 }
 
-/// Where CIELAB's cube root becomes a line.
+/// Bound below which CIELAB replaces the cube root by a straight line.
 const DELTA: f64 = 6.0 / 29.0;
 
 fn root<S: Scalar>(t: S) -> S {
@@ -106,11 +106,11 @@ pub fn srgb_from_lab<S: Scalar>([l, a, b]: [S; 3]) -> [S; 3] {
     product(&FROM_XYZ, xyz).map(displayed)
 }
 
-/// How different two CIELAB colours look: the CIEDE2000 difference with all three weights 1. About 1 is the smallest
-/// that a person sees. Sharma, Wu & Dalal 2005, equations 2 to 22.
+/// Perceived difference of two CIELAB colours: the CIEDE2000 difference with all three weights 1. About 1 is the
+/// smallest difference that a person sees. Sharma, Wu & Dalal 2005, equations 2 to 22.
 pub fn difference<S: Scalar>([l1, a1, b1]: [S; 3], [l2, a2, b2]: [S; 3]) -> S {
     let number = S::from_f64;
-    let (half, one, two) = (number(0.5), number(1.0), number(2.0));
+    let (half, unity, two) = (number(0.5), number(1.0), number(2.0));
     let pull = |c: S| {
         let c7 = c.powi(7);
         (c7 / (c7 + number(25f64.powi(7)))).sqrt()
@@ -118,8 +118,8 @@ pub fn difference<S: Scalar>([l1, a1, b1]: [S; 3], [l2, a2, b2]: [S; 3]) -> S {
     let length =
         |a: S, b: S| if a == number(0.0) && b == number(0.0) { number(0.0) } else { (a * a + b * b).sqrt() };
     // Equations 2 to 7: a stretched near the grey axis, then chroma and hue (radians, in [0, tau)).
-    let g = half * (one - pull((length(a1, b1) + length(a2, b2)) * half));
-    let (a1, a2) = ((one + g) * a1, (one + g) * a2);
+    let g = half * (unity - pull((length(a1, b1) + length(a2, b2)) * half));
+    let (a1, a2) = ((unity + g) * a1, (unity + g) * a2);
     let (c1, c2) = (length(a1, b1), length(a2, b2));
     let hue = |a: S, b: S, c: S| {
         if c == number(0.0) {
@@ -143,16 +143,16 @@ pub fn difference<S: Scalar>([l1, a1, b1]: [S; 3], [l2, a2, b2]: [S; 3]) -> S {
     let h = if grey { sum } else { apart.abs().above(TAU / 2.0, around, || sum * half) };
     // Equations 15 to 21.
     let degrees = |x: f64| number(x.to_radians());
-    let t = one - number(0.17) * (h - degrees(30.0)).cos()
+    let t = unity - number(0.17) * (h - degrees(30.0)).cos()
         + number(0.24) * (two * h).cos()
         + number(0.32) * (number(3.0) * h + degrees(6.0)).cos()
         - number(0.20) * (number(4.0) * h - degrees(63.0)).cos();
     let bump = (h - degrees(275.0)) / degrees(25.0);
     let twist = degrees(60.0) * (-(bump * bump)).exp();
     let l50 = (l - number(50.0)) * (l - number(50.0));
-    let sl = one + number(0.015) * l50 / (number(20.0) + l50).sqrt();
-    let sc = one + number(0.045) * c;
-    let sh = one + number(0.015) * c * t;
+    let sl = unity + number(0.015) * l50 / (number(20.0) + l50).sqrt();
+    let sc = unity + number(0.045) * c;
+    let sh = unity + number(0.015) * c * t;
     let rotation = -(two * pull(c) * twist.sin());
     // Equation 22.
     let (dl, dc, dh) = (dl / sl, dc / sc, dh / sh);
@@ -161,8 +161,8 @@ pub fn difference<S: Scalar>([l1, a1, b1]: [S; 3], [l2, a2, b2]: [S; 3]) -> S {
 
 #[cfg(test)]
 mod tests {
-    //! The conversions undo one another, known colours have their known numbers, and the difference is the published
-    //! one.
+    //! Conversions to a colour space and back give the colour, known colours have their known numbers, and differences
+    //! are those that the paper prints.
 
     use super::*;
 
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn conversions_undo_one_another() {
+    fn conversions_there_and_back_give_the_colour() {
         for c in grid() {
             assert!(near(srgb_from_hsv(hsv_from_srgb(c)), c, 1e-12), "{c:?}");
             assert!(near(srgb_from_lab(lab_from_srgb(c)), c, 1e-12), "{c:?}");
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn known_colours() {
+    fn colours_have_their_known_numbers() {
         assert_eq!(srgb_from_hsv([0.0, 1.0, 1.0]), [1.0, 0.0, 0.0]);
         assert_eq!(srgb_from_hsv([1.0 / 3.0, 1.0, 0.5]), [0.0, 0.5, 0.0]);
         assert_eq!(srgb_from_hsv([-1.0 / 3.0, 0.5, 1.0]), [0.5, 0.5, 1.0]);
@@ -201,7 +201,7 @@ mod tests {
 
     /// Rows of table 1 of Sharma, Wu & Dalal 2005: the cases that wrong implementations miss.
     #[test]
-    fn the_difference_is_the_published_one() {
+    fn differences_match_the_published_table() {
         let blue = [50.0, 0.0, -82.7485];
         let rows = [
             ([50.0, 2.6772, -79.7751], blue, 2.0425),
@@ -216,10 +216,10 @@ mod tests {
             ([60.2574, -34.0099, 36.2677], [60.4626, -34.1751, 39.4387], 1.2644),
             ([2.0776, 0.0795, -1.1350], [0.9033, -0.0636, -0.5514], 0.9082),
         ];
-        for (one, other, expected) in rows {
-            assert!((difference(one, other) - expected).abs() < 5.1e-5, "{one:?} {other:?}");
-            assert!((difference(other, one) - expected).abs() < 5.1e-5, "{other:?} {one:?}");
-            assert_eq!(difference(one, one), 0.0);
+        for (first, second, expected) in rows {
+            assert!((difference(first, second) - expected).abs() < 5.1e-5, "{first:?} {second:?}");
+            assert!((difference(second, first) - expected).abs() < 5.1e-5, "{second:?} {first:?}");
+            assert_eq!(difference(first, first), 0.0);
         }
     }
 }

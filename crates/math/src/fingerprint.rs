@@ -1,7 +1,7 @@
-//! A fingerprint of the bits that a machine computes: two machines whose elementary functions differ in a last bit give
-//! other results for the same seed, and must not share them.
+//! A fingerprint of the bits that a machine computes. Two machines whose elementary functions differ in a last bit give
+//! different results for the same seed, and must not share results.
 
-/// A hash of what elementary functions give at a few hundred points.
+/// A hash of the values of elementary functions at a few hundred points.
 pub fn fingerprint() -> u128 {
     // FNV-1a of 128 bits over the bytes of every value.
     let (mut hash, prime) =
@@ -29,7 +29,7 @@ pub fn fingerprint() -> u128 {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn it_is_the_same_each_time() {
+    fn fingerprints_of_one_machine_are_equal() {
         assert_eq!(super::fingerprint(), super::fingerprint());
         assert_ne!(super::fingerprint(), 0);
     }

@@ -1,13 +1,13 @@
-//! The first random bits of many streams, made together: at one address, or each at its own.
+//! First random bits of many streams, made together: at one address, or each stream at its own.
 //!
 //! Particles at the same place draw at the same address, each from its own stream. Philox takes the address as its counter and
-//! the stream as its key, so the blocks of many streams are one loop over keys, which the processor carries out several at once.
-//! The proposals of a Markov chain that come next have addresses of their own.
+//! the stream as its key. So the blocks of many streams are one loop over keys, which the processor runs for several keys at once.
+//! The next proposals of a Markov chain have addresses of their own.
 #![allow(unsafe_code)] // Code for processors with AVX2, called where the processor has it.
 
 use crate::streams::{MULTIPLIER, Stream, StreamKey, WEYL, mix, unit};
 
-/// The random bits of one address in many streams: their first blocks are made together, several at once.
+/// The random bits of one address in many streams: their first blocks are made together, several in one pass.
 ///
 /// ```
 /// use niwaki_math::{FirstBlocks, RngCore, Stream, StreamKey};
@@ -23,7 +23,7 @@ pub struct FirstBlocks {
 }
 
 impl FirstBlocks {
-    /// The blocks of an address for these keys.
+    /// Makes the blocks of an address for these keys.
     pub fn make(&mut self, keys: &[StreamKey], address: u128) {
         self.address = address;
         self.words.clear();
@@ -45,11 +45,11 @@ impl FirstBlocks {
     /// The bits of the `lane`-th stream.
     #[inline(always)]
     pub fn stream(&self, keys: &[StreamKey], lane: usize) -> Stream {
-        keys[lane].begun(self.address, self.words[lane])
+        keys[lane].with_first_block(self.address, self.words[lane])
     }
 }
 
-/// Adds the first blocks, `N` in one pass of the loop.
+/// Appends the first blocks, `N` in each pass of the loop.
 #[inline(always)]
 fn make<const N: usize>(address: u128, keys: &[StreamKey], words: &mut Vec<[u64; 2]>) {
     for keys in keys.chunks(N) {
@@ -65,45 +65,49 @@ fn make_avx2(address: u128, keys: &[StreamKey], words: &mut Vec<[u64; 2]>) {
     make::<8>(address, keys, words);
 }
 
-/// How many streams are made together by [`eight`].
+/// Number of streams that [`eight`] makes together.
 pub const EIGHT: usize = 8;
 
 /// A stream key, and the first block of its stream at one address.
 #[derive(Clone, Copy, Debug)]
-pub struct Begun {
+pub struct FirstBlock {
     key: StreamKey,
     address: u128,
     words: [u64; 2],
 }
 
-impl Begun {
-    /// The first word at its own address.
+impl FirstBlock {
+    /// The first word at the address of the block.
     #[inline(always)]
     pub fn first(&self) -> u64 {
         self.words[0]
     }
 
-    /// The bits of an address: quickest at its own.
+    /// The stream of an address: quickest at the address of the block.
     #[inline(always)]
     pub fn at(&self, address: u128) -> Stream {
-        if self.address == address { self.key.begun(address, self.words) } else { self.key.at(address) }
+        if self.address == address {
+            self.key.with_first_block(address, self.words)
+        } else {
+            self.key.at(address)
+        }
     }
 }
 
-/// The streams with these keys, each begun at an address of its own.
+/// The first blocks of the streams with these keys, each at an address of its own.
 ///
 /// ```
 /// use niwaki_math::first_blocks::eight;
 /// use niwaki_math::{RngCore, StreamKey};
 /// let keys: [StreamKey; 8] = std::array::from_fn(|visit| StreamKey::new(1, 0, visit as u64));
-/// let begun = eight(keys, [4, 7, 4, 1, 0, 9, 2, 3]);
-/// assert_eq!(begun[1].at(7).next_u64(), keys[1].at(7).next_u64());
-/// assert_eq!(begun[2].at(5).next_u64(), keys[2].at(5).next_u64());
+/// let blocks = eight(keys, [4, 7, 4, 1, 0, 9, 2, 3]);
+/// assert_eq!(blocks[1].at(7).next_u64(), keys[1].at(7).next_u64());
+/// assert_eq!(blocks[2].at(5).next_u64(), keys[2].at(5).next_u64());
 /// ```
 #[inline(always)]
-pub fn eight(keys: [StreamKey; EIGHT], addresses: [u128; EIGHT]) -> [Begun; EIGHT] {
+pub fn eight(keys: [StreamKey; EIGHT], addresses: [u128; EIGHT]) -> [FirstBlock; EIGHT] {
     let words = eight_words(&addresses, &keys.map(|key| mix(key.0)));
-    std::array::from_fn(|lane| Begun { key: keys[lane], address: addresses[lane], words: words[lane] })
+    std::array::from_fn(|lane| FirstBlock { key: keys[lane], address: addresses[lane], words: words[lane] })
 }
 
 #[inline(always)]
@@ -122,8 +126,8 @@ fn eight_avx2(addresses: &[u128; EIGHT], mixed: &[u64; EIGHT]) -> [[u64; 2]; EIG
     wide_philox(addresses, mixed)
 }
 
-/// [`philox`](crate::streams::philox) of many counters and keys. Numbers of 32 bits are held in 64, so that a product is one
-/// instruction of the processor for several of them; what is above their 32 bits means nothing.
+/// [`philox`](crate::streams::philox) of many counters and keys. Each number of 32 bits is held in 64, so that the processor
+/// multiplies several with one instruction; the upper 32 bits have no meaning.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the four quarters of an address")]
 fn wide_philox<const N: usize>(counters: &[u128; N], keys: &[u64; N]) -> [[u64; 2]; N] {
@@ -150,7 +154,7 @@ mod tests {
     use crate::streams::RngCore;
 
     #[test]
-    fn first_blocks_are_those_of_the_streams() {
+    fn first_blocks_equal_the_blocks_of_the_streams() {
         for count in [1, 7, 8, 9, 40] {
             let keys: Vec<StreamKey> = (0..count).map(|n| StreamKey::new(n * n, 3, n)).collect();
             let mut blocks = FirstBlocks::default();
@@ -158,13 +162,13 @@ mod tests {
                 blocks.make(&keys, address);
                 let mut uniforms = blocks.uniforms();
                 for (lane, key) in keys.iter().enumerate() {
-                    let (mut begun, mut plain) = (blocks.stream(&keys, lane), key.at(address));
+                    let (mut stream, mut plain) = (blocks.stream(&keys, lane), key.at(address));
                     let mut narrow = Vec::new();
                     make::<4>(address, &keys, &mut narrow);
                     assert_eq!(narrow[lane], blocks.words[lane]);
                     assert_eq!(uniforms.next(), Some(key.at(address).uniform()));
                     for _ in 0..7 {
-                        assert_eq!(begun.next_u64(), plain.next_u64());
+                        assert_eq!(stream.next_u64(), plain.next_u64());
                     }
                 }
             }
@@ -176,14 +180,15 @@ mod tests {
         let keys = std::array::from_fn(|n| StreamKey::new(3, n as u64, 5));
         let addresses =
             std::array::from_fn(|n| (n as u128 * 0x0123_4567_89AB_CDEF_0011_2233).rotate_left(40));
-        let (begun, plain) = (eight(keys, addresses), wide_philox(&addresses, &keys.map(|key| mix(key.0))));
+        let (first_blocks, plain) =
+            (eight(keys, addresses), wide_philox(&addresses, &keys.map(|key| mix(key.0))));
         for lane in 0..EIGHT {
-            assert_eq!(begun[lane].words, plain[lane]);
+            assert_eq!(first_blocks[lane].words, plain[lane]);
             for address in addresses {
-                let (mut one, mut other) = (begun[lane].at(address), keys[lane].at(address));
-                (0..5).for_each(|_| assert_eq!(one.next_u64(), other.next_u64()));
+                let (mut actual, mut expected) = (first_blocks[lane].at(address), keys[lane].at(address));
+                (0..5).for_each(|_| assert_eq!(actual.next_u64(), expected.next_u64()));
             }
-            assert_eq!(begun[lane].first(), keys[lane].at(addresses[lane]).next_u64());
+            assert_eq!(first_blocks[lane].first(), keys[lane].at(addresses[lane]).next_u64());
         }
     }
 }

@@ -7,13 +7,13 @@
 //! | [`color`] | sRGB, HSV and CIELAB, and how different two colours look |
 //! | [`polygon`] | simple polygons of the plane |
 //! | [`streams`] | random bits as a function of seed, stream, address and visit |
-//! | [`first_blocks`] | those of many streams at one address, made together |
+//! | [`first_blocks`] | the first bits of many streams, made together |
 //! | [`rounding`] | the grid on which log scores are added and subtracted exactly |
 //! | [`fingerprint`] | a hash of the bits that this machine computes |
 //! | [`total`] | exact sums of log scores of any size |
-//! | [`log_sums`] | sums of numbers that are given by their logarithms |
-//! | [`special`] | the special functions that the crates in use lack |
-//! | [`distributions`] | the families a model may draw from: density, support, sampler, parameter checks |
+//! | [`log_sums`] | sums of numbers whose logarithms are known |
+//! | [`special`] | special functions that the libraries in use lack |
+//! | [`distributions`] | the families that a model may draw from: density, support, sampler, parameter checks |
 //!
 //! This crate does not know shapes, programs, searches or Python.
 

@@ -1,8 +1,8 @@
-//! Sums of numbers that are given by their logarithms: relative to the largest, so that nothing overflows.
+//! Sums of numbers whose logarithms are known, relative to the largest, so that nothing overflows.
 
 use crate::scalar::Scalar;
 
-/// The log of the mean of exponentials, added up in order; `-inf` of none.
+/// The log of the mean of exponentials, added up in order; `-inf` of an empty list.
 ///
 /// ```
 /// use niwaki_math::log_sums::log_mean_exp;
@@ -23,8 +23,8 @@ pub fn log_sum_exp(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     log_mean_exp(logs) + (n.max(1) as f64).ln()
 }
 
-/// `ln sum exp` of numbers that may be recorded, added up in order; `-inf` where none is above it. The largest is found by
-/// operations, not by comparisons, so that a recording of it holds everywhere.
+/// `ln sum exp` of numbers that may be recorded, added up in order; `-inf` if none is above it. Operations, not comparisons,
+/// determine the largest number, so that a recording holds everywhere.
 pub fn log_sum_exp_of<S: Scalar>(logs: impl Iterator<Item = S> + Clone) -> S {
     let shift = logs.clone().fold(S::from_f64(f64::NEG_INFINITY), S::max);
     if shift.value() == f64::NEG_INFINITY {

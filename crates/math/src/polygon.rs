@@ -1,7 +1,7 @@
-//! Simple polygons of the plane: is a point inside, how far is the boundary, how large, how much of a disc is in it.
+//! Simple polygons of the plane: containment, distance from the boundary, area, and the area shared with a disc.
 //!
-//! A polygon is its corners in order, in either direction, without the first one repeated. Its boundary is closed by
-//! the edge from the last corner to the first. For a polygon that crosses itself the results have no meaning.
+//! A polygon is the list of its corners in order, in either direction; the first corner is not repeated. The edge from the last
+//! corner to the first closes the boundary. For a polygon that crosses itself the results have no meaning.
 
 use crate::Scalar;
 
@@ -24,7 +24,7 @@ fn cross<S: Scalar>(a: Point<S>, b: Point<S>) -> S {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Twice the area, positive for corners that go round counter-clockwise: the shoelace formula.
+/// Twice the signed area, positive for counter-clockwise corners: the shoelace formula.
 fn twice_signed<S: Scalar>(corners: &[Point<S>]) -> S {
     let Some(first) = corners.first() else { return S::from_f64(0.0) };
     edges(corners).fold(S::from_f64(0.0), |sum, (a, b)| sum + cross(minus(a, *first), minus(b, *first)))
@@ -35,8 +35,8 @@ pub fn area<S: Scalar>(corners: &[Point<S>]) -> S {
     (twice_signed(corners) * S::from_f64(0.5)).abs()
 }
 
-/// Whether a point is inside: whether a ray from it towards +x crosses the boundary an odd number of times. A point of
-/// the boundary counts as inside on left and lower edges and as outside on the others.
+/// Whether a point is inside: a ray from it towards +x then crosses the boundary an odd number of times. A point of
+/// the boundary is inside on left and lower edges and outside on the others.
 pub fn contains<S: Scalar>(corners: &[Point<S>], point: Point<S>) -> bool {
     let [x, y] = point;
     edges(corners).fold(false, |inside, ([ax, ay], [bx, by])| {
@@ -81,7 +81,7 @@ pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -
         if square.value() == 0.0 {
             return sum;
         }
-        // Where the line meets the circle, in parts of the edge.
+        // Parameters of the points where the line meets the circle, in lengths of the edge.
         let middle = -(dot(a, edge) / square);
         let discriminant = middle * middle - (dot(a, a) - radius * radius) / square;
         if discriminant <= S::from_f64(0.0) {
@@ -104,7 +104,7 @@ pub fn disc_area<S: Scalar>(corners: &[Point<S>], center: Point<S>, radius: S) -
 
 /// The polygon with every edge moved inwards by `by` (outwards when negative), corners mitred.
 ///
-/// `None` where that is no polygon of the same corners: an edge would turn round, or two neighbouring edges are
+/// `None` if the result is not a polygon with the same corners: an edge would turn round, or two neighbouring edges are
 /// parallel and face each other.
 pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
     let n = corners.len();
@@ -113,7 +113,7 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
         return None;
     }
     let by = if turn > zero { by } else { -by };
-    // Inward normal of each edge, and the moved edge's distance from the origin along it.
+    // The inward normal of each edge, and the distance of the moved edge from the origin along this normal.
     let mut lines = Vec::with_capacity(n);
     for (a, b) in edges(corners) {
         let edge = minus(b, a);
@@ -140,13 +140,14 @@ pub fn inset<S: Scalar>(corners: &[Point<S>], by: S) -> Option<Vec<Point<S>>> {
         }
         moved.push([(p * k[1] - q * m[1]) / sine, (q * m[0] - p * k[0]) / sine]);
     }
-    let kept = edges(corners).zip(edges(&moved)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
-    kept.then_some(moved)
+    let keeps_directions =
+        edges(corners).zip(edges(&moved)).all(|((a, b), (c, d))| dot(minus(b, a), minus(d, c)) > zero);
+    keeps_directions.then_some(moved)
 }
 
 #[cfg(test)]
 mod tests {
-    //! A square and an L, where every result can be computed by hand, and a count of sample points for discs.
+    //! The areas of a square and an L are computed by hand; areas with discs are compared with counts of sample points.
 
     use super::*;
     use std::f64::consts::PI;
@@ -159,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn areas_insides_and_distances() {
+    fn areas_containment_and_distances_of_an_ell() {
         assert_eq!(area(&ELL), 12.0);
         assert_eq!(area(&reversed(&ELL)), 12.0);
         assert!(contains(&ELL, [1.0, 3.0]) && contains(&ELL, [3.0, 1.0]));
@@ -172,15 +173,15 @@ mod tests {
     }
 
     #[test]
-    fn discs() {
+    fn areas_shared_with_discs_match_counts() {
         assert!((disc_area(&SQUARE, [1.0, 1.0], 0.5) - PI / 4.0).abs() < 1e-12);
         assert!((disc_area(&SQUARE, [1.0, 1.0], 5.0) - 4.0).abs() < 1e-12);
         assert!((disc_area(&SQUARE, [0.0, 0.0], 1.0) - PI / 4.0).abs() < 1e-12);
         assert!((disc_area(&SQUARE, [0.0, 1.0], 0.5) - PI / 8.0).abs() < 1e-12);
         assert!(disc_area(&SQUARE, [9.0, 9.0], 1.0).abs() < 1e-12);
         assert_eq!(disc_area(&SQUARE, [1.0, 1.0], 0.0), 0.0);
-        // By counting midpoints of a grid of 400 x 400 over the disc's box: the error is below the length of what is
-        // counted's boundary (less than 14) times the grid's step.
+        // Count of midpoints of a grid of 400 x 400 over the disc's box. Its error is below the length of the boundary of
+        // the shared area (less than 14) times the grid's step.
         for (center, radius) in [([1.7, 2.1], 1.3), ([3.9, 0.3], 1.0), ([2.2, 2.4], 0.9)] {
             let step = 2.0 * radius / 400.0;
             let inside = (0..160_000).filter(|k| {
@@ -191,14 +192,14 @@ mod tests {
                 dx * dx + dy * dy < radius * radius && contains(&ELL, [center[0] + dx, center[1] + dy])
             });
             let counted = inside.count() as f64 * step * step;
-            let found = disc_area(&ELL, center, radius);
-            assert!((found - counted).abs() < 14.0 * step, "{found} {counted}");
-            assert!((found - disc_area(&reversed(&ELL), center, radius)).abs() < 1e-12);
+            let shared = disc_area(&ELL, center, radius);
+            assert!((shared - counted).abs() < 14.0 * step, "{shared} {counted}");
+            assert!((shared - disc_area(&reversed(&ELL), center, radius)).abs() < 1e-12);
         }
     }
 
     #[test]
-    fn insets() {
+    fn insets_move_edges_or_fail() {
         let inner = inset(&ELL, 0.5).unwrap();
         assert_eq!(inner, vec![[0.5, 0.5], [3.5, 0.5], [3.5, 1.5], [1.5, 1.5], [1.5, 3.5], [0.5, 3.5]]);
         assert_eq!(area(&inset(&reversed(&SQUARE), -1.0).unwrap()), 16.0);

@@ -3,9 +3,9 @@
 //! Every log density, factor and sketch is rounded to a multiple of 2^-32 nats. Sums of such numbers can be exact, in
 //! any order, and then subtracting a term restores the sum before it: see [`Total`](crate::Total).
 
-/// 1.5 * 2^20: adding it leaves 32 binary places, for terms below 2^19.
+/// 1.5 * 2^20: adding this number leaves 32 binary places, for terms below 2^19.
 const SHIFT: f64 = 1.5 * (1u64 << 20) as f64;
-/// Steps in a nat.
+/// Number of steps in one nat.
 const STEPS: f64 = (1u64 << 32) as f64;
 
 /// The nearest multiple of 2^-32 nats, ties to even. Infinities and NaN pass.

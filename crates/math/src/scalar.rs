@@ -1,9 +1,8 @@
-//! The operations of a number, so that a run can compute with other scalars than `f64`.
+//! Operations of numbers, as a trait: a run can compute with other scalars than `f64`.
 //!
-//! Plain runs use `f64`. A scalar that records its operations implements the same trait, and the generic
-//! densities are then recorded. Decisions (inside the support or not, which
-//! series to use) compare scalars with `<` and `==`, which a recording scalar notes; [`Scalar::value`] is for
-//! decisions that end in a fault, which need no note.
+//! Plain runs use `f64`. A scalar that records its operations implements the same trait, so the generic densities can
+//! be recorded. Decisions (inside the support or not, which series to use) compare scalars with `<` and `==`, which a
+//! recording scalar notes. [`Scalar::value`] is for decisions that end in a fault, which need no note.
 
 use crate::special;
 use std::fmt::Debug;
@@ -26,7 +25,7 @@ pub trait Scalar:
 {
     /// The constant `x`.
     fn from_f64(x: f64) -> Self;
-    /// The number itself, for decisions.
+    /// The plain number, for decisions.
     fn value(self) -> f64;
     /// Square root.
     fn sqrt(self) -> Self;
@@ -76,11 +75,11 @@ pub trait Scalar:
     fn min(self, other: Self) -> Self;
     /// The larger of two.
     fn max(self, other: Self) -> Self;
-    /// The largest whole number that is not above it. Recorded, it may be one less at a whole number itself: use it
-    /// only where the result is the same on both sides of the jump.
+    /// The largest whole number not above this number. When recorded, the result may be one less at a whole number itself:
+    /// use it only if the final result is equal on both sides of the jump.
     fn floor(self) -> Self;
-    /// One of two pieces: `over` where the number is above the bound, else `under`. A recording has both pieces and a
-    /// select, so that it also holds where the other piece begins; neither piece may compare numbers.
+    /// A function in two pieces: `over` if the number is above the bound, else `under`. A recording has both pieces and a
+    /// select, so it also holds beyond the bound; neither piece may compare numbers.
     fn above(self, bound: f64, over: impl FnOnce() -> Self, under: impl FnOnce() -> Self) -> Self;
     /// True when neither infinite nor NaN.
     fn is_finite(self) -> bool;
@@ -89,13 +88,13 @@ pub trait Scalar:
     fn varies(self) -> bool {
         false
     }
-    /// Keeps numbers under the address of something that is made of plain numbers and lives as long as the recording
-    /// wants it: a shape, and where it is. Only a recording that asks for them calls `numbers`.
+    /// Stores numbers under the address of an object that has plain numbers and lives as long as the recording
+    /// needs it: a shape and its place. Only a recording that asks for these numbers calls `numbers`.
     #[inline(always)]
     fn note(_address: usize, _numbers: impl FnOnce() -> Vec<Self>) {}
 }
 
-/// The last logarithm: consecutive observations with one deviation compute it once.
+/// A cache of the last logarithm: consecutive observations with equal deviations compute it once.
 #[derive(Clone, Copy, Debug)]
 pub struct LastLog<S: Scalar> {
     of: u64,

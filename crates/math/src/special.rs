@@ -1,4 +1,4 @@
-//! The special functions that the crates in use lack, or compute with a loss of digits.
+//! Special functions that the libraries in use lack, or compute with a loss of digits.
 
 use crate::scalar::Scalar;
 use std::f64::consts::TAU;
@@ -34,8 +34,8 @@ pub fn ln_bessel_i0e(x: f64) -> f64 {
 
 /// `ln gamma(x + 1/2) - ln gamma(x)` for positive `x`.
 ///
-/// From 50 on by its own asymptotic series, since the two logarithms grow without bound while their
-/// difference does not: at `x = 1e10` subtracting them keeps five digits.
+/// From 50 on, an asymptotic series of the difference: the two logarithms grow without bound while their
+/// difference does not, so at `x = 1e10` their subtraction keeps five digits.
 pub fn ln_gamma_half_step<S: Scalar>(x: S) -> S {
     let c = S::from_f64;
     if x < c(50.0) {
@@ -57,10 +57,10 @@ fn polynomial<const N: usize>(c: [f64; N], x: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// The number that a standard Gaussian falls below with probability `p`; minus infinity at 0, plus infinity at 1.
+/// The quantile of the standard Gaussian at probability `p`; minus infinity at 0, plus infinity at 1.
 ///
-/// Rational approximations of Wichura 1988 (algorithm AS 241, PPND16), relative error about 1e-16. An upper tail is
-/// best given as a lower one, with the sign of the result reversed.
+/// Rational approximations of Wichura 1988 (algorithm AS 241, PPND16), relative error about 1e-16. For an upper tail,
+/// pass the tail's probability and reverse the sign of the result.
 pub fn normal_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -80,7 +80,7 @@ pub fn normal_quantile(p: f64) -> f64 {
     if q < 0.0 { -size } else { size }
 }
 
-/// Numerator and denominator of AS 241 where `p` is within 0.425 of a half.
+/// Numerator and denominator of AS 241 for `p` within 0.425 of a half.
 const CENTER: ([f64; 8], [f64; 8]) = (
     [
         3.387_132_872_796_366_5,
@@ -103,7 +103,7 @@ const CENTER: ([f64; 8], [f64; 8]) = (
         5_226.495_278_852_854,
     ],
 );
-/// The same for tails down to `exp(-25)`.
+/// Numerator and denominator of AS 241 for tails down to `exp(-25)`.
 const NEAR: ([f64; 8], [f64; 8]) = (
     [
         1.423_437_110_749_683_5,
@@ -126,7 +126,7 @@ const NEAR: ([f64; 8], [f64; 8]) = (
         1.050_750_071_644_416_9e-9,
     ],
 );
-/// The same for smaller tails.
+/// Numerator and denominator of AS 241 for tails below `exp(-25)`.
 const FAR: ([f64; 8], [f64; 8]) = (
     [
         6.657_904_643_501_103,
@@ -150,7 +150,7 @@ const FAR: ([f64; 8], [f64; 8]) = (
     ],
 );
 
-/// Ten-point Gauss-Legendre rule on `[-1, 1]`: (node, weight), one of each symmetric pair.
+/// Ten-point Gauss-Legendre rule on `[-1, 1]`: (node, weight) of one node of each symmetric pair.
 const GAUSS_LEGENDRE: [(f64, f64); 5] = [
     (0.148_874_338_981_631_22, 0.295_524_224_714_752_87),
     (0.433_395_394_129_247_2, 0.269_266_719_309_996_35),
@@ -200,8 +200,8 @@ mod tests {
 
     #[test]
     fn ten_points_integrate_degree_nineteen_exactly() {
-        let got = integrate(2.0_f64, |t| t.powi(19));
-        assert!((got / (2.0_f64.powi(20) / 20.0) - 1.0).abs() < 1e-14);
+        let integral = integrate(2.0_f64, |t| t.powi(19));
+        assert!((integral / (2.0_f64.powi(20) / 20.0) - 1.0).abs() < 1e-14);
     }
 
     #[test]
@@ -210,7 +210,7 @@ mod tests {
         assert_eq!((normal_quantile(0.0), normal_quantile(1.0)), (f64::NEG_INFINITY, f64::INFINITY));
         for k in 0..=740 {
             let z = -37.0 + 0.05 * f64::from(k);
-            // What z changes when the tail changes by one part in 2^52: less where z is far out.
+            // The tolerance is the change of z when the tail changes by one part in 2^52; it falls as z moves out.
             let back = normal_quantile(normal_tail(-z));
             assert!((back - z).abs() < 4e-15 * z.abs().max(1.0), "{z} {back}");
         }

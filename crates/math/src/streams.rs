@@ -1,4 +1,4 @@
-//! Random bits as a function of seed, stream, address and visit: no state is carried from draw to draw.
+//! Random bits as a function of seed, stream, address and visit: no draw depends on the draws before it.
 //!
 //! Philox4x32-10 (Salmon, Moraes, Dror & Shaw 2011, section 3.3 and table 2) turns a 128-bit counter and a
 //! 64-bit key into 128 random bits. The counter is the address of the choice; the key is a hash of (seed,
@@ -43,7 +43,7 @@ pub(crate) fn mix(mut x: u64) -> u64 {
 /// The golden ratio in 64 bits: distinct inputs of [`mix`] stay distinct when it is added.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The random bits of one choice, as many as it needs.
+/// The random bits of one choice, in blocks as needed.
 ///
 /// ```
 /// use niwaki_math::Stream;
@@ -59,12 +59,12 @@ pub struct Stream {
     base: u64,
     /// Number of the next block.
     block: u64,
-    /// The last block, and how much of it is not used.
+    /// The last block, and the number of its unused words.
     words: [u64; 2],
     left: u64,
 }
 
-/// The part of the key that all choices of a stream share: it is mixed once for many draws.
+/// The part of the key that all choices of a stream share: mixed once for many draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StreamKey(pub(crate) u64);
 
@@ -72,15 +72,15 @@ impl StreamKey {
     /// The key of `stream` (a particle, a chain) for choices drawn for the `visit`-th time.
     #[inline]
     pub fn new(seed: u64, stream: u64, visit: u64) -> StreamKey {
-        // Three mixes side by side, not one inside the other: the latency is that of one. The odd
-        // factors keep equal numbers in two places from cancelling.
+        // Three mixes side by side, not nested: the latency is that of one. The odd factors keep equal numbers in two
+        // places from cancelling.
         let base = mix(seed.wrapping_add(GOLDEN))
             .wrapping_add(mix(stream.wrapping_add(GOLDEN)).wrapping_mul(0xA24B_AED4_963E_E407))
             .wrapping_add(mix(visit.wrapping_add(GOLDEN)).wrapping_mul(0x9FB2_1C65_1E98_DF25));
         StreamKey(base)
     }
 
-    /// From the key of visit 0, the key of another visit: `new(seed, stream, 0).revisited(n)` is
+    /// The key of another visit, from the key of visit 0: `new(seed, stream, 0).revisited(n)` is
     /// `new(seed, stream, n)`, for one mix instead of three.
     #[inline]
     pub fn revisited(self, visit: u64) -> StreamKey {
@@ -97,9 +97,9 @@ impl StreamKey {
         Stream { counter, base: self.0, block: 0, words: [0; 2], left: 0 }
     }
 
-    /// The bits of the choice at `address`, of which the first block is there.
+    /// The bits of the choice at `address`, whose first block is known.
     #[inline(always)]
-    pub(crate) fn begun(self, address: u128, words: [u64; 2]) -> Stream {
+    pub(crate) fn with_first_block(self, address: u128, words: [u64; 2]) -> Stream {
         Stream { block: 1, words, left: 2, ..self.at(address) }
     }
 }
@@ -122,7 +122,7 @@ impl Stream {
         self.left = 2;
     }
 
-    /// A number in the open interval (0, 1): 52 bits and a half, so that neither end is ever reached.
+    /// A number in the open interval (0, 1): 52 bits and a half step, so that neither end is reached.
     #[inline]
     pub fn uniform(&mut self) -> f64 {
         open_unit(self)
@@ -172,7 +172,7 @@ pub fn open_unit(rng: &mut (impl RngCore + ?Sized)) -> f64 {
     unit(rng.next_u64())
 }
 
-/// The number of these bits.
+/// The number in (0, 1) of these bits.
 #[inline(always)]
 pub(crate) fn unit(bits: u64) -> f64 {
     const STEP: f64 = 1.0 / (1u64 << 52) as f64;

@@ -1,20 +1,20 @@
-//! Sums of log scores that are exact, whatever the sizes of their terms.
+//! Exact sums of log scores of any size.
 //!
-//! A sum that is kept up to date (`total - old + new`) must return to its old value when a term is removed, and two
-//! runs that made the same choices in another order must agree in the last bit. With `f64` that holds only while every
-//! sum fits into 53 bits. A [`Total`] holds terms on the [`grid`](crate::grid) of 2^-32 nats without loss:
+//! Two runs that made the same choices in another order must have sums that agree in the last bit. A sum that is updated
+//! (`total - old + new`) must return to its old value when a term is removed. `f64` ensures both only while every sum fits
+//! into 53 bits. A [`Total`] holds terms on the [`grid`](crate::grid) of 2^-32 nats without loss:
 //!
 //! | sum | where |
 //! | --- | --- |
 //! | below 2^20 nats | one `f64`: 53 bits hold every multiple of 2^-32 of that size |
 //! | larger, finite | an expansion on the heap: `f64` parts that do not overlap (Shewchuk 1997, theorem 10) |
-//! | infinite terms | counted by sign, beside the expansion; NaN is counted as one of each, and gives NaN |
+//! | infinite terms | counted by sign, beside the expansion; a NaN counts as one of each sign, so the sum is NaN |
 
 use std::fmt;
 
-/// A sum of multiples of 2^-32 with a result below this size, nats, was not rounded.
+/// Bound in nats: a sum of multiples of 2^-32 whose result is below it was not rounded.
 pub const NEAR: f64 = (1u64 << 20) as f64;
-/// Far terms are held times 2^-64, so that no partial sum overflows. All stay far above subnormal numbers.
+/// Factor of far terms, 2^-64, so that no partial sum overflows. All terms stay far above subnormal numbers.
 const SCALE: f64 = 1.0 / (1u128 << 64) as f64;
 
 /// An exact sum of terms, nats: multiples of 2^-32 of any size (see [`grid`](crate::grid)), and infinities.
@@ -28,18 +28,18 @@ const SCALE: f64 = 1.0 / (1u128 << 64) as f64;
 /// ```
 #[derive(Default)]
 pub struct Total {
-    /// The sum, where it is below [`NEAR`]; else NaN.
+    /// The sum if it is below [`NEAR`], else NaN.
     near: f64,
-    /// The sum, where `near` is NaN; else an old one, whose memory will be reused.
+    /// The sum if `near` is NaN; else a stale sum whose memory will be reused.
     far: Option<Box<Far>>,
 }
 
-/// A sum that is not near.
+/// A sum that is not below [`NEAR`].
 #[derive(Clone, Default)]
 struct Far {
     /// Sum of the finite terms, times [`SCALE`].
     finite: Expansion,
-    /// How many terms are minus infinity, and plus infinity; below zero, where more of them were removed.
+    /// Number of terms that are minus infinity and plus infinity; negative if more of them were removed than added.
     infinite: [i32; 2],
 }
 
@@ -77,13 +77,13 @@ impl Total {
         self.near = 0.0;
     }
 
-    /// The sum that is not near, if it is one.
+    /// The far sum, if the sum is not near.
     #[inline(always)]
     fn far(&self) -> Option<&Far> {
         self.near.is_nan().then_some(self.far.as_deref()).flatten()
     }
 
-    /// Changes a sum that is not near, or will not be.
+    /// Changes a sum that is far, or becomes far.
     #[cold]
     #[inline(never)]
     fn change(&mut self, change: impl FnOnce(&mut Far)) {
@@ -138,19 +138,19 @@ impl Total {
         difference
     }
 
-    /// Whether the sum is minus infinity, as a term is.
+    /// Whether the sum is minus infinity because a term is.
     #[inline(always)]
     pub fn is_impossible(&self) -> bool {
         self.far().is_some_and(|far| far.infinite[0] > 0 && far.infinite[1] == 0)
     }
 
-    /// The sum, where it is below 2^20 nats and exact as an `f64`; else NaN.
+    /// The sum if it is below 2^20 nats and so exact as an `f64`; else NaN.
     #[inline(always)]
     pub fn near(&self) -> f64 {
         self.near
     }
 
-    /// The nearest `f64`, ties to even. A term of minus infinity makes it minus infinity, and a term of each sign NaN.
+    /// The nearest `f64`, ties to even; minus infinity with a term of minus infinity, NaN with terms of both signs.
     #[inline(always)]
     pub fn value(&self) -> f64 {
         self.far().map_or(self.near, Far::value)
@@ -181,7 +181,7 @@ impl Far {
     #[inline(never)]
     fn value(&self) -> f64 {
         let [lowest, highest] = self.infinite;
-        // A term that was only removed counts as one of the other sign.
+        // A term that was removed and never added counts as a term of the other sign.
         match (highest > 0 || lowest < 0, lowest > 0 || highest < 0) {
             (true, true) => f64::NAN,
             (true, false) => f64::INFINITY,
@@ -217,7 +217,7 @@ impl Total {
 }
 
 impl PartialEq for Total {
-    /// Whether the exact sums are equal, whatever their terms.
+    /// Whether the exact sums are equal; the terms may differ.
     fn eq(&self, other: &Total) -> bool {
         self.less(other).near == 0.0
     }
@@ -240,7 +240,7 @@ impl fmt::Debug for Total {
     }
 }
 
-/// A number as the sum of parts that do not overlap, none zero, smallest first.
+/// A number as the sum of non-overlapping parts, none of them zero, the smallest first.
 #[derive(Clone, Default)]
 struct Expansion(Vec<f64>);
 
@@ -274,7 +274,7 @@ impl Expansion {
     }
 }
 
-/// The sum of two numbers, rounded, and what the rounding lost (Knuth).
+/// The rounded sum of two numbers, and its rounding error (Knuth).
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;
@@ -283,7 +283,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    //! A total is the nearest `f64` to the exact sum, whatever was added and removed before, in any order.
+    //! A total is the nearest `f64` to the exact sum of its terms, in any order of additions and removals.
     use super::*;
     use crate::{Stream, grid};
 
@@ -351,9 +351,9 @@ mod tests {
     }
 
     const STEP: f64 = 1.0 / (1u64 << 32) as f64;
-    const NOTHING: Exact = Exact { places: [0; 40], infinite: [0; 2] };
+    const EMPTY: Exact = Exact { places: [0; 40], infinite: [0; 2] };
 
-    /// Terms of every size; of powers of two too, whose sums lie half way between two numbers.
+    /// Terms of every size; among them powers of two, whose sums lie half way between two numbers.
     fn term(random: &mut Stream) -> f64 {
         let sign = if random.uniform() < 0.5 { -1.0 } else { 1.0 };
         let (kind, u) = ((random.uniform() * 9.0) as u32, random.uniform());
@@ -378,34 +378,34 @@ mod tests {
         let (mut plain_fails, chains) = (0, 500);
         for chain in 0..chains {
             let mut random = Stream::new(1, 0, 0, chain);
-            let (mut total, mut exact, mut plain, mut terms) = (Total::default(), NOTHING, 0.0, vec![]);
+            let (mut total, mut exact, mut plain, mut terms) = (Total::default(), EMPTY, 0.0, vec![]);
             for step in 0..60 {
                 if !terms.is_empty() && (step >= 40 || random.uniform() < 0.4) {
-                    let gone = terms.swap_remove((random.uniform() * terms.len() as f64) as usize);
-                    total.remove(gone);
-                    exact.add(gone, -1);
-                    plain -= gone;
+                    let old = terms.swap_remove((random.uniform() * terms.len() as f64) as usize);
+                    total.remove(old);
+                    exact.add(old, -1);
+                    plain -= old;
                 } else {
-                    let come = term(&mut random);
-                    terms.push(come);
-                    total.add(come);
-                    exact.add(come, 1);
-                    plain += come;
+                    let new = term(&mut random);
+                    terms.push(new);
+                    total.add(new);
+                    exact.add(new, 1);
+                    plain += new;
                 }
-                let (found, right) = (total.value(), exact.value());
+                let (value, expected) = (total.value(), exact.value());
                 assert!(
-                    found == right || found.is_nan() && right.is_nan(),
-                    "{found} is not {right}: {terms:?}"
+                    value == expected || value.is_nan() && expected.is_nan(),
+                    "{value} is not {expected}: {terms:?}"
                 );
             }
-            // One term for another, and back.
+            // One term replaces another, and back.
             if let Some(old) = terms.first() {
                 let (mut other, new) = (total.clone(), term(&mut random));
                 other.replace(*old, new);
                 exact.add(*old, -1);
                 exact.add(new, 1);
-                let (found, right) = (other.value(), exact.value());
-                assert!(found == right || found.is_nan() && right.is_nan());
+                let (value, expected) = (other.value(), exact.value());
+                assert!(value == expected || value.is_nan() && expected.is_nan());
                 exact.add(new, -1);
                 exact.add(*old, 1);
                 other.replace(new, *old);
@@ -413,7 +413,7 @@ mod tests {
                 other.clear();
                 assert!(other == Total::default() && other.near == 0.0);
             }
-            // The same terms in another order, and their difference from others.
+            // The terms in another order have an equal sum; then a difference of sums.
             let (mut other, mut rest) = (Total::default(), exact.clone());
             terms.iter().rev().for_each(|term| other.add(*term));
             assert_eq!(total, other);
@@ -422,13 +422,13 @@ mod tests {
             let mut part = Total::default();
             half.iter().for_each(|term| part.add(*term));
             half.iter().for_each(|term| rest.add(*term, -1));
-            let (found, right) = (total.less(&part).value(), rest.value());
-            assert!(found == right || found.is_nan() && right.is_nan());
+            let (sum, expected) = (total.less(&part).value(), rest.value());
+            assert!(sum == expected || sum.is_nan() && expected.is_nan());
             assert_eq!(total.less(&part).plus(&part), total);
             assert!(terms.is_empty() || total != total.plus(&Total { near: STEP, far: None }));
             // A mutant: a sum of `f64`.
             plain_fails += u64::from(plain != exact.value());
-            // With everything gone, nothing is left.
+            // After removal of every term the total is zero.
             terms.iter().for_each(|term| total.remove(*term));
             assert!(total == Total::default() && total.near == 0.0);
         }
@@ -436,7 +436,7 @@ mod tests {
     }
 
     #[test]
-    fn ties_go_to_even_unless_something_is_left() {
+    fn ties_go_to_even_unless_a_rest_decides() {
         let (large, half, step) = (2f64.powi(100), 2f64.powi(47), 2f64.powi(-32));
         for (terms, right) in [
             (vec![large, half], large),
@@ -458,7 +458,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_that_are_not_near_are_exact_and_come_back() {
+    fn far_sums_are_exact_and_reversible() {
         for sign in [1.0, -1.0] {
             let (term, count) = (sign * 500_000.25, 20_000);
             let mut total = Total::default();
@@ -479,7 +479,7 @@ mod tests {
     }
 
     #[test]
-    fn infinities_and_nan_come_back() {
+    fn infinities_and_nan_are_reversible() {
         let mut total = Total::default();
         total.add(grid(0.1));
         let before = total.clone();

@@ -50,7 +50,7 @@ impl Vec3 {
         self.dot(self).sqrt()
     }
 
-    /// The direction, with length one; `None` for zero and for what is not finite.
+    /// The direction, with length one; `None` for zero and for entries that are not finite.
     pub fn unit(self) -> Option<Vec3> {
         // The largest entry is divided out first: squares of 1e200 overflow, squares of 1e-200 vanish.
         let size = self.x.abs().max(self.y.abs()).max(self.z.abs());
@@ -61,13 +61,13 @@ impl Vec3 {
         Some(near_one / near_one.norm())
     }
 
-    /// The smaller entries of two.
+    /// The smaller of each pair of entries.
     #[inline]
     pub fn min(self, other: Vec3) -> Vec3 {
         vec3(self.x.min(other.x), self.y.min(other.y), self.z.min(other.z))
     }
 
-    /// The larger entries of two.
+    /// The larger of each pair of entries.
     #[inline]
     pub fn max(self, other: Vec3) -> Vec3 {
         vec3(self.x.max(other.x), self.y.max(other.y), self.z.max(other.z))
@@ -85,13 +85,13 @@ impl Vec3 {
         [self.x, self.y, self.z]
     }
 
-    /// Turned about the unit vector `axis` by `angle`, by the right-hand rule (Rodrigues' formula).
+    /// The vector turned about the unit vector `axis` by `angle`, by the right-hand rule (Rodrigues' formula).
     pub fn rotated(self, axis: Vec3, angle: f64) -> Vec3 {
         let (sin, cos) = angle.sin_cos();
         self * cos + axis.cross(self) * sin + axis * (axis.dot(self) * (1.0 - cos))
     }
 
-    /// A unit vector at right angles to this one (which is not zero).
+    /// A unit vector at right angles to this vector, which must not be zero.
     pub fn any_perpendicular(self) -> Vec3 {
         // The coordinate direction least along the vector gives the longest cross product.
         let [x, y, z] = [self.x.abs(), self.y.abs(), self.z.abs()];
@@ -182,10 +182,10 @@ pub struct Mat3 {
 }
 
 impl Mat3 {
-    /// Changes nothing.
+    /// The rotation that changes nothing.
     pub const IDENTITY: Mat3 = Mat3 { columns: Vec3::AXES };
 
-    /// From rows, as one writes a matrix down.
+    /// A matrix from its rows.
     pub fn from_rows(rows: [[f64; 3]; 3]) -> Mat3 {
         Mat3 { columns: [0, 1, 2].map(|j| vec3(rows[0][j], rows[1][j], rows[2][j])) }
     }
@@ -215,8 +215,8 @@ impl Mat3 {
         if from.dot(to) > -0.5 {
             return Mat3::between_near(from, to);
         }
-        // Near the opposite direction `k` explodes: half a turn about the same axis first, then back by what is
-        // too much. Only the opposite itself may take any axis.
+        // Near the opposite direction `k` explodes: turn by half about the same axis first, then turn back by the excess.
+        // Only for the exact opposite may the axis be any.
         let axis = from.cross(to).unit().unwrap_or_else(|| from.any_perpendicular());
         let half_turn = Mat3 { columns: Vec3::AXES.map(|v| axis * (2.0 * axis.dot(v)) - v) };
         Mat3::between_near(-from, to).after(&half_turn)
@@ -234,17 +234,17 @@ impl Mat3 {
         self.columns[0] * v.x + self.columns[1] * v.y + self.columns[2] * v.z
     }
 
-    /// First `other`, then this.
+    /// The product of `other` first, then this matrix.
     pub fn after(&self, other: &Mat3) -> Mat3 {
         Mat3 { columns: other.columns.map(|c| self.apply(c)) }
     }
 
-    /// Mirrored at the diagonal: for a rotation, its inverse.
+    /// The transpose: for a rotation, its inverse.
     pub fn transpose(&self) -> Mat3 {
         Mat3::from_rows(self.columns.map(Vec3::to_array))
     }
 
-    /// The largest deviation from being a rotation (orthonormal columns, right-handed); NaN stays NaN.
+    /// The largest deviation from a rotation (orthonormal columns, right-handed); NaN stays NaN.
     pub fn defect(&self) -> f64 {
         let [a, b, c] = self.columns;
         let deviations = [
@@ -263,7 +263,7 @@ impl Mat3 {
 
 #[cfg(test)]
 mod tests {
-    //! Rotations are rotations, turn by the right-hand rule, and are the smallest ones.
+    //! Rotations are orthonormal, turn by the right-hand rule, and are the smallest rotations to their goals.
     use super::*;
 
     #[test]
@@ -283,7 +283,7 @@ mod tests {
                 let m = Mat3::between(from, to);
                 assert!(m.defect() < 1e-9, "{from:?} {to:?} {}", m.defect());
                 assert!((m.apply(from) - to).norm() < 1e-9, "{from:?} {to:?}");
-                // A rotation's trace is 1 + 2 cos(angle); the smallest angle is the one between the two.
+                // A rotation's trace is 1 + 2 cos(angle); the smallest angle is that between the two directions.
                 let trace = m.columns[0].x + m.columns[1].y + m.columns[2].z;
                 assert!((trace - 1.0 - 2.0 * from.dot(to)).abs() < 1e-9, "{from:?} {to:?}");
             }

@@ -15,7 +15,7 @@ use niwaki_chain::walk::counts::{Count, Counts};
 use niwaki_chain::{Chain, Settings};
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
-use niwaki_search::method::{Given, Method, Mh};
+use niwaki_search::method::{Inputs, Method, Mh};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -247,7 +247,7 @@ fn settings(
     let Method::Mh(method) = task.read(py, method)? else {
         return Err(PyTypeError::new_err("this method is not Metropolis-Hastings"));
     };
-    let settings = method.settings(&Given { seed, attached: &attached, ..Given::default() });
+    let settings = method.settings(&Inputs { seed, attached: &attached, ..Inputs::default() });
     let settings = settings.map_err(|fault| faults::setting(py, &fault))?;
     Ok((method, settings, kept))
 }

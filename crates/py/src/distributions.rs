@@ -22,7 +22,7 @@ pub fn bad_parameter(py: Python<'_>, bad: &math::BadParameter) -> PyErr {
     let attributes = [
         ("family", bad.family.name()),
         ("parameter", bad.parameter),
-        ("found", bad.found.as_str()),
+        ("found", bad.value.as_str()),
         ("expected", bad.expected),
     ];
     for (name, text) in attributes {

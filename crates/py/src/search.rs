@@ -32,9 +32,9 @@ use niwaki_run::record::Record;
 use niwaki_run::replay::{Missing, Source, Trace, replay};
 use niwaki_run::run::Shown;
 use niwaki_run::{Failure, Task};
-use niwaki_search::improve::{Round, Seen};
+use niwaki_search::improve::{Outputs, Round};
 use niwaki_search::method;
-use niwaki_search::method::{Given, Info, Method};
+use niwaki_search::method::{Info, Inputs, Method};
 use niwaki_search::nested::Inner;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
@@ -249,9 +249,10 @@ impl PyTask {
         let classes = self.model.get().classes.clone();
         let start = start.map(PyRun::entries);
         let find = |shown: &Shown, watch: &mut method::Watch<'_>| {
-            let seen = Seen { shown: Some(shown), checkpoint: checkpoint.map(|own| &own.checkpoint) };
-            let given = Given { seed, attached: &attached, start: start.as_deref(), seen };
-            method.search(&task, &given, watch)
+            let outputs =
+                Outputs { shown: Some(shown), checkpoint: checkpoint.map(|stored| &stored.checkpoint) };
+            let inputs = Inputs { seed, attached: &attached, start: start.as_deref(), outputs };
+            method.search(&task, &inputs, watch)
         };
         let (result, pressed) = if let Method::Forward { n: 1 } = method {
             (self.at_once(py, || find(&Shown::default(), &mut |_, _, _| true))?, false)

@@ -23,7 +23,7 @@ use niwaki_geom::{
 use niwaki_grad::Compiled;
 use niwaki_propose::importance::importance;
 use niwaki_run::Task;
-use niwaki_search::method::{Given, Method};
+use niwaki_search::method::{Inputs, Method};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::{List, Value};
@@ -171,8 +171,8 @@ fn grow(model: &str, seeds: u64, folder: &Path) -> u64 {
         vec![no_self_intersection(Rule::Solid), match_volume(Arc::new(target), 0.02).expect("a sketch")];
     let method = Method::read(&read("method")).expect("a method");
     for seed in 0..seeds {
-        let given = Given { seed, ..Given::default() };
-        method.search(&task, &given, &mut |_, _, _| true).expect("results");
+        let inputs = Inputs { seed, ..Inputs::default() };
+        method.search(&task, &inputs, &mut |_, _, _| true).expect("results");
     }
     seeds
 }

@@ -1,9 +1,9 @@
-//! Searches: methods as data, and what is built of several.
+//! Searches: methods as data, and methods that combine others.
 //!
 //! * [`method`]: a search as data;
-//! * [`direct`]: methods that are neither chains nor populations: annealed importance sampling, chains that follow a slope, normals;
+//! * [`direct`]: methods other than chains and populations: annealed importance sampling, chains that follow a slope, normals;
 //! * [`nested`]: inference inside a model;
-//! * [`improve`]: a search for the best, by all of these;
+//! * [`improve`]: a search for the best run, which combines these methods;
 //! * [`learn`]: training of guides.
 
 pub mod direct;

@@ -1,11 +1,11 @@
-//! Methods as data. The binding and `infer` inside a model both read them.
+//! Methods as data. The binding reads them, and `infer` inside a model.
 //!
-//! The fields are those of Python's classes of the same names, which describe them.
+//! The fields equal those of Python's classes of the same names, which describe them.
 
 use crate::direct::annealed;
 use crate::direct::annealed::{Annealed, Powers, annealed};
 use crate::direct::normals;
-use crate::improve::{Improve, Improved, Seen};
+use crate::improve::{Improve, Improved, Outputs};
 use niwaki_chain::form::{Attached, Form};
 use niwaki_chain::kernel::Kernel;
 use niwaki_continuous::hamiltonian;
@@ -37,10 +37,10 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// About how many samples of a chain are kept by default.
+/// Approximate number of samples that a chain keeps by default.
 const KEPT: u64 = 1000;
 
-/// How a task is searched.
+/// The method of a search.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "method", rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the settings are described where people read them: in Python's classes")]
@@ -60,7 +60,7 @@ pub enum Method {
     Vi(Vi),
 }
 
-/// Settings that a method does not have.
+/// Unknown settings, which a method refuses.
 type Rest = BTreeMap<String, serde_json::Value>;
 
 /// Annealed importance sampling.
@@ -95,7 +95,7 @@ pub struct Smc {
 #[serde(untagged)]
 enum Sizes {
     Each(usize),
-    Own(Vec<usize>),
+    List(Vec<usize>),
 }
 
 /// Particle Gibbs.
@@ -117,7 +117,7 @@ pub struct Pimh {
     common: Populations,
 }
 
-/// The settings that the methods with populations share.
+/// The settings that methods with populations share.
 #[derive(Clone, Debug, Deserialize)]
 struct Populations {
     proposal: Option<Form>,
@@ -138,7 +138,7 @@ pub struct Mh {
     #[serde(deserialize_with = "strategy")]
     strategy: Strategy,
     kernel: Option<Form>,
-    /// How many chains.
+    /// The number of chains.
     pub chains: usize,
     thin: Option<u64>,
     keep: Option<u64>,
@@ -151,7 +151,7 @@ pub struct Mh {
 pub struct Hmc {
     steps: u32,
     jitter: f64,
-    /// Read by Python for its warnings; not used here.
+    /// A setting for warnings in Python; unused here.
     #[serde(rename = "designs")]
     _designs: bool,
     #[serde(flatten)]
@@ -188,18 +188,18 @@ struct Trajectories {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 enum MetricForm {
-    /// What the warm-up fits.
+    /// A shape that the warm-up fits.
     Fitted(Shape),
-    /// Variances of the coordinates, kept throughout.
+    /// Variances of the coordinates, constant throughout.
     Variances(Vec<f64>),
-    /// A covariance by rows, kept throughout.
+    /// A covariance by rows, constant throughout.
     Covariance(Vec<Vec<f64>>),
 }
 
 impl MetricForm {
-    /// What is fitted, and what is given.
+    /// The shape to fit, and a constant metric.
     fn read(&self) -> Result<(Shape, Option<Metric>), Fault> {
-        let given = match self {
+        let metric = match self {
             MetricForm::Fitted(shape) => return Ok((*shape, None)),
             MetricForm::Variances(variances) => {
                 let is_sound = variances.iter().all(|v| v.is_finite() && *v > 0.0);
@@ -210,7 +210,7 @@ impl MetricForm {
             }
             MetricForm::Covariance(_) => None,
         };
-        let metric = given.ok_or_else(|| {
+        let metric = metric.ok_or_else(|| {
             bad("`metric` has numbers that are neither variances above 0 nor a covariance".into())
         })?;
         Ok((Shape::Unit, Some(metric)))
@@ -246,17 +246,17 @@ fn strategy<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Strategy, D::Er
     Strategy::from_name(&name).ok_or_else(|| serde::de::Error::custom(format!("no strategy `{name}`")))
 }
 
-/// The inputs of a search beside its method.
+/// The inputs of a search besides its method.
 #[derive(Clone, Copy, Default)]
-pub struct Given<'a> {
-    /// Decides every random number.
+pub struct Inputs<'a> {
+    /// The seed of all random numbers.
     pub seed: u64,
     /// The users' proposals and the guides that the method's kernels name by number.
     pub attached: &'a [Attached],
-    /// The run that a chain of whole runs starts from.
+    /// The first run of a chain of whole runs.
     pub start: Option<&'a [Entry]>,
-    /// Where a search for the best shows what it has.
-    pub seen: Seen<'a>,
+    /// The outputs of a search for the best while it runs.
+    pub outputs: Outputs<'a>,
 }
 
 /// The result of a search.
@@ -271,31 +271,31 @@ pub struct Results {
 
 /// Further results of a search, by the kind of method.
 pub enum Info {
-    /// Of forward runs.
+    /// Results of forward runs.
     Forward,
-    /// Of likelihood weighting.
+    /// Results of likelihood weighting.
     Importance {
-        /// Log of the mean weight, nats; `None` where the runs were stopped.
+        /// Log of the mean weight, nats; `None` if the search was stopped.
         log_evidence: Option<f64>,
     },
-    /// Of rejection sampling.
+    /// Results of rejection sampling.
     Rejection {
-        /// Runs that it took.
+        /// The number of runs, with rejected ones.
         tries: u64,
     },
-    /// Of annealed importance sampling; its particles are the runs.
+    /// Results of annealed importance sampling; the particles are the runs.
     Annealed(Annealed),
-    /// Of enumeration, whose runs are not kept.
+    /// Results of enumeration, whose runs are not stored.
     Enumeration(niwaki_run::enumeration::Enumerated),
-    /// Of populations, and of what became impossible in them; their particles are the runs.
+    /// Results of populations, and their particles that became impossible; the other particles are the runs.
     Populations(niwaki_particles::Result, Lost),
-    /// Of a chain of whole runs; its states are the runs.
+    /// Results of a chain of whole runs; its states are the runs.
     Chain(niwaki_particles::Chain),
-    /// Of a search for the best.
+    /// Results of a search for the best.
     Improved(Improved),
 }
 
-/// A callback that gets the progress of a search (done, ended, best log score) and returns whether to go on.
+/// A callback that gets the progress of a search (done, ended, best log score) and returns whether to continue.
 pub type Watch<'a> = dyn FnMut(u64, usize, f64) -> bool + Send + 'a;
 
 impl Method {
@@ -307,11 +307,11 @@ impl Method {
         let method: Method =
             serde_json::from_str(text).map_err(|error| bad(format!("the method {text}: {error}")))?;
         let rest = match &method {
-            Method::Smc(own) => own.common.rest.keys().next(),
-            Method::ParticleGibbs(own) => own.common.rest.keys().next(),
-            Method::Pimh(own) => own.common.rest.keys().next(),
-            Method::Hmc(own) => own.rest.keys().next(),
-            Method::Nuts(own) => own.rest.keys().next(),
+            Method::Smc(smc) => smc.common.rest.keys().next(),
+            Method::ParticleGibbs(gibbs) => gibbs.common.rest.keys().next(),
+            Method::Pimh(pimh) => pimh.common.rest.keys().next(),
+            Method::Hmc(hmc) => hmc.rest.keys().next(),
+            Method::Nuts(nuts) => nuts.rest.keys().next(),
             _ => None,
         };
         match rest {
@@ -320,17 +320,22 @@ impl Method {
         }
     }
 
-    /// Searches a task, by any method except those whose chains can go on afterwards: see
+    /// Searches a task, by any method except those whose chains can continue afterwards: see
     /// [`Mh::settings`] and [`Method::trajectories`].
     ///
     /// # Errors
     /// The failure of the method.
-    pub fn search(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
-        self.results(task, given, watch).map_err(|failure| explained(failure, task))
+    pub fn search(
+        &self,
+        task: &Task,
+        inputs: &Inputs<'_>,
+        watch: &mut Watch<'_>,
+    ) -> Result<Results, Failure> {
+        self.results(task, inputs, watch).map_err(|failure| explained(failure, task))
     }
 
-    fn results(&self, task: &Task, given: &Given<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
-        let seed = given.seed;
+    fn results(&self, task: &Task, inputs: &Inputs<'_>, watch: &mut Watch<'_>) -> Result<Results, Failure> {
+        let seed = inputs.seed;
         let bare = |runs, interrupted, info| Results { runs, interrupted, info };
         let none = f64::NEG_INFINITY;
         let mut progress = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
@@ -339,8 +344,8 @@ impl Method {
                 let (mut runs, mut tried, mut all) = (Vec::new(), 0, AllInvalid::default());
                 while tried < *n && watch(tried, 0, none) {
                     match forward(task, seed, tried, true) {
-                        Err(Failure::Run(met)) if task.invalid.count(&met).is_some() => {
-                            all.note(Some(&Arc::new(*met)));
+                        Err(Failure::Run(fault)) if task.invalid.count(&fault).is_some() => {
+                            all.note(Some(&Arc::new(*fault)));
                         }
                         run => {
                             runs.push(run?);
@@ -354,7 +359,7 @@ impl Method {
                 Ok(bare(runs, interrupted, Info::Forward))
             }
             Method::Importance { n, proposal } => {
-                let proposal = proposed(proposal.as_ref(), given)?;
+                let proposal = proposed(proposal.as_ref(), inputs)?;
                 let result =
                     importance(task, proposal.as_deref(), *n, seed, &mut |runs| watch(runs as u64, 0, none))?;
                 let interrupted = result.runs.len() < *n;
@@ -367,15 +372,15 @@ impl Method {
                 Ok(bare(result.runs, result.interrupted, Info::Rejection { tries: result.tries }))
             }
             Method::EnumerateAll { max_runs, likely, rest } => {
-                let what = if *likely {
+                let visits = if *likely {
                     Visit::Likely { runs: *max_runs, rest: *rest }
                 } else {
                     Visit::All(*max_runs)
                 };
-                let result = visit(task, what, &mut |runs| watch(runs as u64, 0, none))?;
+                let result = visit(task, visits, &mut |runs| watch(runs as u64, 0, none))?;
                 Ok(bare(vec![], false, Info::Enumeration(result)))
             }
-            Method::Ais(own) => {
+            Method::Ais(ais) => {
                 let ended = Mutex::new((0, none, watch));
                 let watch = |best: f64| {
                     let mut ended = ended.lock().unwrap_or_else(PoisonError::into_inner);
@@ -384,37 +389,37 @@ impl Method {
                     *highest = highest.max(best);
                     watch(*n as u64, *n, *highest)
                 };
-                let mut result = annealed(task, &own.settings(given)?, &watch)?;
+                let mut result = annealed(task, &ais.settings(inputs)?, &watch)?;
                 let runs = std::mem::take(&mut result.runs);
                 Ok(bare(runs, result.interrupted, Info::Annealed(result)))
             }
-            Method::Smc(own) => {
-                let settings = own.settings(given)?;
-                let mut result = match own.seconds {
+            Method::Smc(smc) => {
+                let settings = smc.settings(inputs)?;
+                let mut result = match smc.seconds {
                     Some(time) => {
                         let time = Duration::try_from_secs_f64(time).unwrap_or(Duration::ZERO);
                         within(task, &settings, time, &mut progress)?
                     }
-                    None => populations(task, &settings, &own.plan(), &mut progress)?,
+                    None => populations(task, &settings, &smc.plan(), &mut progress)?,
                 };
                 let runs = std::mem::take(&mut result.particles);
                 let lost = std::mem::take(&mut result.losses).explained(task);
                 Ok(bare(runs, result.interrupted, Info::Populations(result, lost)))
             }
-            Method::ParticleGibbs(own) => {
-                let settings = own.settings(given)?;
-                let ancestors = if own.ancestors { Ancestors::Sampled } else { Ancestors::Kept };
+            Method::ParticleGibbs(gibbs) => {
+                let settings = gibbs.settings(inputs)?;
+                let ancestors = if gibbs.ancestors { Ancestors::Sampled } else { Ancestors::Kept };
                 let result =
-                    particle_gibbs(task, &settings, ancestors, own.sweeps, given.start, &mut progress)?;
+                    particle_gibbs(task, &settings, ancestors, gibbs.sweeps, inputs.start, &mut progress)?;
                 Ok(of_chain(result))
             }
-            Method::Pimh(own) => {
-                let settings = own.common.settings(own.particles, given)?;
-                Ok(of_chain(pimh(task, &settings, own.sweeps, &mut progress)?))
+            Method::Pimh(method) => {
+                let settings = method.common.settings(method.particles, inputs)?;
+                Ok(of_chain(pimh(task, &settings, method.sweeps, &mut progress)?))
             }
-            Method::Improve(own) => {
-                let proposal = proposed(own.proposal.as_ref(), given)?;
-                let (runs, result) = own.search(task, seed, proposal, given.seen, &mut progress)?;
+            Method::Improve(improve) => {
+                let proposal = proposed(improve.proposal.as_ref(), inputs)?;
+                let (runs, result) = improve.search(task, seed, proposal, inputs.outputs, &mut progress)?;
                 Ok(bare(runs, result.interrupted, Info::Improved(result)))
             }
             Method::Mh(_) | Method::Hmc(_) | Method::Nuts(_) | Method::Vi(_) => {
@@ -423,62 +428,65 @@ impl Method {
         }
     }
 
-    /// Of a method that follows the gradient: how its chains move, how many they are, and the most forward runs for
-    /// the start of each. `None` for any other method.
+    /// The settings of chains that follow the gradient, the number of chains, and the most forward runs for
+    /// the start of each. `None` for a method without a gradient.
     ///
     /// # Errors
     /// Numbers that are no metric.
     pub fn trajectories(&self) -> Result<Option<(hamiltonian::Settings, usize, u64)>, Fault> {
-        let (length, own) = match self {
-            Method::Hmc(own) => (Length::Fixed { steps: own.steps, jitter: own.jitter }, &own.common),
-            Method::Nuts(own) => (Length::NoUTurn { max_depth: own.max_depth }, &own.common),
+        let (length, common) = match self {
+            Method::Hmc(hmc) => (Length::Fixed { steps: hmc.steps, jitter: hmc.jitter }, &hmc.common),
+            Method::Nuts(nuts) => (Length::NoUTurn { max_depth: nuts.max_depth }, &nuts.common),
             _ => return Ok(None),
         };
-        let (shape, metric) = own.metric.read()?;
+        let (shape, metric) = common.metric.read()?;
         let settings = hamiltonian::Settings {
             length,
-            climb: own.climb,
-            warmup: own.warmup,
-            draws: own.draws,
-            thin: own.thin,
-            target_accept: own.target_accept,
+            climb: common.climb,
+            warmup: common.warmup,
+            draws: common.draws,
+            thin: common.thin,
+            target_accept: common.target_accept,
             shape,
             metric,
-            step_size: own.step_size,
+            step_size: common.step_size,
             ..hamiltonian::Settings::nuts()
         };
-        Ok(Some((settings, own.chains, own.tries)))
+        Ok(Some((settings, common.chains, common.tries)))
     }
 
-    /// Of variational inference: the plan of a search. `None` for any other method.
+    /// The plan of a variational inference. `None` for any other method.
     pub fn normals<'a>(
         &self,
         seed: u64,
         known: Option<&'a HashMap<u128, Value>>,
     ) -> Option<normals::Plan<'a>> {
-        let Method::Vi(own) = self else { return None };
-        let family = match own.family {
+        let Method::Vi(vi) = self else { return None };
+        let family = match vi.family {
             Normals::MeanField => Some(Family::MeanField),
             Normals::FullRank => Some(Family::FullRank),
             Normals::Pathfinder => None,
         };
-        let Vi { start, draws, steps, samples, tolerance, paths, tries, .. } = *own;
+        let Vi { start, draws, steps, samples, tolerance, paths, tries, .. } = *vi;
         Some(normals::Plan { family, start, draws, steps, samples, tolerance, paths, seed, tries, known })
     }
 
-    /// Refuses settings that make no sense for an inference inside a model, which gives one value for each seed.
+    /// Refuses settings that make no sense for an inference inside a model, which gives a single value for each seed.
     ///
     /// # Errors
     /// Such a setting, by name, or a method whose result is not a sample.
     pub fn check_inside(&self) -> Result<(), Fault> {
-        let refused = |name: &str, why: &str| {
-            Err(Fault::new("infer-method", format!("inside a model {why}, so `{name}` has no meaning there")))
+        let refused = |name: &str, reason: &str| {
+            Err(Fault::new(
+                "infer-method",
+                format!("inside a model {reason}, so `{name}` has no meaning there"),
+            ))
         };
         match self {
-            Method::Smc(own) if own.seconds.is_some() => refused("seconds", "a clock may not decide a value"),
-            Method::Smc(own) if own.diverse.is_some() => refused("diverse", "`infer` gives one value"),
-            Method::Mh(own) if own.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
-            Method::Mh(own) if own.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
+            Method::Smc(smc) if smc.seconds.is_some() => refused("seconds", "a clock may not decide a value"),
+            Method::Smc(smc) if smc.diverse.is_some() => refused("diverse", "`infer` gives one value"),
+            Method::Mh(mh) if mh.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
+            Method::Mh(mh) if mh.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
             Method::EnumerateAll { likely: true, .. } => {
                 refused("likely", "a part of the runs is no distribution")
             }
@@ -486,51 +494,53 @@ impl Method {
             Method::Improve(_) => refused("improve", "a search for the best is no sample"),
             Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
             Method::Vi(_) => refused("vi", "no gradient is followed"),
-            Method::Importance { proposal, .. } => proposed(proposal.as_ref(), &Given::default()).map(|_| ()),
-            Method::Ais(own) => own.settings(&Given::default()).map(|_| ()),
-            Method::Smc(own) => own.settings(&Given::default()).map(|_| ()),
-            Method::ParticleGibbs(own) => own.settings(&Given::default()).map(|_| ()),
-            Method::Pimh(own) => own.common.settings(own.particles, &Given::default()).map(|_| ()),
-            Method::Mh(own) => own.settings(&Given::default()).map(|_| ()),
+            Method::Importance { proposal, .. } => {
+                proposed(proposal.as_ref(), &Inputs::default()).map(|_| ())
+            }
+            Method::Ais(ais) => ais.settings(&Inputs::default()).map(|_| ()),
+            Method::Smc(smc) => smc.settings(&Inputs::default()).map(|_| ()),
+            Method::ParticleGibbs(gibbs) => gibbs.settings(&Inputs::default()).map(|_| ()),
+            Method::Pimh(pimh) => pimh.common.settings(pimh.particles, &Inputs::default()).map(|_| ()),
+            Method::Mh(mh) => mh.settings(&Inputs::default()).map(|_| ()),
             _ => Ok(()),
         }
     }
 }
 
 impl Ais {
-    fn settings(&self, given: &Given<'_>) -> Result<annealed::Settings, Fault> {
-        let kernel = self.kernel.as_ref().map(|form| form.kernel(given.attached)).transpose()?;
+    fn settings(&self, inputs: &Inputs<'_>) -> Result<annealed::Settings, Fault> {
+        let kernel = self.kernel.as_ref().map(|form| form.kernel(inputs.attached)).transpose()?;
         Ok(annealed::Settings {
             particles: self.particles,
             powers: self.powers.ladder()?,
             kernel: kernel.unwrap_or(Kernel::PRIOR),
             moves: self.moves,
             tries: self.tries,
-            seed: given.seed,
+            seed: inputs.seed,
         })
     }
 }
 
 impl Smc {
-    /// The settings of its populations.
-    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
+    /// The settings of the populations.
+    fn settings(&self, inputs: &Inputs<'_>) -> Result<Settings, Fault> {
         let rejuvenate = match &self.rejuvenate {
             None => None,
             Some(form) => Some(Rejuvenation {
-                kernel: form.kernel(given.attached)?,
+                kernel: form.kernel(inputs.attached)?,
                 moves: self.moves,
                 at: self.at,
                 final_chains: self.draws.map(|draws| FinalChains { chains: self.chains, draws }),
             }),
         };
         let particles = self.plan().first().copied().unwrap_or(0);
-        Ok(Settings { rejuvenate, ..self.common.settings(particles, given)? })
+        Ok(Settings { rejuvenate, ..self.common.settings(particles, inputs)? })
     }
 
-    /// Sizes of its populations without a time limit. Different results need one population each, unless chains give them.
+    /// Sizes of the populations without a time limit. Each different result needs a population, unless chains give the results.
     fn plan(&self) -> Vec<usize> {
         match &self.particles {
-            Sizes::Own(sizes) => sizes.clone(),
+            Sizes::List(sizes) => sizes.clone(),
             Sizes::Each(size) => {
                 let different = self.diverse.filter(|_| self.draws.is_none());
                 vec![*size; self.populations.or(different).unwrap_or(1)]
@@ -540,48 +550,48 @@ impl Smc {
 }
 
 impl ParticleGibbs {
-    fn settings(&self, given: &Given<'_>) -> Result<Settings, Fault> {
-        let own = self.common.settings(self.particles, given)?;
-        // What has a conditional form: see `particle_gibbs`.
-        let resampling = match own.resampling {
+    fn settings(&self, inputs: &Inputs<'_>) -> Result<Settings, Fault> {
+        let settings = self.common.settings(self.particles, inputs)?;
+        // Only these kinds of resampling have a conditional form: see `particle_gibbs`.
+        let resampling = match settings.resampling {
             Resampling::Tempered => Resampling::Tempered,
             _ => Resampling::Multinomial,
         };
-        Ok(Settings { resampling, ..own })
+        Ok(Settings { resampling, ..settings })
     }
 }
 
 impl Populations {
-    /// The settings of a population of so many particles.
-    fn settings(&self, particles: usize, given: &Given<'_>) -> Result<Settings, Fault> {
-        let proposal = proposed(self.proposal.as_ref(), given)?;
+    /// The settings of a population of this size.
+    fn settings(&self, particles: usize, inputs: &Inputs<'_>) -> Result<Settings, Fault> {
+        let proposal = proposed(self.proposal.as_ref(), inputs)?;
         let look_ahead = ahead(self.look_ahead, proposal.as_deref())?;
-        Ok(Settings { particles, seed: given.seed, proposal, look_ahead, ..self.settings.clone() })
+        Ok(Settings { particles, seed: inputs.seed, proposal, look_ahead, ..self.settings.clone() })
     }
 }
 
 impl Mh {
-    /// The settings of its chains.
+    /// The settings of the chains.
     ///
     /// # Errors
     /// An unknown kernel.
-    pub fn settings(&self, given: &Given<'_>) -> Result<niwaki_chain::Settings, Fault> {
+    pub fn settings(&self, inputs: &Inputs<'_>) -> Result<niwaki_chain::Settings, Fault> {
         let plain = niwaki_chain::Settings::default();
-        let own = self.kernel.as_ref().map(|form| form.tempered(given.attached)).transpose()?;
+        let tempered = self.kernel.as_ref().map(|form| form.tempered(inputs.attached)).transpose()?;
         let settings = niwaki_chain::Settings {
-            seed: given.seed,
+            seed: inputs.seed,
             strategy: self.strategy,
             warmup: self.warmup,
             thin: self.spacing(),
             tries: self.tries,
             ..plain
         };
-        Ok(match own {
+        Ok(match tempered {
             None => settings,
-            Some(own) => niwaki_chain::Settings {
-                kernel: own.kernel,
-                powers: own.powers,
-                every: own.every,
+            Some(tempered) => niwaki_chain::Settings {
+                kernel: tempered.kernel,
+                powers: tempered.powers,
+                every: tempered.every,
                 ..settings
             },
         })
@@ -598,12 +608,12 @@ impl Mh {
 }
 
 /// The proposal for the choices of new runs.
-fn proposed(form: Option<&Form>, given: &Given<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
+fn proposed(form: Option<&Form>, inputs: &Inputs<'_>) -> Result<Option<Arc<Proposal>>, Fault> {
     let Some(form) = form else { return Ok(None) };
-    Ok(Some(Arc::new(form.kernel(given.attached)?.proposal()?)))
+    Ok(Some(Arc::new(form.kernel(inputs.attached)?.proposal()?)))
 }
 
-/// What weights count of the rest of a run: so much of what a guide of the proposal says.
+/// The look-ahead of weights: a share of the forecast by a guide of the proposal.
 fn ahead(strength: Option<f64>, proposal: Option<&Proposal>) -> Result<Option<LookAhead>, Fault> {
     let Some(strength) = strength else { return Ok(None) };
     match proposal.and_then(Proposal::forecast) {

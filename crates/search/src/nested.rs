@@ -1,12 +1,12 @@
 //! Inference inside a model: `infer(model, method, ...)`, dissertation 2.3.1.
 //!
-//! To the run around it an `infer` is a pure function of its model, its arguments and a seed: the seed is a choice of
-//! that run, drawn at the call of `infer`. So a replay, a copy of a particle and a Markov chain treat it as they treat
+//! For the run around it, an `infer` is a pure function of its model, its arguments and a seed. The seed is a choice of
+//! that run, drawn at the call of `infer`. So a replay, a copy of a particle and a Markov chain treat it like
 //! every choice. The choices, factors and shapes of the inner runs are not part of the outer run.
 //!
-//! The machine calls it by the question `host`, as any function that it cannot compute itself.
+//! The machine calls an `infer` by the question `host`, like any function that it cannot compute itself.
 
-use crate::method::{Given, Info, Method, Mh};
+use crate::method::{Info, Inputs, Method, Mh};
 use niwaki_chain::many::Chains;
 use niwaki_run::Failure;
 use niwaki_run::inside::{Inside, fault_of, limits_inside, too_long};
@@ -22,21 +22,21 @@ use std::any::Any;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
 
-/// What an `infer` returns.
+/// The part of a search's result that an `infer` returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keep {
-    /// The value of one sample, drawn by weight.
+    /// The value of a sample, drawn by weight.
     Sample,
     /// The value of the sample with the best log score.
     Best,
 }
 
-/// A method and what is kept of its result.
+/// A method, and the part of its result to return.
 #[derive(Clone, Debug)]
 pub struct Inner {
-    /// How it searches.
+    /// The method of the search.
     pub method: Method,
-    /// What it gives.
+    /// The part of the result to return.
     pub keep: Keep,
 }
 
@@ -58,32 +58,32 @@ impl Inner {
         Some(method.map(|method| Inner { method, keep }))
     }
 
-    /// Runs the search of a task and gives what it keeps.
+    /// Searches a task and returns the part of the result to keep.
     ///
     /// # Errors
     /// The failure of the search.
     pub fn value(&self, task: &Task, seed: u64) -> Result<Value, Failure> {
-        let given = Given { seed, ..Given::default() };
+        let inputs = Inputs { seed, ..Inputs::default() };
         if let Method::Mh(mh) = &self.method {
-            return self.of_chains(task, mh, &given);
+            return self.of_chains(task, mh, &inputs);
         }
-        let result = self.method.search(task, &given, &mut |_, _, _| true)?;
+        let result = self.method.search(task, &inputs, &mut |_, _, _| true)?;
         match result.info {
             Info::Enumeration(exact) => {
                 let probability = |(value, log): (Value, f64)| (value, (log - exact.log_evidence).exp());
                 let mut pairs: Vec<(Value, f64)> = exact.outcomes.into_iter().map(probability).collect();
-                // Stable: equally probable values keep their order of appearance.
+                // The sort is stable: equally probable values keep their order of appearance.
                 pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
                 let pair = |(value, p): (Value, f64)| Value::tuple(vec![value, Value::Real(p)]);
                 Ok(Value::list(pairs.into_iter().map(pair).collect()))
             }
-            _ => self.kept(seed, result.runs),
+            _ => self.pick(seed, result.runs),
         }
     }
 
-    /// The last or the best state of Markov chains. The last state of a chain is a sample; one chain is as good as another.
-    fn of_chains(&self, task: &Task, mh: &Mh, given: &Given<'_>) -> Result<Value, Failure> {
-        let settings = niwaki_chain::Settings { thin: 0, ..mh.settings(given)? };
+    /// The last or the best state of Markov chains. The last state of a chain is a sample; the chains are equally good.
+    fn of_chains(&self, task: &Task, mh: &Mh, inputs: &Inputs<'_>) -> Result<Value, Failure> {
+        let settings = niwaki_chain::Settings { thin: 0, ..mh.settings(inputs)? };
         let mut search: Chains = Chains::start(task, &settings, mh.chains, None)?;
         search.advance(task, mh.steps, &|_, _| true)?;
         let score = |at: &usize| search.chains[*at].best_score();
@@ -100,8 +100,8 @@ impl Inner {
         }
     }
 
-    /// One of weighted runs.
-    fn kept(&self, seed: u64, mut runs: Vec<Run>) -> Result<Value, Failure> {
+    /// The value of a run picked from weighted runs.
+    fn pick(&self, seed: u64, mut runs: Vec<Run>) -> Result<Value, Failure> {
         runs.retain(|run| run.has_ended);
         let mut weights = Normalised::default();
         if !weights.read(runs.iter().map(|run| run.log_weight)) {
@@ -120,49 +120,47 @@ fn impossible() -> Failure {
     Failure::impossible(0, std::iter::empty())
 }
 
-/// Host functions and the inferences inside of a program.
+/// The host functions and the inferences of a program.
 #[derive(Clone)]
 pub struct Inferences {
     /// The program whose functions are the inner models.
     pub program: Arc<Program>,
-    /// Its methods, by the number of the constant.
+    /// The methods, by the number of the constant.
     pub methods: Arc<HashMap<u16, Inner>>,
-    /// Its other host functions.
+    /// The other host functions.
     pub hosts: Arc<dyn Hosts>,
-    /// How much one inner run may use.
+    /// The limits of an inner run.
     pub limits: Limits,
-    /// How many `infer` this one is inside of.
+    /// The number of `infer` calls around this one.
     pub depth: usize,
     /// The latest answers.
     pub known: Arc<Known>,
 }
 
-/// How many answers are remembered.
+/// Number of answers that are remembered.
 const REMEMBERED: usize = 16;
 
-/// Most bytes of one of them, with its arguments.
+/// Most bytes of a remembered answer with its arguments.
 const REMEMBERED_BYTES: usize = 1 << 20;
 
-/// The latest answers. A call that is run again (in a replay, or after another choice of the same activation changed)
-/// is not searched again. An inner search is a function of its inputs, so this changes no result.
+/// The latest answers. If a call is run again (in a replay, or after another choice of its activation changed), its answer is
+/// looked up and not searched again. An inner search is a function of its inputs, so this changes no result.
 ///
-/// Nobody waits for this lock: while another thread looks, a call is searched again. After a fork that thread may not
-/// be there.
+/// No thread waits for this lock: while another thread holds it, a call is searched again. After a fork that thread may not
+/// exist.
 #[derive(Default)]
 pub struct Known(Mutex<VecDeque<Answered>>);
 
-/// The constant, the arguments, the answer, the steps that it took.
+/// The constant, the arguments, the answer, and its number of steps.
 type Answered = (u16, Vec<Value>, Value, u64);
 
 impl Known {
     fn find(&self, constant: u16, args: &[Value]) -> Option<(Value, u64)> {
         let known = self.0.try_lock().ok()?;
-        let is_it = |(c, given, ..): &&Answered| {
-            *c == constant
-                && given.len() == args.len()
-                && given.iter().zip(args).all(|(a, b)| identical(a, b))
+        let matches = |(c, stored, ..): &&Answered| {
+            *c == constant && stored.len() == args.len() && stored.iter().zip(args).all(|(a, b)| identical(a, b))
         };
-        known.iter().find(is_it).map(|(_, _, answer, steps)| (answer.clone(), *steps))
+        known.iter().find(matches).map(|(_, _, answer, steps)| (answer.clone(), *steps))
     }
 
     fn remember(&self, constant: u16, args: &[Value], (answer, steps): (&Value, u64)) {
@@ -189,12 +187,12 @@ impl Hosts for Inferences {
         let Some(method) = self.methods.get(&constant) else {
             return self.hosts.call(constant, args, steps);
         };
-        if let Some((answer, own)) = self.known.find(constant, args) {
-            // It costs what it cost, so that limits do not depend on what is remembered.
-            *steps = steps.saturating_add(own);
+        if let Some((answer, answer_steps)) = self.known.find(constant, args) {
+            // The call takes the steps of its search, so that limits do not depend on what is remembered.
+            *steps = steps.saturating_add(answer_steps);
             return Ok(answer);
         }
-        let given = args;
+        let all_args = args;
         let [model, args @ .., seed] = args else {
             return Err(Fault::argument_count("`infer` takes a model, its arguments and a seed"));
         };
@@ -202,10 +200,10 @@ impl Hosts for Inferences {
             (Value::Function(model), Value::Int(seed)) => {
                 let together = Arc::new(Together::new(self.limits.steps.saturating_sub(*steps)));
                 let answer = self.infer(method, model, args, *seed as u64, &together)?;
-                let own = together.taken();
-                *steps = steps.saturating_add(own);
-                if given.iter().chain([&answer]).map(Value::own_bytes).sum::<usize>() <= REMEMBERED_BYTES {
-                    self.known.remember(constant, given, (&answer, own));
+                let answer_steps = together.taken();
+                *steps = steps.saturating_add(answer_steps);
+                if all_args.iter().chain([&answer]).map(Value::own_bytes).sum::<usize>() <= REMEMBERED_BYTES {
+                    self.known.remember(constant, all_args, (&answer, answer_steps));
                 }
                 Ok(answer)
             }
@@ -215,8 +213,8 @@ impl Hosts for Inferences {
 }
 
 impl Inferences {
-    /// The value of an `infer` of this model with these arguments. All of its runs take their steps from those that
-    /// `together` leaves; of the memory they have a quarter of what the run around them has, or `SMALLEST`.
+    /// The value of an `infer` of this model with these arguments. All of its runs together take their steps from the rest in
+    /// `together`; they have a quarter of the memory of the run around them, or `SMALLEST`.
     ///
     /// # Errors
     /// The failure of the search, as a fault of the run around it.
@@ -249,7 +247,7 @@ impl Inferences {
         };
         let name = &self.program.function(FunctionId(model.function)).name;
         method.value(&task, seed).map_err(|failure| {
-            // Of parallel runs any may be the one that meets the bound: the message is the same.
+            // Any of the parallel runs may be the one that meets the bound, but the message is always equal.
             if together.is_spent() { too_long(name, self.limits.steps) } else { fault_of(name, failure) }
         })
     }
@@ -257,12 +255,12 @@ impl Inferences {
 
 #[cfg(test)]
 mod tests {
-    //! The claim: an `infer` gives a draw from the inner posterior with every method, and the same draw for the same
-    //! seed. A failure inside is a fault outside.
+    //! With every method, an `infer` gives a draw from the inner posterior, and equal draws for equal seeds. A failure
+    //! inside is a fault outside.
     //!
     //! The inner model is a coin with p = 0.3 whose tails cost 1.5 nats: p(heads) = 0.3 / (0.3 + 0.7 exp(-1.5)). Each share
-    //! is over 4,000 seeds and within 4.9 standard errors (one false alarm in a million); the bias of 200 weighted runs is
-    //! below a tenth of one. The mutant that forgets the weights gives 0.3 and is rejected.
+    //! is over 4,000 seeds and within 4.9 standard errors (one false alarm in a million). The bias of 200 weighted runs is
+    //! below a tenth of a standard error. A mutant that forgets the weights gives 0.3 and is rejected.
 
     use super::*;
     use niwaki_run::forward::forward;
@@ -312,7 +310,7 @@ mod tests {
         models.items().to_vec()
     }
 
-    /// The share of heads; the same seed gives the same value.
+    /// The share of heads; equal seeds give equal values.
     fn share(method: &str) -> f64 {
         let inferences = inferences(method);
         let inner = models(&inferences)[0].clone();
@@ -353,13 +351,13 @@ mod tests {
             r#"{"method": "particle_gibbs", "particles": 20, "sweeps": 20, "order": "depth-first", "power": 1.0,
                 "ess": null, "anneal": null, "ancestors": true}"#.to_string(),
         ];
-        // On one thread: small searches gain nothing from more.
+        // On a single thread, since small searches gain nothing from more.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         for method in methods {
-            let found = pool.install(|| share(&method));
-            assert!((found - p).abs() < error, "{method}: {found} for {p}");
+            let heads = pool.install(|| share(&method));
+            assert!((heads - p).abs() < error, "{method}: {heads} for {p}");
         }
-        // The prior, which is what a draw without weights would give.
+        // The prior is the result of a draw without weights.
         let prior = share(r#"{"method": "forward", "n": 200}"#);
         assert!((prior - 0.3).abs() < error && (prior - p).abs() > error, "{prior}");
     }
@@ -369,20 +367,20 @@ mod tests {
         let inferences =
             inferences(r#"{"method": "enumerate_all", "max_runs": 10, "likely": false, "rest": 0}"#);
         let inner = models(&inferences)[0].clone();
-        let found = inferences.call(0, &[inner, Value::Real(-1.5), Value::Int(0)], &mut 0).unwrap();
-        let Value::List(pairs) = &found else { panic!("{found:?}") };
-        assert!(repr(&found).unwrap().starts_with("[(True, "));
+        let value = inferences.call(0, &[inner, Value::Real(-1.5), Value::Int(0)], &mut 0).unwrap();
+        let Value::List(pairs) = &value else { panic!("{value:?}") };
+        assert!(repr(&value).unwrap().starts_with("[(True, "));
         let Value::Tuple(first) = pairs.get(0).unwrap() else { panic!("not a pair") };
         let Value::Real(p) = first.items()[1] else { panic!("not a number") };
         assert!((p - posterior()).abs() < 1e-9);
     }
 
     #[test]
-    fn what_goes_wrong_inside_is_a_fault_outside() {
+    fn failures_inside_are_faults_outside() {
         let inferences = inferences(r#"{"method": "importance", "n": 5}"#);
         let [inner, never, broken, deep, flat] = &models(&inferences)[..] else { panic!("five models") };
         let code = |args: &[Value]| inferences.call(0, args, &mut 0).unwrap_err().code;
-        // Only where all of its runs are invalid, the run around it is.
+        // The run around is invalid only if all of the inner runs are invalid.
         let is_invalid = |model: &Value| {
             inferences.call(0, &[model.clone(), Value::Int(1)], &mut 0).unwrap_err().invalid.is_some()
         };
@@ -396,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn a_setting_that_has_no_meaning_inside_is_refused() {
+    fn settings_without_meaning_inside_are_refused() {
         let mh = |thin: &str, keep: &str| {
             let plain =
                 r#""steps": 9, "strategy": "c3", "chains": 1, "warmup": 0, "tries": 9, "kernel": null"#;

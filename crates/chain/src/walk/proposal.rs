@@ -2,7 +2,7 @@
 
 use crate::walk::accept::Decision;
 use crate::walk::state::State;
-use niwaki_math::first_blocks::Begun;
+use niwaki_math::first_blocks::FirstBlock;
 use niwaki_math::{Dist, Stream, grid};
 use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
@@ -69,7 +69,7 @@ pub(super) struct MoveProposal<'a, M> {
     pub proposer: &'a mut M,
     pub site: usize,
     /// The random bits of its new value.
-    pub moves: Begun,
+    pub moves: FirstBlock,
     /// Whether to keep the old value in `old`.
     pub noting: bool,
     pub old: Option<(u128, Value)>,

@@ -1,7 +1,7 @@
 //! The random streams of a chain: a function of (seed, chain, address, visit). The visit is the number of the
 //! proposal. So no draw depends on how much of the program was run again.
 
-use niwaki_math::first_blocks::{Begun, EIGHT, eight};
+use niwaki_math::first_blocks::{EIGHT, FirstBlock, eight};
 use niwaki_math::{RngCore, Stream, StreamKey};
 
 /// Stream numbers for each chain, one for each purpose.
@@ -60,9 +60,9 @@ pub(crate) struct Ahead {
 /// Those of one proposal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Decisions {
-    decisions: Begun,
+    decisions: FirstBlock,
     /// For the new value of the choice at an address.
-    pub moves: Begun,
+    pub moves: FirstBlock,
 }
 
 impl Decisions {

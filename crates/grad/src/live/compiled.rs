@@ -1,6 +1,6 @@
-//! A density that is evaluated by its tape while machine code is compiled in the background.
+//! A density that its tape evaluates while machine code is compiled in the background.
 //!
-//! Both give the same numbers to the bit, so machine code replaces the tape as soon as it is ready: first the
+//! Tape and machine code give equal numbers to the bit, so machine code replaces the tape as soon as it is ready: first the
 //! gradient alone, which a trajectory needs most, then the value with its gradient.
 
 use crate::density::Density;
@@ -9,15 +9,15 @@ use crate::tape::{Lanes, Tape};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Gradients by tape before machine code is compiled: fewer would not pay for its compilation.
+/// Gradients by tape before machine code is compiled: with fewer, its compilation would not pay.
 pub(crate) const WARM: u32 = 200;
 
 enum Progress {
-    /// Not started: the number of gradients so far.
+    /// Before the start: the number of gradients so far.
     Tape(u32),
-    /// In progress: first the gradient, then the rest. The lock never blocks; it allows threads to share this.
+    /// During compilation: first of the gradient, then of the rest. The lock never blocks; it lets threads share this state.
     Waiting(Mutex<Receiver<Stage>>),
-    /// Finished. A processor without machine code ends here with none.
+    /// After compilation; also on a processor without machine code.
     Done,
 }
 
@@ -54,20 +54,20 @@ impl Compiled {
         Compiled::after(density, WARM)
     }
 
-    /// The same, with machine code after `warm` gradients by tape.
+    /// As [`Compiled::new`], with machine code after `warm` gradients by tape.
     pub fn after(density: Arc<Density>, warm: u32) -> Compiled {
         let tape = Arc::new(Tape::new(&density));
         let lanes = tape.lanes();
         Compiled { density, tape, lanes, native: None, progress: Progress::Tape(0), warm }
     }
 
-    /// Another evaluator of the same density, with its own memory.
+    /// Another evaluator of this density, with its own memory.
     pub fn beside(&self) -> Compiled {
         let (density, tape, progress) = (self.density.clone(), self.tape.clone(), Progress::Tape(0));
         Compiled { density, lanes: tape.lanes(), tape, native: None, progress, warm: self.warm }
     }
 
-    /// Compiles now, and waits for it.
+    /// Compiles now, and waits for the result.
     pub fn finish(&mut self) {
         match std::mem::replace(&mut self.progress, Progress::Done) {
             Progress::Tape(_) => {
@@ -93,7 +93,7 @@ impl Compiled {
         }
     }
 
-    /// Whether all is machine code.
+    /// Whether machine code evaluates everything.
     pub fn is_native(&self) -> bool {
         self.native.as_ref().is_some_and(Native::is_complete)
     }
@@ -103,12 +103,12 @@ impl Compiled {
         &self.density
     }
 
-    /// Its tape, for many chains at once.
+    /// The density's tape, for many chains at once.
     pub fn tape(&self) -> &Arc<Tape> {
         &self.tape
     }
 
-    /// Starts the compilation when it is time, and takes the stages that are ready.
+    /// Starts the compilation when it is due, and takes the stages that are ready.
     fn advance(&mut self) {
         match &mut self.progress {
             Progress::Tape(n) if *n < self.warm => *n += 1,
@@ -135,16 +135,16 @@ impl Compiled {
     /// The log density at `x`, with its gradient in `g`; NaN outside the guards.
     ///
     /// # Panics
-    /// When `x` or `g` has not one number for each coordinate.
+    /// If `x` or `g` does not have one number for each coordinate.
     #[inline]
     pub fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> f64 {
         self.inside(x, g).unwrap_or(f64::NAN)
     }
 
-    /// The same; `None` outside the guards.
+    /// The log density at `x`, with its gradient in `g`; `None` outside the guards.
     ///
     /// # Panics
-    /// As for [`Compiled::value_and_gradient`].
+    /// See [`Compiled::value_and_gradient`].
     #[inline]
     pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
         if let Some(native) = self.native.as_mut().filter(|native| native.is_complete()) {
@@ -157,7 +157,7 @@ impl Compiled {
     /// The gradient at `x`; false outside the guards.
     ///
     /// # Panics
-    /// As for [`Compiled::value_and_gradient`].
+    /// See [`Compiled::value_and_gradient`].
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
         if let Some(native) = &mut self.native {
@@ -170,7 +170,7 @@ impl Compiled {
     /// Leapfrog steps in machine code, as [`Native::roll`]; none while there is no machine code.
     ///
     /// # Panics
-    /// As for [`Native::roll`].
+    /// See [`Native::roll`].
     #[inline]
     pub fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
         self.native.as_mut().map_or(0, |native| native.roll(at, kick, step, steps))

@@ -1,7 +1,7 @@
-//! A density that follows its program: outside the guards of one path the run is recorded again.
+//! A density that follows its program: outside the guards of a path the run is recorded again.
 //!
-//! A path is the branches of one recording. As long as the choices are the same (their addresses, supports and fixed
-//! values), another path is the same density at other points, and paths are kept. Where the choices change, the point
+//! A path is the branches of a recording. As long as the choices are equal (their addresses, supports and fixed
+//! values), another path is the same density at other points, and paths are stored. If the choices change, the point
 //! is refused: a gradient cannot move to other choices.
 
 pub mod compiled;
@@ -22,22 +22,22 @@ use std::sync::Arc;
 /// Pure functions of the host.
 pub type Host = Arc<HostCall<'static>>;
 
-/// What is recorded: a program with its arguments.
+/// The subject of a recording: a program with its arguments.
 #[derive(Clone)]
 pub struct Model {
     /// The program, over recording numbers.
     pub program: Arc<Program<Var>>,
     /// The arguments of its entry function.
     pub args: Vec<Value<Var>>,
-    /// Choices whose values are given, and observed.
+    /// Choices with fixed values, which are observed.
     pub held: Option<Arc<Held<Var>>>,
-    /// How much a run may use.
+    /// The limits of a run.
     pub limits: Limits,
-    /// Its host functions.
+    /// The host functions.
     pub host: Host,
-    /// What varies.
+    /// The choices that vary.
     pub scope: Scope,
-    /// Counts the points that are refused because the run is invalid there.
+    /// The number of points that are refused because the run is invalid there.
     pub invalid: Arc<Invalid>,
 }
 
@@ -45,13 +45,13 @@ impl Model {
     /// Records the run with these choices.
     ///
     /// # Errors
-    /// As [`record`].
+    /// See [`record`].
     pub fn record(&self, choices: &HashMap<u128, Value>) -> Result<Recorded, Box<RunFault>> {
         record(&self.run(), choices)
     }
 
     /// The first term of the log density whose gradient is not finite in the run with these choices, as a fault of its
-    /// line; the fault of the run, where it has one.
+    /// line; or the fault of the run, if it has one.
     pub fn blame(&self, choices: &HashMap<u128, Value>) -> Option<Box<RunFault>> {
         blame(&self.run(), choices)
     }
@@ -68,21 +68,21 @@ impl Model {
     }
 }
 
-/// Why a point is refused.
+/// The reason why a point is refused.
 #[derive(Debug)]
 pub enum Refused {
     /// The run has other choices there.
     Structure,
     /// The run fails there, or is impossible.
     Fault(Box<RunFault>),
-    /// A comparison holds in the run and not in its recording, by rounding.
+    /// A comparison holds in the run but not in its recording, by rounding.
     Rounding,
 }
 
-/// Recordings at most before a point is given up.
+/// Most recordings before a point is refused.
 const DETOURS: usize = 4;
 
-/// Paths kept at most; the oldest is removed first.
+/// Most stored paths; the oldest is removed first.
 const PATHS: usize = 64;
 
 struct Path {
@@ -112,14 +112,14 @@ impl Live {
         Live::after(model, recorded, WARM)
     }
 
-    /// The same, with machine code of a path after `warm` gradients: for runs that soon leave many paths.
+    /// As [`Live::new`], with machine code of a path after `warm` gradients: for runs that soon leave many paths.
     pub fn after(model: Model, recorded: Recorded, warm: u32) -> Live {
         let mut live = Live { model, paths: vec![], now: 0, recordings: 1, warm };
         live.keep(Path::of(recorded, warm));
         live
     }
 
-    /// The density around another run of the same model, with its coordinates, without a recording. `None` unless that
+    /// The density around another run of this model, with its coordinates, without a recording. `None` unless that
     /// run is on the current path.
     pub fn beside(&self, choices: &HashMap<u128, Value>) -> Option<(Live, Vec<f64>)> {
         let here = &self.paths[self.now];
@@ -128,7 +128,7 @@ impl Live {
         }
         let x = here.recorded.coordinates(|choice| choices.get(&choice.address))?;
         let mut path = Path { recorded: here.recorded.clone(), compiled: here.compiled.beside() };
-        // Inside the guards the run takes the same path and has the same choices.
+        // Inside the guards the run takes this path and has these choices.
         path.compiled.inside(&x, &mut vec![0.0; x.len()])?;
         let (model, paths) = (self.model.clone(), vec![path]);
         Some((Live { model, paths, now: 0, recordings: 0, warm: self.warm }, x))
@@ -147,27 +147,27 @@ impl Live {
         &self.model
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         self.recorded().dim()
     }
 
-    /// The path that the last point was on.
+    /// The recording of the last point's path.
     pub fn recorded(&self) -> &Arc<Recorded> {
         &self.paths[self.now].recorded
     }
 
-    /// How many operations its paths hold together.
+    /// The number of operations of all paths together.
     pub fn size(&self) -> usize {
         self.paths.iter().map(|path| path.recorded.density.graph().len()).sum()
     }
 
-    /// How often the program was recorded.
+    /// The number of recordings of the program.
     pub fn recordings(&self) -> usize {
         self.recordings
     }
 
-    /// The path's evaluator.
+    /// The evaluator of the last point's path.
     pub fn compiled(&mut self) -> &mut Compiled {
         &mut self.paths[self.now].compiled
     }
@@ -178,7 +178,7 @@ impl Live {
     /// A point at which the run has other choices, fails or is impossible; `g` is then invalid.
     ///
     /// # Panics
-    /// When `x` or `g` has not one number for each coordinate.
+    /// If `x` or `g` does not have one number for each coordinate.
     #[inline]
     pub fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<f64, Refused> {
         match self.paths[self.now].compiled.inside(x, g) {
@@ -187,13 +187,13 @@ impl Live {
         }
     }
 
-    /// The gradient at `x`, to the bit that of [`Live::value_and_gradient`].
+    /// The gradient at `x`, equal to that of [`Live::value_and_gradient`] to the bit.
     ///
     /// # Errors
-    /// As for [`Live::value_and_gradient`].
+    /// See [`Live::value_and_gradient`].
     ///
     /// # Panics
-    /// As for [`Live::value_and_gradient`].
+    /// See [`Live::value_and_gradient`].
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> Result<(), Refused> {
         if self.paths[self.now].compiled.gradient(x, g) { Ok(()) } else { self.elsewhere(x, g).map(|_| ()) }
@@ -214,8 +214,8 @@ impl Live {
             let bare = RunFault { fault, stack: vec![], omitted: 0, path: String::new() };
             return Err(Refused::Fault(Box::new(bare)));
         }
-        // Values follow from coordinates by the path: a bound may depend on a branch. So a recording at the values of
-        // one path may be another path, whose values are then used.
+        // Values follow from coordinates by the path, since a bound may depend on a branch. So a recording at the values of
+        // one path may be another path, whose values count from then on.
         let mut at = self.recorded().clone();
         for _ in 0..DETOURS {
             self.recordings += 1;
@@ -240,16 +240,16 @@ impl Live {
         Err(Refused::Rounding)
     }
 
-    /// Switches to the path of a run with these choices, and gives its coordinates. `coordinates` computes them by a
-    /// path, where possible. `None` where the run has other choices, fails, or is on no path.
+    /// Switches to the path of a run with these choices, and returns its coordinates. `coordinates` computes them by a
+    /// path, if possible. `None` if the run has other choices, fails, or is on no path.
     pub fn locate(
         &mut self,
         coordinates: &mut dyn FnMut(&Recorded) -> Option<Vec<f64>>,
         choices: &mut dyn FnMut() -> HashMap<u128, Value>,
     ) -> Option<Vec<f64>> {
         let mut slopes = vec![0.0; self.dim()];
-        let others = (0..self.paths.len()).filter(|at| *at != self.now);
-        for at in std::iter::once(self.now).chain(others).collect::<Vec<_>>() {
+        let rest = (0..self.paths.len()).filter(|at| *at != self.now);
+        for at in std::iter::once(self.now).chain(rest).collect::<Vec<_>>() {
             if let Some(x) = coordinates(&self.paths[at].recorded)
                 && self.paths[at].compiled.inside(&x, &mut slopes).is_some()
             {
@@ -270,10 +270,10 @@ impl Live {
     /// The values of all choices at `x`, fixed ones included.
     ///
     /// # Errors
-    /// As for [`Live::value_and_gradient`].
+    /// See [`Live::value_and_gradient`].
     ///
     /// # Panics
-    /// When there is not one number for each coordinate.
+    /// If there is not one number for each coordinate.
     pub fn values(&mut self, x: &[f64]) -> Result<HashMap<u128, Value>, Refused> {
         self.value_and_gradient(x, &mut vec![0.0; x.len()])?;
         Ok(self.recorded().values(x))

@@ -1,4 +1,4 @@
-//! The instructions of one function while it is written.
+//! The instructions of a function, during its generation.
 
 use super::layout::{Layout, test_of};
 use crate::density::Density;
@@ -9,7 +9,7 @@ use niwaki_native::codegen::ir::types::{F64, F64X2};
 use niwaki_native::codegen::ir::{Endianness, InstBuilder, MemFlagsData, Value};
 use niwaki_native::frontend::FunctionBuilder;
 
-/// One function while it is written.
+/// A function during its generation.
 pub(super) struct Code<'a, 'b> {
     pub b: FunctionBuilder<'a>,
     pub density: &'b Density,
@@ -18,12 +18,12 @@ pub(super) struct Code<'a, 'b> {
     x: Value,
     g: Value,
     scratch: Value,
-    /// Coordinates in registers; the others are read from `x`.
+    /// Coordinates in registers; other coordinates are read from `x`.
     pub inputs: Vec<Value>,
     /// For each node, the function that computed it last (by number), and its value there.
     values: &'b mut [(u32, Value)],
     function: u32,
-    /// Comparisons made for selects.
+    /// Comparisons that were compiled for selects.
     masks: Vec<(Id, Value)>,
 }
 
@@ -46,8 +46,8 @@ impl<'a, 'b> Code<'a, 'b> {
         Code { b, density, layout, x, g, scratch, inputs: vec![], values, function, masks: vec![] }
     }
 
-    /// A number, read from its place. Loads are not kept: loading again costs less than a register. A constant is
-    /// loaded too: ten bytes of it in the code, and a move from one kind of register to the other, would cost more.
+    /// A number, read from its place. Loads are not reused, since a load costs less than a register. A constant is
+    /// loaded too: ten bytes of constant in the code, and a move from one kind of register to another, would cost more.
     pub(super) fn read(&mut self, id: Id) -> Value {
         if let (function, value) = self.values[id.index()]
             && function == self.function
@@ -65,7 +65,7 @@ impl<'a, 'b> Code<'a, 'b> {
         }
     }
 
-    /// The number at a place from an address on.
+    /// The number at a place relative to an address.
     pub(super) fn load(&mut self, at: Value, place: u32) -> Value {
         self.b.ins().load(F64, PLAIN, at, offset(place))
     }
@@ -80,7 +80,7 @@ impl<'a, 'b> Code<'a, 'b> {
         self.store(x, self.g, k);
     }
 
-    /// Writes to a place from an address on.
+    /// Writes to a place relative to an address.
     pub(super) fn store(&mut self, x: Value, at: Value, place: u32) {
         self.b.ins().store(PLAIN, x, at, offset(place));
     }
@@ -93,7 +93,7 @@ impl<'a, 'b> Code<'a, 'b> {
         self.b.ins().extractlane(x, 0)
     }
 
-    /// All bits where the comparison holds, else none. A select by masks is three short instructions; by the flags it
+    /// All bits if the comparison holds, else none. A select by masks is three short instructions; by flags it
     /// would be a jump.
     fn mask(&mut self, condition: FloatCC, a: Value, b: Value) -> Value {
         let (a, b) = (self.wide(a), self.wide(b));
@@ -101,7 +101,7 @@ impl<'a, 'b> Code<'a, 'b> {
         self.b.ins().bitcast(F64X2, MemFlagsData::new().with_endianness(Endianness::Little), mask)
     }
 
-    /// `yes` where the mask is set, else `no`.
+    /// `yes` if the mask is set, else `no`.
     fn choose(&mut self, mask: Value, yes: Value, no: Value) -> Value {
         let (yes, no) = (self.wide(yes), self.wide(no));
         let chosen = self.b.ins().bitselect(mask, yes, no);
@@ -134,20 +134,20 @@ impl<'a, 'b> Code<'a, 'b> {
         if self.is_zero(no) {
             let yes = self.read(yes);
             let yes = self.wide(yes);
-            let kept = self.b.ins().band(mask, yes);
-            return self.narrow(kept);
+            let masked = self.b.ins().band(mask, yes);
+            return self.narrow(masked);
         }
         if self.is_zero(yes) {
             let no = self.read(no);
             let no = self.wide(no);
-            let kept = self.b.ins().band_not(no, mask);
-            return self.narrow(kept);
+            let masked = self.b.ins().band_not(no, mask);
+            return self.narrow(masked);
         }
         let (yes, no) = (self.read(yes), self.read(no));
         self.choose(mask, yes, no)
     }
 
-    /// Sets an instruction's value for later uses.
+    /// Computes the value of an instruction for later uses.
     pub(super) fn compute(&mut self, id: Id) -> Value {
         let node = *self.density.graph().node(id);
         let arg = |code: &mut Self, k: usize| code.read(node.arg(k));
@@ -170,19 +170,19 @@ impl<'a, 'b> Code<'a, 'b> {
                     Op::Mul => self.b.ins().fmul(a, b),
                     Op::Div => self.b.ins().fdiv(a, b),
                     Op::Min | Op::Max => {
-                        // As `operation::min` and `max`, to the sign of a zero: one instruction, but for a second that
-                        // is NaN.
+                        // As `operation::min` and `max`, down to the sign of a zero: one instruction, except for a second argument
+                        // that is NaN.
                         let (less, more) = if op == Op::Min { (b, a) } else { (a, b) };
                         let beyond = self.b.ins().fcmp(FloatCC::LessThan, less, more);
-                        let one = self.b.ins().select(beyond, b, a);
+                        let number = self.b.ins().select(beyond, b, a);
                         let nan = self.mask(FloatCC::Unordered, b, b);
-                        self.choose(nan, b, one)
+                        self.choose(nan, b, number)
                     }
                     _ => {
-                        let (mask, one) = (self.mask(FloatCC::LessThan, a, b), self.b.ins().f64const(1.0));
-                        let one = self.wide(one);
-                        let kept = self.b.ins().band(mask, one);
-                        self.narrow(kept)
+                        let (mask, unity) = (self.mask(FloatCC::LessThan, a, b), self.b.ins().f64const(1.0));
+                        let unity = self.wide(unity);
+                        let masked = self.b.ins().band(mask, unity);
+                        self.narrow(masked)
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! The order of a density's operations, and the places of their numbers in the scratch.
 //!
-//! The gradient comes first; what else the value needs is a second program, which runs after it on the same
-//! scratch. Constants are in the scratch too, those used most at its start: an instruction that reads a number near the
+//! The gradient comes first; the other operations of the value are a second program, which runs after it on the same
+//! scratch. Constants are in the scratch too, the most used ones at its start. An instruction that reads a number near the
 //! start of the scratch is shorter than one that reads from further on, and both are shorter than the constant's bits.
 
 use crate::density::Density;
@@ -11,10 +11,10 @@ use crate::operation::Op;
 /// Operations in one function of machine code.
 pub(super) const FUNCTION: usize = 600;
 
-/// No place in the scratch, no segment.
+/// Mark of nodes without a place in the scratch, and without a segment.
 pub(super) const NOWHERE: u32 = u32::MAX;
 
-/// Calls of one operation at one level: `n` numbers of each argument from `from` on, one argument after the other;
+/// Calls of an operation at a level: `n` numbers of each argument from place `from` on, one argument after the other;
 /// results at `to`.
 pub(super) struct Batch {
     pub level: u32,
@@ -24,13 +24,13 @@ pub(super) struct Batch {
     pub to: u32,
 }
 
-/// Operations of one program, ordered by level: how many calls must have run before.
+/// Operations of a program, ordered by level: the number of calls that must run before.
 #[derive(Default)]
 pub(super) struct Program {
-    /// Operations that are instructions, cut into functions; the level of each.
+    /// Instructions, cut into functions, with the level of each function.
     pub segments: Vec<(u32, Vec<Id>)>,
     pub batches: Vec<Batch>,
-    /// Which numbers the calls take, and where they read them.
+    /// The numbers that calls take, and the places from which the calls read them.
     pub arguments: Vec<(Id, u32)>,
 }
 
@@ -38,21 +38,21 @@ pub(super) struct Program {
 pub(super) struct Layout {
     /// The gradient, with the guards.
     pub slope: Program,
-    /// What else the value needs.
+    /// The other operations of the value.
     pub rest: Program,
-    /// Place in the scratch of a number that is read from there.
+    /// Places in the scratch of the numbers that are read from there.
     pub place: Vec<u32>,
-    /// The function that computes an instruction, counted over both programs.
+    /// For each instruction, the function that computes it, counted over both programs.
     pub segment: Vec<u32>,
-    /// Numbers in the scratch from the start.
+    /// Numbers in the scratch at the start.
     pub scratch: Vec<f64>,
     /// Place of the value.
     pub value: u32,
-    /// Places that hold bits other than zero when guards hold.
+    /// Places that hold nonzero bits if the guards hold.
     pub flags: Vec<u32>,
 }
 
-/// The comparison that a select evaluates itself: `a < b` is not computed as a number for it.
+/// The comparison `a < b` that a select evaluates itself, so that it is not computed as a number.
 pub(super) fn test_of(density: &Density, select: Id) -> Option<Id> {
     let graph = density.graph();
     let node = graph.node(select);
@@ -65,11 +65,11 @@ fn reads(density: &Density, id: Id) -> impl Iterator<Item = Id> {
     let node = *graph.node(id);
     let test = test_of(density, id);
     let compared = test.map(|test| [graph.node(test).arg(0), graph.node(test).arg(1)]);
-    let own = (usize::from(test.is_some())..node.op.arity()).map(move |k| node.arg(k));
-    compared.into_iter().flatten().chain(own)
+    let direct = (usize::from(test.is_some())..node.op.arity()).map(move |k| node.arg(k));
+    compared.into_iter().flatten().chain(direct)
 }
 
-/// Which nodes the code reads or writes for these.
+/// Marks the nodes that the code reads or writes for the roots.
 fn needed(density: &Density, roots: impl Iterator<Item = Id>) -> Vec<bool> {
     let mut needed = vec![false; density.graph().len()];
     roots.for_each(|id| needed[id.index()] = true);
@@ -82,7 +82,7 @@ fn needed(density: &Density, roots: impl Iterator<Item = Id>) -> Vec<bool> {
 }
 
 impl Program {
-    /// The nodes that `mine` has; all others that they read are computed before.
+    /// The program of the nodes that `mine` accepts; all other nodes that they read are computed before.
     fn new(density: &Density, mine: impl Fn(Id) -> bool) -> Program {
         let graph = density.graph();
         let mut level = vec![0_u32; graph.len()];
@@ -183,12 +183,12 @@ impl Layout {
         layout
     }
 
-    /// Whether an instruction computes it: it is no constant, no input, no result of a call.
+    /// Whether an instruction computes the node: not a constant, an input or a result of a call.
     pub(super) fn is_instruction(&self, id: Id) -> bool {
         self.segment[id.index()] != NOWHERE
     }
 
-    /// Where it is kept, if it is.
+    /// The place of the node in the scratch, if it has one.
     pub(super) fn place_of(&self, id: Id) -> Option<u32> {
         Some(self.place[id.index()]).filter(|place| *place != NOWHERE)
     }
@@ -196,7 +196,7 @@ impl Layout {
     /// Places of instructions that another function reads, of guards, and of the value.
     fn place_instructions(&mut self, density: &Density, size: &mut u32) {
         let (place, segment) = (&mut self.place, &self.segment);
-        // A number that only a call of a later program takes is written where the call reads it.
+        // If only a call of a later program takes a number, it is written to the place where the call reads it.
         for (arg, to) in &self.rest.arguments {
             let at = segment[arg.index()];
             if (at as usize) < self.slope.segments.len() && place[arg.index()] == NOWHERE {

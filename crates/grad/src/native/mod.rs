@@ -1,18 +1,18 @@
 //! Machine code of a density, by Cranelift.
 //!
-//! Straight-line code in functions of a few hundred operations: one block for all would take time that grows with the
-//! square of its length to allocate registers for. Calls of `exp`, `log`, `pow` and the like are gathered level by
-//! level: the operations that need no call yet, then every call whose arguments are ready, as one loop over many
-//! numbers, then the operations that waited for them. A call for each would spill all registers each time.
+//! Straight-line code in functions of a few hundred operations: for a single block, the time to allocate registers would grow
+//! with the square of its length. Calls of `exp`, `log`, `pow` and the like are gathered level by level: first the operations
+//! that need no call, then every call whose arguments are ready, as a loop over many numbers, then the operations
+//! that waited for them. A separate call for each number would spill all registers each time.
 //!
-//! Numbers that cross from one function to another go through an array of scratch. There are two programs over one
-//! scratch: the gradient, which is all that the inside of a trajectory needs, and after it what else the value
-//! needs. A gradient of few coordinates without calls is also compiled as a loop of leapfrog steps.
+//! Numbers that cross from one function to another go through a scratch array. There are two programs over one
+//! scratch: the gradient, which is sufficient inside a trajectory, and after it the other operations of the
+//! value. A gradient of few coordinates without calls is also compiled as a loop of leapfrog steps.
 //!
-//! * `layout`: the order of operations, and the scratch; `code`: instructions of one function; `write`: functions of a
+//! * `layout`: the order of operations, and the scratch; `code`: instructions of a function; `write`: functions of a
 //!   program; `roll`: the loop of steps.
 //!
-//! Each operation is that of the tape, none fused and none re-ordered, so the numbers are the tape's to the bit.
+//! Each operation is an operation of the tape, none fused and none re-ordered, so the numbers equal the tape's to the bit.
 
 #![allow(unsafe_code)] // Calls of the functions that were compiled here.
 
@@ -29,7 +29,7 @@ use niwaki_native::{CompileResult, Memory};
 use std::sync::Arc;
 use write::Writer;
 
-/// An instruction reaches numbers within 2 GiB.
+/// Most numbers in the scratch: an instruction reaches numbers within 2 GiB.
 const LARGEST: usize = 1 << 28;
 
 /// `(x, g, scratch)`.
@@ -38,7 +38,7 @@ type Entry = unsafe extern "C" fn(*const f64, *mut f64, *mut f64);
 #[derive(Clone, Copy)]
 enum Step {
     Code(Entry),
-    /// `n` numbers of each argument from `from` on, one argument after the other; results at `to`.
+    /// A loop over `n` numbers of each argument from place `from` on, one argument after the other; results at `to`.
     Calls {
         op: Op,
         from: u32,
@@ -48,9 +48,9 @@ enum Step {
 }
 
 impl Step {
-    /// A function that was compiled as [`Entry`].
+    /// A step that runs a function compiled as [`Entry`].
     fn code(address: *const u8) -> Step {
-        // SAFETY: `Writer::plan_code`, whose functions these are, gives all of them that signature.
+        // SAFETY: `Writer::plan_code`, which writes these functions, gives all of them that signature.
         Step::Code(unsafe { std::mem::transmute::<*const u8, Entry>(address) })
     }
 }
@@ -58,7 +58,7 @@ impl Step {
 /// One program: steps over an array of scratch.
 struct Routine {
     steps: Vec<Step>,
-    /// Leapfrog steps, where the gradient is small enough.
+    /// The loop of leapfrog steps, if the gradient is small enough.
     roll: Option<roll::Entry>,
     _code: Memory,
 }
@@ -69,7 +69,7 @@ impl Routine {
         writer.write_slope()?;
         let roll = writer.write_roll()?;
         let (steps, code, roll) = writer.finish(roll)?;
-        // SAFETY: `Writer::write_roll` gives it that signature.
+        // SAFETY: `Writer::write_roll` gives the function that signature.
         let roll = roll.map(|address| unsafe { std::mem::transmute::<*const u8, roll::Entry>(address) });
         Ok(Routine { steps, roll, _code: code })
     }
@@ -82,7 +82,7 @@ impl Routine {
     }
 
     /// # Safety
-    /// `x` and `g` hold a number for each coordinate, and `scratch` is that of the layout.
+    /// `x` and `g` hold a number for each coordinate, and `scratch` belongs to the layout.
     #[inline]
     unsafe fn run(&self, x: &[f64], g: &mut [f64], scratch: &mut [f64]) {
         for step in &self.steps {
@@ -102,17 +102,17 @@ impl Routine {
     }
 }
 
-/// What all copies of a density's machine code share.
+/// The shared part of all copies of a density's machine code.
 struct Shared {
     slope: Routine,
     dim: usize,
     /// Place of the value.
     value: usize,
-    /// Places that hold bits other than zero when guards hold.
+    /// Places that hold nonzero bits if the guards hold.
     flags: Vec<u32>,
 }
 
-/// A density as machine code, with the memory that it works in. The gradient is compiled first, then the value.
+/// A density as machine code, with its scratch memory. The gradient is compiled first, then the value.
 #[derive(Clone)]
 pub struct Native {
     shared: Arc<Shared>,
@@ -120,18 +120,18 @@ pub struct Native {
     scratch: Vec<f64>,
 }
 
-/// What the value needs in addition to the gradient, as machine code.
+/// Machine code of the operations that the value needs besides the gradient.
 #[derive(Clone)]
 pub(crate) struct Rest(Arc<Routine>);
 
-/// The same, to be compiled.
+/// The layout of a [`Rest`] before it is compiled.
 pub(crate) struct Draft(Layout);
 
 impl Draft {
-    /// Compiles it, for the density that the draft is of.
+    /// Compiles the rest; `density` must be the density of the draft.
     ///
     /// # Errors
-    /// As for [`Native::compile`].
+    /// See [`Native::compile`].
     pub(crate) fn compile(&self, density: &Density) -> Result<Rest, String> {
         let routine = Routine::rest(density, &self.0).map_err(|error| error.to_string())?;
         Ok(Rest(Arc::new(routine)))
@@ -142,7 +142,8 @@ impl Native {
     /// Compiles a density.
     ///
     /// # Errors
-    /// A density of more than 2^28 numbers, a processor that Cranelift does not know, or memory that may not be executed: use the tape then.
+    /// A density of more than 2^28 numbers, a processor that Cranelift does not know, or memory that may not be executed. Use the
+    /// tape then.
     pub fn compile(density: &Density) -> Result<Native, String> {
         let (mut native, draft) = Native::of_gradient(density)?;
         native.complete(draft.compile(density)?);
@@ -152,7 +153,7 @@ impl Native {
     /// Compiles the gradient, and drafts the rest.
     ///
     /// # Errors
-    /// As for [`Native::compile`].
+    /// See [`Native::compile`].
     pub(crate) fn of_gradient(density: &Density) -> Result<(Native, Draft), String> {
         let mut layout = Layout::new(density);
         if layout.scratch.len().max(density.dim()) > LARGEST {
@@ -165,17 +166,17 @@ impl Native {
         Ok((Native { shared: Arc::new(shared), rest: None, scratch }, Draft(layout)))
     }
 
-    /// Takes the rest, which must be of the same draft.
+    /// Adds the rest, which must come from this code's draft.
     pub(crate) fn complete(&mut self, rest: Rest) {
         self.rest = Some(rest);
     }
 
-    /// Whether it gives values too.
+    /// Whether the code computes values too.
     pub(crate) fn is_complete(&self) -> bool {
         self.rest.is_some()
     }
 
-    /// How many coordinates there are.
+    /// The number of coordinates.
     pub fn dim(&self) -> usize {
         self.shared.dim
     }
@@ -183,16 +184,16 @@ impl Native {
     /// The log density at `x`, with its gradient in `g`; NaN outside the guards.
     ///
     /// # Panics
-    /// As for [`Native::inside`].
+    /// See [`Native::inside`].
     #[inline]
     pub fn value_and_gradient(&mut self, x: &[f64], g: &mut [f64]) -> f64 {
         self.inside(x, g).unwrap_or(f64::NAN)
     }
 
-    /// The same; `None` outside the guards.
+    /// The log density at `x`, with its gradient in `g`; `None` outside the guards.
     ///
     /// # Panics
-    /// When `x` or `g` has not one number for each coordinate; before it is complete.
+    /// If `x` or `g` does not have one number for each coordinate, or the code is not complete.
     #[inline]
     pub fn inside(&mut self, x: &[f64], g: &mut [f64]) -> Option<f64> {
         if !self.gradient(x, g) {
@@ -207,7 +208,7 @@ impl Native {
     /// The gradient at `x`; false, and NaN, outside the guards.
     ///
     /// # Panics
-    /// When `x` or `g` has not one number for each coordinate.
+    /// If `x` or `g` does not have one number for each coordinate.
     #[inline]
     pub fn gradient(&mut self, x: &[f64], g: &mut [f64]) -> bool {
         let Shared { slope, dim, flags, .. } = &*self.shared;
@@ -221,12 +222,12 @@ impl Native {
         holds
     }
 
-    /// Takes up to `steps` leapfrog steps: `p += kick g`, `x += (step variance) p`, `g` becomes the gradient at `x`;
+    /// Makes up to `steps` leapfrog steps: `p += kick g`, `x += (step variance) p`, `g` becomes the gradient at `x`;
     /// the kick of all steps but the first is `step`. Stops before a step that leads outside the guards or to a slope
-    /// that is not finite, and gives the number of steps taken: none where the density has no such loop.
+    /// that is not finite, and returns the number of steps made: zero if the density has no such loop.
     ///
     /// # Panics
-    /// When a slice has not one number for each coordinate.
+    /// If a slice does not have one number for each coordinate.
     #[inline]
     pub fn roll(&mut self, at: Rolling<'_>, kick: f64, step: f64, steps: u32) -> u32 {
         let Some(entry) = self.shared.slope.roll.filter(|_| steps > 0) else { return 0 };
@@ -235,8 +236,8 @@ impl Native {
         let (x, p, g, scratch) = (x.as_mut_ptr(), p.as_mut_ptr(), g.as_mut_ptr(), self.scratch.as_mut_ptr());
         // SAFETY: the code reads and writes one number of each for each coordinate, and stays within the scratch that
         // was laid out with it.
-        let taken = unsafe { entry(x, g, scratch, p, variance.as_ptr(), &[kick, step], u64::from(steps)) };
-        u32::try_from(taken).expect("at most `steps`")
+        let count = unsafe { entry(x, g, scratch, p, variance.as_ptr(), &[kick, step], u64::from(steps)) };
+        u32::try_from(count).expect("at most `steps`")
     }
 }
 

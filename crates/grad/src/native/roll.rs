@@ -1,8 +1,8 @@
-//! Leapfrog steps as one loop of machine code, for a gradient of few coordinates that needs no call.
+//! Leapfrog steps as a loop of machine code, for a gradient of few coordinates that needs no call.
 //!
 //! A step of such a gradient takes less time than the transfer of its numbers through memory, from the integrator to
-//! the gradient and back. Here position, momentum and slope stay in registers from one step to the next. The operations
-//! are those of the integrator that calls one gradient after another, in its order.
+//! the gradient and back. Here position, momentum and slope stay in registers from one step to the next. Operations and
+//! order equal those of the integrator that calls one gradient after another.
 
 use super::code::Code;
 use super::layout::Layout;
@@ -14,15 +14,15 @@ use niwaki_native::codegen::ir::types::{F64, I64};
 use niwaki_native::codegen::ir::{BlockArg, InstBuilder, Value};
 use niwaki_native::module::{FuncId, Module};
 
-/// Coordinates whose position, momentum and slope fit into registers.
+/// Most coordinates whose position, momentum and slope fit into registers.
 const COORDINATES: usize = 4;
 
-/// `(x, g, scratch, p, variance, [kick, step], n)`: up to `n >= 1` steps; gives how many were taken.
+/// `(x, g, scratch, p, variance, [kick, step], n)`: makes up to `n >= 1` steps, and returns their number.
 pub(super) type Entry =
     unsafe extern "C" fn(*mut f64, *mut f64, *mut f64, *mut f64, *const f64, *const [f64; 2], u64) -> u64;
 
 impl Writer<'_> {
-    /// The loop, where the gradient is small enough.
+    /// The loop, if the gradient is small enough.
     pub(super) fn write_roll(&mut self) -> CompileResult<Option<FuncId>> {
         let (density, layout) = (self.density, self.layout);
         let program = &layout.slope;
@@ -32,13 +32,13 @@ impl Writer<'_> {
         let pointer = self.module.target_config().pointer_type();
         let mut parameters = [pointer; 7];
         parameters[6] = I64;
-        let id = self.function(&parameters, Some(I64), |code, given| write(code, given, layout))?;
+        let id = self.function(&parameters, Some(I64), |code, parameters| write(code, parameters, layout))?;
         Ok(Some(id))
     }
 }
 
-fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
-    let &[x, g, _, p, variance, sizes, n] = given else { unreachable!("seven parameters") };
+fn write(code: &mut Code<'_, '_>, parameters: &[Value], layout: &Layout) {
+    let &[x, g, _, p, variance, sizes, n] = parameters else { unreachable!("seven parameters") };
     let dim = code.density.dim();
     let read = |code: &mut Code<'_, '_>, at: Value| -> Vec<Value> {
         (0..small(dim)).map(|k| code.load(at, k)).collect()
@@ -54,7 +54,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
         (0..3 * dim).map(|_| code.b.append_block_param(block, F64)).collect()
     };
     let before = all(code, body);
-    let taken = code.b.append_block_param(exit, I64);
+    let steps = code.b.append_block_param(exit, I64);
     let last = all(code, exit);
 
     let mut args = vec![zero, kick];
@@ -76,7 +76,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
         code.compute(*id);
     }
     let slopes: Vec<Value> = code.density.gradient().iter().map(|id| code.read(*id)).collect();
-    // A sum of zeros is zero only where every term was finite.
+    // A sum of zeros is zero only if every term was finite.
     let nought = code.b.ins().f64const(0.0);
     let mut sum = nought;
     for slope in &slopes {
@@ -108,7 +108,7 @@ fn write(code: &mut Code<'_, '_>, given: &[Value], layout: &Layout) {
             code.store(*number, at, small(k));
         }
     }
-    code.b.ins().return_(&[taken]);
+    code.b.ins().return_(&[steps]);
 }
 
 fn arguments(values: &[Value]) -> Vec<BlockArg> {

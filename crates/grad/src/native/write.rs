@@ -20,7 +20,7 @@ enum Planned {
     Calls(Step),
 }
 
-/// One module of machine code while it is written.
+/// A module of machine code during its generation.
 pub(super) struct Writer<'a> {
     pub(super) module: JITModule,
     pub(super) density: &'a Density,
@@ -78,7 +78,7 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// What the value needs in addition to the gradient.
+    /// The operations that the value needs besides the gradient.
     pub(super) fn write_rest(&mut self) -> CompileResult<()> {
         let (density, layout) = (self.density, self.layout);
         self.write_program(&layout.rest, &vec![Vec::new(); density.graph().len()])?;
@@ -146,7 +146,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A function of `(x, g, scratch)`, run next.
+    /// Plans a function of `(x, g, scratch)` as the next step.
     fn plan_code(&mut self, body: impl FnOnce(&mut Code<'_, '_>)) -> CompileResult<()> {
         let pointer = self.module.target_config().pointer_type();
         let id = self.function(&[pointer; 3], None, |code, _| {
@@ -177,11 +177,11 @@ impl<'a> Writer<'a> {
         let block = b.create_block();
         b.switch_to_block(block);
         b.append_block_params_for_function_params(block);
-        let given = b.block_params(block).to_vec();
-        let [x, g, scratch, ..] = given[..] else { return Err("three parameters".into()) };
+        let values = b.block_params(block).to_vec();
+        let [x, g, scratch, ..] = values[..] else { return Err("three parameters".into()) };
         let mut code =
             Code::new(b, self.density, self.layout, [x, g, scratch], (&mut self.values, self.functions));
-        body(&mut code, &given);
+        body(&mut code, &values);
         let Code { mut b, .. } = code;
         b.seal_all_blocks();
         b.finalize(self.module.target_config());
@@ -189,11 +189,8 @@ impl<'a> Writer<'a> {
         Ok(id)
     }
 
-    /// The steps, and the memory that they run in, with the address of one more function.
-    pub(super) fn finish(
-        self,
-        other: Option<FuncId>,
-    ) -> CompileResult<(Vec<Step>, Memory, Option<*const u8>)> {
+    /// The steps and their memory, with the address of one more function.
+    pub(super) fn finish(self, other: Option<FuncId>) -> CompileResult<(Vec<Step>, Memory, Option<*const u8>)> {
         let Writer { module, plan, .. } = self;
         let code = Memory::finish(module)?;
         let steps = plan.into_iter().map(|step| match step {
@@ -206,7 +203,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Whether all of these hold; `None` of none.
+/// Code that tests whether all guards hold; `None` without guards.
 pub(super) fn guards_hold(code: &mut Code<'_, '_>, guards: &[crate::density::Guard]) -> Option<Value> {
     let mut all: Option<Value> = None;
     for guard in guards {

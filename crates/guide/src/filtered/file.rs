@@ -1,19 +1,19 @@
-//! The bytes of a network, in the safetensors format: `weights` and `features` as in the other network's file, the form
-//! under another name, so that neither is read as the other.
+//! The bytes of a network, in the safetensors format. `weights` and `features` are as in the file of the other network; the form
+//! has another name, so that neither is read as the other.
 
 use super::form::FilteredForm;
 use super::pass::Filtered;
 use crate::net::{BadFile, read_form, read_numbers, write_as};
 
-/// The entry of the metadata.
+/// The name of the metadata's entry.
 const ENTRY: &str = "niwaki-filtered";
 
-/// A network and a text of the caller's as bytes.
+/// The bytes of a network with a text of the caller.
 pub fn write_filtered(net: &Filtered, text: &str) -> Vec<u8> {
     write_as(ENTRY, &net.form, text, &net.weights, &net.features)
 }
 
-/// The network and the text of some bytes; `None` where they are another kind of network.
+/// The network and the text in some bytes; `None` if they hold another kind of network.
 pub fn read_filtered(bytes: &[u8]) -> Result<Option<(Filtered, String)>, BadFile> {
     let Some((form, text)) = read_form::<FilteredForm>(ENTRY, bytes)? else { return Ok(None) };
     let sound = form.heads.iter().all(|head| head.is_sound())

@@ -1,4 +1,4 @@
-//! What a network sees, and where each of its weights stands.
+//! Inputs and outputs of a network, and the places of its weights.
 
 use super::levels::{CELLS, FILTERS, LEVELS};
 use crate::heads::{Head, natural};
@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 /// Fewest hidden units.
 const LEAST: usize = 10;
 
-/// What a network reads and answers.
+/// The inputs and outputs of a network.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FilteredForm {
-    /// Whether it sees the target.
+    /// Whether the network sees the target.
     pub target: bool,
-    /// Whether it sees the scene.
+    /// Whether the network sees the scene.
     pub scene: bool,
-    /// How many features there are, over all sites.
+    /// The number of features, over all sites.
     pub features: usize,
     /// The features that each site sees, by number.
     pub sees: Vec<Vec<u32>>,
@@ -23,7 +23,7 @@ pub struct FilteredForm {
     pub heads: Vec<Head>,
 }
 
-/// Where a site's weights begin. A row holds the weights that leave one input, padded to [`LANES`].
+/// The starts of a site's weights. A row holds the weights that leave one input, padded to [`LANES`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Site {
     pub(super) inputs: usize,
@@ -44,17 +44,17 @@ pub(super) struct Layout {
 }
 
 impl FilteredForm {
-    /// How many images it sees.
+    /// The number of images that the network sees.
     pub(super) fn images(&self) -> usize {
         usize::from(self.target) + usize::from(self.scene)
     }
 
-    /// Numbers of the windows.
+    /// The length of the windows.
     pub(super) fn window(&self) -> usize {
         self.images() * LEVELS * CELLS
     }
 
-    /// Where the weights stand: first the filters of each image.
+    /// The places of the weights: first the filters of each image.
     pub(super) fn layout(&self) -> Layout {
         let mut len = self.images() * FILTERS;
         let mut take = |n: usize| {
@@ -83,7 +83,7 @@ impl FilteredForm {
 }
 
 impl Site {
-    /// How many weights it has, without padding.
+    /// The number of weights, without padding.
     pub(super) fn size(&self) -> usize {
         (self.inputs + 1) * self.hidden + (self.hidden + 1) * self.outputs
     }

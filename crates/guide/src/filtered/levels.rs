@@ -1,12 +1,12 @@
-//! An image as its filters see it, windows on it, and derivatives by the filters.
+//! An image after its filters, windows on it, and derivatives by the filters.
 
 use crate::net::{LANES, Real};
 
-/// How often an image is filtered, each time at half the size.
+/// Number of filtered images of an image, each at half the size of the one before.
 pub const LEVELS: usize = 4;
 /// Weights of a filter, and cells of a window.
 pub(super) const CELLS: usize = 9;
-/// Weights of an image's filters: for each level those of the filter and its constant; then what lies outside of each.
+/// Weights of an image's filters: for each level the filter and its constant; then the value outside of each level.
 pub(super) const FILTERS: usize = LEVELS * (CELLS + 1) + LEVELS;
 
 /// An image at all levels.
@@ -19,19 +19,19 @@ pub struct Levels<T: Real = f32> {
 struct Level<T: Real> {
     columns: usize,
     rows: usize,
-    /// What is filtered, with zeros around it: one row above and below, and one column left.
+    /// The input of the filter, with zeros around it: a row above and below, and a column on the left.
     input: Vec<T>,
-    /// What the filter makes of it.
+    /// The output of the filter.
     output: Vec<T>,
 }
 
 impl<T: Real> Level<T> {
-    /// Numbers in a row of outputs; those beyond the columns mean nothing.
+    /// Length of a row of outputs; numbers beyond the columns have no meaning.
     fn width(&self) -> usize {
         self.columns.next_multiple_of(LANES)
     }
 
-    /// Numbers in a row of inputs.
+    /// Length of a row of inputs.
     fn stride(&self) -> usize {
         self.width() + LANES
     }
@@ -50,15 +50,15 @@ impl<T: Real> Level<T> {
         for (row, line) in self.output.chunks_exact_mut(width.max(1)).enumerate() {
             let above = &self.input[row * stride..(row + 3) * stride];
             for (at, block) in line.chunks_exact_mut(LANES).enumerate() {
-                let mut held = [filter[CELLS]; LANES];
+                let mut lanes = [filter[CELLS]; LANES];
                 for (cell, weight) in filter[..CELLS].iter().enumerate() {
                     let from = cell / 3 * stride + cell % 3 + at * LANES;
                     let input = &above[from..from + LANES];
                     for lane in 0..LANES {
-                        held[lane] += *weight * input[lane];
+                        lanes[lane] += *weight * input[lane];
                     }
                 }
-                block.copy_from_slice(&held);
+                block.copy_from_slice(&lanes);
             }
         }
     }
@@ -67,17 +67,17 @@ impl<T: Real> Level<T> {
     fn halve(&self, next: &mut Level<T>) {
         let (width, stride, quarter) = (self.width(), next.stride(), T::from_f64(0.25));
         for row in 0..next.rows {
-            let (one, two) = self.output[2 * row * width..].split_at(width);
+            let (upper, lower) = self.output[2 * row * width..].split_at(width);
             let line = &mut next.input[(row + 1) * stride + 1..][..next.columns];
             for (column, x) in line.iter_mut().enumerate() {
                 let at = 2 * column;
-                *x = quarter * (one[at] + one[at + 1] + two[at] + two[at + 1]);
+                *x = quarter * (upper[at] + upper[at + 1] + lower[at] + lower[at + 1]);
             }
         }
     }
 
-    /// The cells of the window around a place, in shares of the image from its upper left corner: where they stand in the
-    /// outputs.
+    /// Places in the outputs of the cells of the window around `at`, a place in shares of the image from its upper left
+    /// corner.
     #[expect(clippy::cast_possible_truncation, reason = "nine images at most from the corner")]
     fn cells(&self, at: [f64; 2]) -> [Option<usize>; CELLS] {
         let middle = |share: f64, count: usize| (share.clamp(-9.0, 9.0) * count as f64).floor() as isize;
@@ -93,7 +93,7 @@ impl<T: Real> Level<T> {
 }
 
 impl<T: Real> Levels<T> {
-    /// Sets all sizes for an image of so many columns and rows.
+    /// Sets all sizes for an image of these columns and rows.
     fn resize(&mut self, mut size: [usize; 2]) {
         for level in &mut self.levels {
             level.resize(size);
@@ -101,7 +101,7 @@ impl<T: Real> Levels<T> {
         }
     }
 
-    /// Looks at an image: one bit for each touched pixel, row by row from the top, each row in words of its own.
+    /// Filters an image: a bit for each touched pixel, row by row from the top, each row in words of its own.
     pub(super) fn see(&mut self, size: [usize; 2], bits: &[u64], filters: &[T]) {
         self.resize(size);
         let first = &mut self.levels[0];
@@ -121,7 +121,7 @@ impl<T: Real> Levels<T> {
         }
     }
 
-    /// The windows around a place, level by level; `put` gets the number of the cell and what it shows.
+    /// The windows around a place, level by level; `put` gets the number of each cell and its value.
     pub(super) fn window(&self, at: [f64; 2], filters: &[T], mut put: impl FnMut(usize, T)) {
         for (number, level) in self.levels.iter().enumerate() {
             let outside = filters[LEVELS * (CELLS + 1) + number];
@@ -131,39 +131,39 @@ impl<T: Real> Levels<T> {
         }
     }
 
-    /// Outputs become slopes of zero.
+    /// Clears the outputs, as slopes.
     pub(super) fn clear(&mut self, like: &Levels<T>) {
         self.resize([like.levels[0].columns, like.levels[0].rows]);
         self.levels.iter_mut().for_each(|level| level.output.fill(T::ZERO));
     }
 
-    /// Adds slopes of a window's cells to those of outputs, and of what lies outside to `slope`.
+    /// Adds slopes of a window's cells to those of outputs, and slopes of the values outside to `slope`.
     pub(super) fn add_window(&mut self, at: [f64; 2], slopes: impl Fn(usize) -> T, slope: &mut [T]) {
         for (number, level) in self.levels.iter_mut().enumerate() {
             for (k, cell) in level.cells(at).into_iter().enumerate() {
-                let own = slopes(number * CELLS + k);
+                let cell_slope = slopes(number * CELLS + k);
                 match cell {
-                    Some(cell) => level.output[cell] += own,
-                    None => slope[LEVELS * (CELLS + 1) + number] += own,
+                    Some(cell) => level.output[cell] += cell_slope,
+                    None => slope[LEVELS * (CELLS + 1) + number] += cell_slope,
                 }
             }
         }
     }
 
-    /// From slopes of outputs, `self`, to those of the filters of an image that was seen.
-    pub(super) fn back(&mut self, seen: &Levels<T>, filters: &[T], slope: &mut [T]) {
+    /// Adds slopes by the filters of the image `seen` to `slope`, from the slopes by outputs in `self`.
+    pub(super) fn back(&mut self, image: &Levels<T>, filters: &[T], slope: &mut [T]) {
         for number in (0..LEVELS).rev() {
             let (before, rest) = self.levels.split_at_mut(number);
-            let (own, input) = (&mut rest[0], &seen.levels[number].input);
-            let (width, stride) = (own.width(), own.stride());
+            let (level, input) = (&mut rest[0], &image.levels[number].input);
+            let (width, stride) = (level.width(), level.stride());
             let at = number * (CELLS + 1);
             let mut sums = [[T::ZERO; LANES]; CELLS + 1];
             if number > 0 {
-                own.input.fill(T::ZERO);
+                level.input.fill(T::ZERO);
             }
-            for (row, line) in own.output.chunks_exact(width.max(1)).enumerate() {
+            for (row, line) in level.output.chunks_exact(width.max(1)).enumerate() {
                 let above = row * stride..(row + 3) * stride;
-                let (input, back) = (&input[above.clone()], &mut own.input[above]);
+                let (input, back) = (&input[above.clone()], &mut level.input[above]);
                 for (block, slopes) in line.chunks_exact(LANES).enumerate() {
                     for cell in 0..CELLS {
                         let from = cell / 3 * stride + cell % 3 + block * LANES;
@@ -189,11 +189,11 @@ impl<T: Real> Levels<T> {
             }
             if let Some(before) = before.last_mut() {
                 let (wide, quarter) = (before.width(), T::from_f64(0.25));
-                for row in 0..own.rows {
-                    let back = &own.input[(row + 1) * stride + 1..][..own.columns];
-                    let (one, two) = before.output[2 * row * wide..].split_at_mut(wide);
+                for row in 0..level.rows {
+                    let back = &level.input[(row + 1) * stride + 1..][..level.columns];
+                    let (upper, lower) = before.output[2 * row * wide..].split_at_mut(wide);
                     for (column, x) in back.iter().enumerate() {
-                        for line in [&mut *one, &mut *two] {
+                        for line in [&mut *upper, &mut *lower] {
                             line[2 * column] += quarter * *x;
                             line[2 * column + 1] += quarter * *x;
                         }

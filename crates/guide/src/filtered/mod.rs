@@ -7,15 +7,15 @@
 //! ```
 //!
 //! Filters are 3 by 3 and linear, with a constant; all choices share them. The first level is the filtered image itself;
-//! each other one filters the one before at half its size. What a window shows outside of a level is learned as well.
-//! White is +1, touched -1. Windows stand along the axes of the page. Sizes are those of the dissertation's code:
-//! 76 inputs and 38 hidden units with both images and four features, 40 and 20 with one image, 4 and 10 with none.
+//! each further level filters the one before at half its size. The value of cells outside a level is learnt as well.
+//! White is +1, touched pixels are -1. Windows stand along the axes of the page. Sizes equal those of the dissertation's code:
+//! 76 inputs and 38 hidden units with both images and four features, 40 and 20 with one image, 4 and 10 without images.
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `levels` | an image as its filters see it, windows on it, and derivatives |
-//! | `form` | what a network sees, and where each of its weights stands |
-//! | `pass` | from inputs to outputs |
+//! | `levels` | an image after its filters, windows on it, and derivatives |
+//! | `form` | inputs of a network, and the places of its weights |
+//! | `pass` | a network's way from inputs to outputs |
 //! | `slope` | the loss of a trace, and its derivatives by all weights |
 //! | `train` | Adam on whole traces |
 //! | `file` | its bytes |

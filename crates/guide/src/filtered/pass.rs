@@ -1,4 +1,4 @@
-//! From inputs to outputs.
+//! A filtered network's way from inputs to outputs.
 
 use super::form::{FilteredForm, Layout, Site};
 use super::levels::{FILTERS, LEVELS, Levels};
@@ -6,7 +6,7 @@ use crate::heads::natural::{self, Natural};
 use crate::net::{Real, add_rows, squash};
 use niwaki_math::{Dist, Stream};
 
-/// A feature is held within so many half ranges of its middle.
+/// Largest distance of a feature from its middle, in half ranges.
 const FARTHEST: f64 = 10.0;
 
 /// A network.
@@ -15,16 +15,16 @@ pub struct Filtered<T: Real = f32> {
     pub(super) form: FilteredForm,
     pub(super) layout: Layout,
     pub(super) weights: Vec<T>,
-    /// Middle of each feature's range, and one over half of it; zero for one that training did not see change.
+    /// Middle of each feature's range, and one over half the range; zero for a feature that never changed in training.
     pub(super) features: Vec<(T, T)>,
-    /// Whether it was never trained.
+    /// Whether the network was never trained.
     pub(super) fresh: bool,
 }
 
-/// What a choice sees of the images, and memory for an answer.
+/// The images that a choice sees, and memory for an answer.
 #[derive(Clone, Debug, Default)]
 pub struct View<T: Real = f32> {
-    /// The scene, where it is seen.
+    /// The scene, if the network sees it.
     pub scene: Levels<T>,
     pub(super) inputs: Vec<T>,
     pub(super) hidden: Vec<T>,
@@ -34,7 +34,7 @@ pub struct View<T: Real = f32> {
 }
 
 impl<T: Real> Filtered<T> {
-    /// A network before training, as the dissertation's code begins: the numbers of each tensor, constants too, are
+    /// A network before training, as in the dissertation's code: the numbers of each tensor, constants too, are
     /// Gaussian with one over their count as deviation.
     pub fn start(form: FilteredForm, seed: u64) -> Filtered<T> {
         let layout = form.layout();
@@ -66,28 +66,28 @@ impl<T: Real> Filtered<T> {
         Filtered { form, layout, weights, features, fresh: true }
     }
 
-    /// What it reads and answers.
+    /// The form: inputs and outputs.
     pub fn form(&self) -> &FilteredForm {
         &self.form
     }
 
-    /// How many weights it has, without padding.
+    /// The number of weights, without padding.
     pub fn size(&self) -> usize {
         self.form.images() * FILTERS + self.layout.sites.iter().map(Site::size).sum::<usize>()
     }
 
-    /// How many weights the net of one choice has, without those of filters.
+    /// The number of weights in the net of a site, without those of filters.
     pub fn size_of(&self, site: usize) -> usize {
         self.layout.sites[site].size()
     }
 
-    /// The filters of the target, which comes first, or of the scene.
+    /// The filters of the target, which come first, or of the scene.
     pub(super) fn filters(&self, scene: bool) -> &[T] {
         let number = usize::from(scene && self.form.target);
         &self.weights[number * FILTERS..(number + 1) * FILTERS]
     }
 
-    /// Looks at a target, of so many columns and rows: one bit for each filled pixel, row by row from the top, each row in
+    /// Filters a target of these columns and rows: a bit for each filled pixel, row by row from the top, each row in
     /// words of its own.
     pub fn see_target(&self, size: [usize; 2], bits: &[u64], to: &mut Levels<T>) {
         if self.form.target {
@@ -95,7 +95,7 @@ impl<T: Real> Filtered<T> {
         }
     }
 
-    /// Looks at a scene on the page of a target.
+    /// Filters a scene on the page of a target.
     pub fn see_scene(&self, size: [usize; 2], bits: &[u64], to: &mut Levels<T>) {
         if self.form.scene {
             to.see(size, bits, self.filters(true));
@@ -111,7 +111,7 @@ impl<T: Real> Filtered<T> {
     }
 
     /// The inputs of a site's net: windows of both images at a place, in shares of the page from its upper left corner;
-    /// then the site's features, zero for one that is not given.
+    /// then the site's features, zero for a missing one.
     pub(super) fn inputs(
         &self,
         target: &Levels<T>,
@@ -125,13 +125,15 @@ impl<T: Real> Filtered<T> {
         let (window, images) = (self.form.window(), self.form.images());
         to.clear();
         to.resize(window + sees.len(), T::ZERO);
-        let seen = [(self.form.target, target), (self.form.scene, scene)];
-        for (number, (_, levels)) in seen.into_iter().filter(|(seen, _)| *seen).enumerate() {
+        let images_used = [(self.form.target, target), (self.form.scene, scene)];
+        for (number, (_, levels)) in
+            images_used.into_iter().filter(|(images_used, _)| *images_used).enumerate()
+        {
             let filters = &self.weights[number * FILTERS..];
             levels.window(at, filters, |cell, x| to[cell * images + number] = x);
         }
         for (feature, value) in features {
-            if let Some(place) = sees.iter().position(|own| own == feature) {
+            if let Some(place) = sees.iter().position(|known| known == feature) {
                 to[window + place] = self.ranged(*feature, *value);
             }
         }
@@ -150,7 +152,7 @@ impl<T: Real> Filtered<T> {
         outputs.truncate(site.outputs);
     }
 
-    /// Outputs for a site's head at a choice with this prior. `view.scene` is the scene that was seen.
+    /// Outputs for a site's head at a choice with this prior. `view.scene` is the scene before the choice.
     ///
     /// # Panics
     ///
@@ -178,7 +180,7 @@ impl<T: Real> Filtered<T> {
         view.answer.clear();
         view.answer.extend(view.outputs.iter().map(|x| x.to_f64() as f32));
         natural::translate(&view.answer, natural, &mut view.translated);
-        // A categorical of fewer values than the head has leaves the others without outputs.
+        // If a categorical has fewer values than the head, the other values get an output of zero.
         view.translated.resize(self.form.heads[site].outputs(), 0.0);
         view.answer.clear();
         view.answer.extend(view.translated.iter().map(|x| *x as f32));

@@ -8,37 +8,37 @@ use crate::learn::{add_scaled, back_through, dot};
 use crate::net::Real;
 use std::sync::Arc;
 
-/// What the choices of a run saw, and what they chose.
+/// The choices of a run, with the images that they saw.
 #[derive(Clone, Debug)]
 pub struct Trace {
     /// Columns and rows of the images.
     pub size: [usize; 2],
-    /// The target: one bit for each filled pixel, row by row from the top, each row in words of its own.
+    /// The target: a bit for each filled pixel, row by row from the top, each row in words of its own.
     pub target: Arc<[u64]>,
-    /// The scene at different times, in the same form.
+    /// The scene at different times, in the form of the target.
     pub images: Vec<Vec<u64>>,
-    /// The choices, in their order.
+    /// The choices, in order.
     pub choices: Vec<Choice>,
 }
 
 /// A choice of a trace.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Its site.
+    /// The site.
     pub site: usize,
-    /// The number of the image that the scene had; those of later choices are not smaller.
+    /// The number of the scene's image at the choice; it never falls from choice to choice.
     pub image: usize,
     /// The place, in shares of the page from its upper left corner.
     pub at: [f64; 2],
-    /// Features: number, and value as it is.
+    /// Features: number and raw value.
     pub features: Vec<(u32, f32)>,
-    /// Mean and deviation of a Gaussian prior; 0 and 1 of another.
+    /// Mean and deviation of a Gaussian prior; 0 and 1 of another prior.
     pub unit: (f64, f64),
     /// Prior and value.
     pub lesson: Lesson,
 }
 
-/// Memory for the passes of one thread.
+/// Memory for the passes of a thread.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Work<T: Real> {
     target: Levels<T>,
@@ -58,8 +58,8 @@ pub(super) struct Work<T: Real> {
 }
 
 impl<T: Real> Work<T> {
-    /// The sum of the losses of a trace's choices, nats, and the site of the first that is not a finite number. With
-    /// `slope`, derivatives are added there.
+    /// The sum of the losses of a trace's choices, nats, and the site of the first loss that is not finite. With
+    /// `slope`, the derivatives are added to it.
     pub(super) fn loss(
         &mut self,
         net: &Filtered<T>,
@@ -85,8 +85,8 @@ impl<T: Real> Work<T> {
                 sum += loss;
             }
             if let (true, Some(slope)) = (net.form.scene, slope.as_deref_mut()) {
-                let own = usize::from(net.form.target) * FILTERS;
-                self.back[1].back(&self.scene, net.filters(true), &mut slope[own..own + FILTERS]);
+                let start = usize::from(net.form.target) * FILTERS;
+                self.back[1].back(&self.scene, net.filters(true), &mut slope[start..start + FILTERS]);
             }
         }
         if let (true, Some(slope)) = (net.form.target, slope) {
@@ -95,7 +95,7 @@ impl<T: Real> Work<T> {
         (sum, fault)
     }
 
-    /// The loss of one choice. Derivatives by what windows show go to `back`.
+    /// The loss of a choice. Derivatives by the cells of windows go to `back`.
     fn choice(&mut self, net: &Filtered<T>, choice: &Choice, share: f64, slope: Option<&mut [T]>) -> f64 {
         let Work { target, scene, inputs, hidden, outputs, features, raw, translated, slopes, .. } = self;
         features.clear();
@@ -133,14 +133,16 @@ impl<T: Real> Work<T> {
         of_inputs.resize(window, T::ZERO);
         for (k, x) in self.inputs.iter().enumerate() {
             let row = site.first + k * site.width[0]..site.first + (k + 1) * site.width[0];
-            if let Some(own) = of_inputs.get_mut(k) {
-                *own = dot(&net.weights[row.clone()], first);
+            if let Some(slope_of_input) = of_inputs.get_mut(k) {
+                *slope_of_input = dot(&net.weights[row.clone()], first);
             }
             add_scaled(&mut slope[row], first, *x);
         }
         let images = net.form.images();
-        let seen = [net.form.target, net.form.scene];
-        for (number, (_, back)) in seen.iter().zip(&mut self.back).filter(|(seen, _)| **seen).enumerate() {
+        let is_seen = [net.form.target, net.form.scene];
+        for (number, (_, back)) in
+            is_seen.iter().zip(&mut self.back).filter(|(is_seen, _)| **is_seen).enumerate()
+        {
             let filters = &mut slope[number * FILTERS..(number + 1) * FILTERS];
             back.add_window(choice.at, |cell| of_inputs[cell * images + number], filters);
         }
@@ -161,7 +163,7 @@ pub fn trace_loss_and_slope<T: Real>(net: &Filtered<T>, trace: &Trace, share: f6
 
 #[cfg(test)]
 mod tests {
-    //! Sizes are the dissertation's, and derivatives by weights are those of differences.
+    //! Sizes equal those of the dissertation, and derivatives by weights agree with differences.
     use super::*;
     use crate::filtered::FilteredForm;
     use crate::heads::Head;
@@ -172,7 +174,7 @@ mod tests {
     const FLIP: Head = Head::Finite { values: 2 };
     const LEAF: Head = Head::Finite { values: 3 };
 
-    /// Of the vines: startAngle, angle, leaf, leafAngle, flower, terminate, branch1, branch2.
+    /// The network of the vines, with sites startAngle, angle, leaf, leafAngle, flower, terminate, branch1, branch2.
     fn vines(target: bool, scene: bool, features: usize) -> Filtered<f32> {
         let heads = vec![REAL, REAL, LEAF, REAL, FLIP, FLIP, FLIP, FLIP];
         let sees = vec![(0..features as u32).collect(); heads.len()];
@@ -185,7 +187,7 @@ mod tests {
         let sizes = [0, 2, 4].map(|site| full.size_of(site));
         assert_eq!((sizes, full.size()), ([3394, 3043, 2965], 25_173));
         assert_eq!(vines(false, false, 4).size_of(0), 182);
-        // The circuit's, which has no target.
+        // The network of the circuit, which has no target.
         assert_eq!(vines(false, true, 4).size(), 7507);
         assert_eq!(vines(false, false, 0).size_of(0), 12);
     }
@@ -230,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_by_weights_are_those_of_differences() {
+    fn derivatives_by_weights_agree_with_differences() {
         let (mut net, trace) = example();
         let (_, slope) = trace_loss_and_slope(&net, &trace, 0.1);
         let mut reached = 0;

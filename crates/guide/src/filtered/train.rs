@@ -1,4 +1,4 @@
-//! Training on whole traces, as the dissertation's code does: a step follows the slope of the summed loss of a trace drawn
+//! Training on whole traces, as in the dissertation's code: a step follows the slope of the summed loss of a trace drawn
 //! at random.
 
 use super::pass::Filtered;
@@ -18,11 +18,11 @@ pub struct FilteredTraining {
     pub decays: [f64; 2],
     /// Traces in a step.
     pub batch: usize,
-    /// How much of the averaged weights is kept in a step; 0 for the last weights.
+    /// The share of the averaged weights that stays in a step; 0 for the last weights.
     pub averaging: f64,
     /// Steps in all.
     pub steps: u64,
-    /// Steps between looks at the traces that are held out.
+    /// Steps between looks at the traces held out.
     pub every: u64,
     /// The prior's share in the guide, above 0 and below 1.
     pub share: f64,
@@ -33,15 +33,15 @@ pub struct FilteredTraining {
 /// A trained network.
 #[derive(Clone, Debug)]
 pub struct TrainedFiltered<T: Real = f32> {
-    /// The averaged weights, or the last ones.
+    /// The averaged weights, or the last weights.
     pub net: Filtered<T>,
-    /// What every look saw.
+    /// The progress at every look.
     pub history: Vec<Progress>,
-    /// The step and the site at which a loss or slope was not a finite number: `net` is that before.
+    /// The step and the site of a loss or slope that is not a finite number; then `net` is the network before that step.
     pub diverged: Option<(u64, Option<usize>)>,
 }
 
-/// A part of a step.
+/// A trace of a step.
 struct Part<T: Real> {
     work: Work<T>,
     slope: Vec<T>,
@@ -49,7 +49,7 @@ struct Part<T: Real> {
     fault: Option<usize>,
 }
 
-/// Ranges of features: those of a network that was never trained.
+/// Sets the ranges of features of a network that was never trained.
 fn set_ranges<T: Real>(net: &mut Filtered<T>, traces: &[Trace]) {
     let mut ranges = vec![(f32::INFINITY, f32::NEG_INFINITY); net.features.len()];
     for (k, x) in traces.iter().flat_map(|trace| &trace.choices).flat_map(|choice| &choice.features) {
@@ -74,11 +74,11 @@ fn judge<T: Real>(net: &Filtered<T>, traces: &[Trace], share: f64) -> f64 {
     losses.iter().sum::<f64>() / choices.max(1) as f64
 }
 
-/// Trains a network on traces, or goes on with one. `watch` sees the progress, and ends the training by `false`.
+/// Trains a network on traces. `watch` sees the progress, and ends the training when it returns `false`.
 ///
 /// # Panics
 ///
-/// If the share of the prior is not between 0 and 1, or the traces are of another form than the network.
+/// If the share of the prior is not between 0 and 1, or the traces have another form than the network.
 pub fn train_filtered<T: Real>(
     net: Filtered<T>,
     traces: &[Trace],
@@ -93,14 +93,14 @@ pub fn train_filtered<T: Real>(
     }
 }
 
-/// As [`train_filtered`], from the data of a training that began so, and seen at its borders.
+/// As [`train_filtered`], from stored data of a training with the same start, with a call at each border between steps.
 ///
 /// # Errors
-/// The data is not of this training.
+/// The data belongs to another training.
 ///
 /// # Panics
 ///
-/// As [`train_filtered`].
+/// See [`train_filtered`].
 pub fn train_filtered_along<T: Real>(
     mut net: Filtered<T>,
     traces: &[Trace],
@@ -119,7 +119,7 @@ pub fn train_filtered_along<T: Real>(
         || Part { work: Work::default(), slope: vec![T::ZERO; net.weights.len()], loss: 0.0, fault: None };
     let mut parts: Vec<Part<T>> = (0..with.batch.max(1)).map(|_| part()).collect();
     let (mut history, mut diverged) = (Vec::new(), None);
-    // Its weights are not kept: the last ones are the result.
+    // The weights of `best` are not stored: the last weights are the result.
     let (mut sums, mut best) = ((0.0, 0.0), (f64::INFINITY, 0, Vec::new()));
     if let Some(left) = &way.left {
         let (weights, adam) = (&mut net.weights, &mut adam);
@@ -160,13 +160,13 @@ pub fn train_filtered_along<T: Real>(
         #[expect(clippy::cast_possible_truncation, reason = "less than the number of traces")]
         let mut pick = || ((u128::from(stream.next_u64()) * traces.len() as u128) >> 64) as usize;
         let chosen: Vec<usize> = parts.iter().map(|_| pick()).collect();
-        let one = |(part, pick): (&mut Part<T>, &usize)| {
+        let compute = |(part, pick): (&mut Part<T>, &usize)| {
             part.slope.fill(T::ZERO);
             (part.loss, part.fault) = part.work.loss(&net, &traces[*pick], with.share, Some(&mut part.slope));
         };
         match parts.len() {
-            1 => parts.iter_mut().zip(&chosen).for_each(one),
-            _ => parts.par_iter_mut().zip(&chosen).for_each(one),
+            1 => parts.iter_mut().zip(&chosen).for_each(compute),
+            _ => parts.par_iter_mut().zip(&chosen).for_each(compute),
         }
         let loss: f64 = parts.iter().map(|part| part.loss).sum();
         let fault = parts.iter().find_map(|part| part.fault);

@@ -1,6 +1,6 @@
 //! Mixtures of Gaussians over a coordinate.
 //!
-//! Of `n` components a network gives `3 n` outputs: logits of their weights, then means, then logs of deviations.
+//! For `n` components a network gives `3 n` outputs: logits of the weights, then means, then logs of deviations.
 
 use super::Number;
 use niwaki_math::special::normal_tail;
@@ -9,14 +9,14 @@ use niwaki_math::special::normal_tail;
 pub(super) const HALF_LN_TAU: f64 = 0.918_938_533_204_672_7;
 /// The most components that a head can have.
 pub(super) const MOST: usize = 8;
-/// Logs of deviations are held within these: from a thousandth of the prior's deviation to about five times it.
+/// Bounds of the logs of deviations: from a thousandth of the prior's deviation to about five times it.
 const LOG_SD: (f64, f64) = (-7.0, 1.6);
-/// A component has no mass (1e-12) at so many deviations.
+/// Distance in deviations at which a component has no mass (1e-12).
 const NO_MASS: f64 = 7.0;
-/// Variance of the means at the start, of the whole's 1.
+/// Variance of the means at the start, of the total variance 1.
 const SPREAD: f64 = 0.3;
 
-/// Outputs at the start of training: equal weights, means a little spread, and deviations so that the variance is 1.
+/// Outputs at the start of training: equal weights, slightly spread means, and deviations so that the variance is 1.
 pub(super) fn start(components: usize) -> Vec<f64> {
     let n = components as f64;
     let (spacing, variance) =
@@ -66,7 +66,7 @@ fn mass(a: f64, b: f64) -> f64 {
 }
 
 impl Bells {
-    /// From a network's outputs.
+    /// The density from a network's outputs.
     #[inline]
     pub(super) fn new<N: Number>(outputs: &[N]) -> Bells {
         let count = (outputs.len() / 3).min(MOST);
@@ -80,9 +80,9 @@ impl Bells {
             weight[k] = (logits[k].into() - largest).exp();
             sum += weight[k];
             mean[k] = means[k].into();
-            let given = log_sds[k].into();
-            let log_sd = given.clamp(LOG_SD.0, LOG_SD.1);
-            bends[k] = log_sd == given;
+            let output = log_sds[k].into();
+            let log_sd = output.clamp(LOG_SD.0, LOG_SD.1);
+            bends[k] = log_sd == output;
             sharpness[k] = (-log_sd).exp();
         }
         weight[..count].iter_mut().for_each(|w| *w /= sum);
@@ -100,7 +100,7 @@ impl Bells {
         self.mean[k] + normal / self.sharpness[k]
     }
 
-    /// The density at `z`. With `slope`, `scale` times its derivative by each output over the density is added there.
+    /// The density at `z`. With `slope`, `scale` times its derivative by each output over the density is added to it.
     pub(super) fn density(&self, z: f64, scale: f64, slope: Option<&mut [f64]>) -> f64 {
         let part = |k: usize| {
             let t = (z - self.mean[k]) * self.sharpness[k];
@@ -121,7 +121,7 @@ impl Bells {
         density
     }
 
-    /// The mass from `a` to `b`. With `slope`, `scale` times its derivative by each output is added there.
+    /// The mass from `a` to `b`. With `slope`, `scale` times its derivative by each output is added to it.
     pub(super) fn mass(&self, a: f64, b: f64, scale: f64, slope: Option<&mut [f64]>) -> f64 {
         let ends =
             |k: usize| ((a - self.mean[k]) * self.sharpness[k], (b - self.mean[k]) * self.sharpness[k]);
@@ -144,7 +144,7 @@ impl Bells {
         total
     }
 
-    /// The mass outside of `(lo, hi)`, and `scale` times its derivatives, as in [`Bells::mass`].
+    /// The mass outside `(lo, hi)`, and `scale` times its derivatives, as in [`Bells::mass`].
     pub(super) fn mass_outside(
         &self,
         (lo, hi): (f64, f64),

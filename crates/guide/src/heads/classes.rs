@@ -10,7 +10,7 @@ use super::Number;
 
 /// The most values that a head can have.
 pub(super) const MOST: usize = 64;
-/// Quotients are no larger: a value whose probability is below the smallest float is never drawn.
+/// Largest quotient: a value whose probability is below the smallest float is never drawn.
 const LARGEST: f64 = 1e300;
 
 /// The probabilities of all values.
@@ -23,7 +23,7 @@ pub(super) struct Classes {
 }
 
 impl Classes {
-    /// From a network's outputs and the logs of the prior's probabilities.
+    /// The probabilities from a network's outputs and the logs of the prior's probabilities.
     pub(super) fn new<N: Number>(outputs: &[N], log_priors: &[f64]) -> Classes {
         let count = log_priors.len().min(outputs.len());
         let (mut prior, mut quotient) = ([0.0; MOST], [0.0; MOST]);
@@ -43,7 +43,7 @@ impl Classes {
         Classes { count, prior, quotient }
     }
 
-    /// The value at which the running sum of `(1 - share) n + share p` exceeds `u`; never an excluded one.
+    /// The value at which the running sum of `(1 - share) n + share p` exceeds `u`; never an excluded value.
     pub(super) fn choose(&self, share: f64, u: f64) -> usize {
         let (mut sum, mut last) = (0.0, 0);
         for k in (0..self.count).filter(|k| self.prior[*k] > 0.0) {
@@ -61,7 +61,7 @@ impl Classes {
         (1.0 - share) * self.quotient[k] + share
     }
 
-    /// `ln(q_k / p_k)`, nats. With `slope`, its derivatives by the outputs are added there.
+    /// `ln(q_k / p_k)`, nats. With `slope`, the derivatives by the outputs are added to it.
     pub(super) fn log_quotient(&self, k: usize, share: f64, slope: Option<&mut [f64]>) -> f64 {
         let mixed = self.mixed(k, share);
         if let Some(slope) = slope {

@@ -1,4 +1,4 @@
-//! Which density a site has; drawing and scoring.
+//! The densities of sites; drawing and scoring.
 
 use super::bells::{self, Bells};
 use super::classes::{self, Classes};
@@ -7,23 +7,23 @@ use super::line::Line;
 use niwaki_math::{Dist, Draw, Stream};
 use serde::{Deserialize, Serialize};
 
-/// How a network's outputs are a density of a choice.
+/// The map from a network's outputs to a density of a choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Head {
-    /// Real numbers: a mixture of so many Gaussians in a coordinate in which the prior is near the standard Gaussian.
+    /// Real numbers: a mixture of Gaussians in a coordinate in which the prior is near the standard Gaussian.
     Normal {
-        /// How many Gaussians.
+        /// The number of Gaussians.
         components: usize,
     },
-    /// One of at most so many values, with a logit for each.
+    /// A value of at most this many, with a logit for each.
     Finite {
-        /// How many values.
+        /// The number of values.
         values: usize,
     },
-    /// Whole numbers: the masses that a mixture of so many Gaussians has on the pieces of the line that the values have
+    /// Whole numbers: the masses of a mixture of Gaussians on the pieces of the line that the values have
     /// under the prior.
     Count {
-        /// How many Gaussians.
+        /// The number of Gaussians.
         components: usize,
     },
 }
@@ -39,7 +39,7 @@ pub struct Drawn {
     pub log_drawn: f64,
 }
 
-/// The values of a finite distribution: how many, and the first of whole numbers.
+/// The number of a finite distribution's values, and the first of whole numbers.
 fn listed(dist: &Dist) -> Option<(usize, i64)> {
     let (count, first) = match dist {
         Dist::Bernoulli { .. } => (2, 0),
@@ -70,7 +70,7 @@ fn piece(dist: &Dist, k: i64) -> Option<(f64, f64)> {
 }
 
 impl Head {
-    /// The head of a site whose choices have this prior; `None` where the prior draws: vectors, angles, mixtures,
+    /// The head of a site whose choices have this prior. `None` if the prior itself draws: vectors, angles, mixtures,
     /// fixed values, and more than 64 categories.
     pub fn of(dist: &Dist, components: usize) -> Option<Head> {
         let components = components.clamp(1, bells::MOST);
@@ -83,9 +83,9 @@ impl Head {
         }
     }
 
-    /// The head that also fits another prior that was met at the site: categories may grow in number, and whole numbers
-    /// whose bounds vary become counts. `None` where no head fits both.
-    pub fn also(self, dist: &Dist, components: usize) -> Option<Head> {
+    /// Widens the head to another prior of the site: categories may grow in number, and whole numbers
+    /// whose bounds vary become counts. `None` if no head fits both priors.
+    pub fn widen(self, dist: &Dist, components: usize) -> Option<Head> {
         if self.fits(dist) {
             return Some(self);
         }
@@ -100,7 +100,7 @@ impl Head {
         }
     }
 
-    /// How many outputs of a network it reads.
+    /// The number of a network's outputs for this head.
     pub fn outputs(&self) -> usize {
         match self {
             Head::Normal { components } | Head::Count { components } => 3 * components,
@@ -108,7 +108,7 @@ impl Head {
         }
     }
 
-    /// Whether it has at least one output and not more than can be computed with.
+    /// Whether the head has at least one output, and no more than the code can handle.
     pub(crate) fn is_sound(&self) -> bool {
         match self {
             Head::Normal { components } | Head::Count { components } => {
@@ -118,7 +118,7 @@ impl Head {
         }
     }
 
-    /// Outputs with which the guide is the prior, or near it.
+    /// Outputs with which the guide equals the prior, or nearly so.
     pub(crate) fn start(&self) -> Vec<f64> {
         match self {
             Head::Normal { components } | Head::Count { components } => bells::start(*components),
@@ -126,7 +126,7 @@ impl Head {
         }
     }
 
-    /// Whether it can draw from this prior. Where it cannot, the prior draws.
+    /// Whether the head can draw from this prior; if not, the prior draws.
     pub fn fits(&self, dist: &Dist) -> bool {
         match self {
             Head::Normal { .. } => Line::new(dist).is_some(),
@@ -135,8 +135,8 @@ impl Head {
         }
     }
 
-    /// A draw from `(1 - share) n + share p`, `n` being the network's density and `p` the prior, with its log
-    /// densities. A prior that the head does not fit draws itself.
+    /// A draw from `(1 - share) n + share p`, where `n` is the network's density and `p` the prior, with its log
+    /// densities. If the head does not fit the prior, the prior draws.
     ///
     /// # Panics
     ///
@@ -153,7 +153,7 @@ impl Head {
         })
     }
 
-    /// A draw of a real number; `None` of another prior.
+    /// A draw of a real number; `None` for another prior.
     fn draw_real(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Option<Drawn> {
         let line = Line::new(dist)?;
         let bells = Bells::new(&outputs[..self.outputs()]);
@@ -179,7 +179,7 @@ impl Head {
         Some(Drawn { value: Draw::Real(x), log_prior, log_drawn })
     }
 
-    /// A draw of one of finitely many values; `None` of another prior.
+    /// A draw of a value of finitely many; `None` for another prior.
     fn draw_listed(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Option<Drawn> {
         let (count, first) = self.listed(dist)?;
         let mut logs = [0.0; classes::MOST];
@@ -194,7 +194,7 @@ impl Head {
         Some(Drawn { value, log_prior, log_drawn: log_prior + classes.log_quotient(k, share, None) })
     }
 
-    /// A draw of a whole number; `None` of another prior.
+    /// A draw of a whole number; `None` for another prior.
     fn draw_count(&self, outputs: &[f32], dist: &Dist, share: f64, rng: &mut Stream) -> Option<Drawn> {
         dist.normal_score(0)?;
         let bells = Bells::new(&outputs[..self.outputs()]);
@@ -220,8 +220,8 @@ impl Head {
         Some(Drawn { value: Draw::Int(k), log_prior, log_drawn })
     }
 
-    /// Log density of a value, nats, with respect to the measure of its prior; the same bits as [`Head::draw`] gives
-    /// for a value that it drew. Minus infinity where the prior's density is zero.
+    /// Log density of a value, nats, with respect to the measure of its prior. For a value of [`Head::draw`] the bits equal
+    /// those of the draw. Minus infinity if the prior's density is zero.
     ///
     /// # Panics
     ///
@@ -238,17 +238,17 @@ impl Head {
         }
     }
 
-    /// The values of a finite distribution that it fits: how many, and the first.
+    /// The number of values of a finite distribution that the head fits, and the first value.
     fn listed(&self, dist: &Dist) -> Option<(usize, i64)> {
         let Head::Finite { values } = self else { return None };
         listed(dist).filter(|(count, _)| match dist {
             Dist::Categorical(_) => count <= values,
-            // Whole numbers are known by their distance from the first: another count is another choice.
+            // Whole numbers are identified by their distance from the first, so another count is another choice.
             _ => count == values,
         })
     }
 
-    /// Writes logs of the probabilities of a finite prior that it fits, nats; `None` of another prior.
+    /// Writes the log probabilities of a finite prior that the head fits, nats; `None` for another prior.
     pub(crate) fn log_priors<'a>(
         &self,
         dist: &Dist,
@@ -257,7 +257,7 @@ impl Head {
         Some(log_priors(dist, self.listed(dist)?, logs))
     }
 
-    /// What the density needs of a value that the prior does not exclude; `None` where the head does not fit.
+    /// The lesson of a value that the prior does not exclude, with a borrowed list; `None` if the head does not fit.
     fn known<'a>(
         &self,
         dist: &Dist,
@@ -277,8 +277,8 @@ impl Head {
         })
     }
 
-    /// What training needs of a choice; `None` where the head does not fit or the prior excludes the value: nothing can
-    /// be learned there.
+    /// The lesson of a choice; `None` if the head does not fit or the prior excludes the value, so that nothing can
+    /// be learnt.
     pub fn lesson(&self, dist: &Dist, value: &Draw) -> Option<Lesson> {
         let log_prior = dist.log_density(value);
         if !log_prior.is_finite() {

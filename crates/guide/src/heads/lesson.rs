@@ -1,4 +1,4 @@
-//! What a density needs of a choice's prior and value, and the quotient of the guide's density to the prior's.
+//! Lessons: a choice's prior and value as numbers, and the quotient of the guide's density to the prior's.
 
 use super::Number;
 use super::bells::Bells;
@@ -7,26 +7,26 @@ use super::line::Place;
 use niwaki_math::log_sums::log_add_exp;
 use serde::{Deserialize, Serialize};
 
-/// What training needs of a choice: its prior and its value, without the distribution.
+/// A choice as training needs it: its prior and its value, without the distribution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Lesson {
-    /// A real number, by its coordinate.
+    /// A real number, as its coordinate.
     Normal {
         /// The coordinate.
         z: f64,
         /// Log of the prior's density of the coordinate, nats.
         log_prior: f64,
-        /// The coordinate holds between these.
+        /// The coordinate holds between these limits.
         limits: (f64, f64),
     },
-    /// One of finitely many values.
+    /// A value of finitely many.
     Finite {
-        /// Which.
+        /// The index of the value.
         value: usize,
         /// Log probabilities of all values, nats.
         log_priors: Box<[f64]>,
     },
-    /// A whole number, by its piece of the line.
+    /// A whole number, as its piece of the line.
     Count {
         /// The piece.
         between: (f64, f64),
@@ -35,25 +35,25 @@ pub enum Lesson {
     },
 }
 
-/// A lesson whose list is borrowed: the form in which it is computed with.
+/// A lesson whose list is borrowed: the form for computations.
 #[derive(Clone, Copy)]
 pub(crate) enum Known<'a> {
     /// A real number.
     Normal(Place),
-    /// One of finitely many values.
+    /// A value of finitely many.
     Finite { value: usize, log_priors: &'a [f64] },
     /// A whole number.
     Count { between: (f64, f64), log_prior: f64 },
 }
 
 impl Lesson {
-    /// `ln(q / p)`, nats, of a guide with these outputs and this share of the prior. With `slope`, its derivatives by the
-    /// outputs are added there.
+    /// `ln(q / p)`, nats, of a guide with these outputs and this share of the prior. With `slope`, the derivatives by the
+    /// outputs are added to it.
     pub fn log_quotient(&self, outputs: &[f64], share: f64, slope: Option<&mut [f64]>) -> f64 {
         self.known().log_quotient(outputs, share, slope)
     }
 
-    /// The form in which it is computed with.
+    /// The form for computations.
     pub(crate) fn known(&self) -> Known<'_> {
         match self {
             Lesson::Normal { z, log_prior, limits } => Known::normal(*z, *log_prior, *limits),
@@ -69,8 +69,8 @@ impl Known<'_> {
         Known::Normal(Place { z, log_prior, limits })
     }
 
-    /// `ln(q / p)`, nats, of the guide with this share of the prior. With `slope`, its derivatives by the outputs are
-    /// added there.
+    /// `ln(q / p)`, nats, of a guide with this share of the prior. With `slope`, the derivatives by the outputs are
+    /// added to it.
     pub(crate) fn log_quotient<N: Number>(
         &self,
         outputs: &[N],
@@ -90,14 +90,14 @@ impl Known<'_> {
 }
 
 /// `ln(q / p)` of a real number. With the quotient `r` of the network's density of the coordinate to the prior's, and the
-/// mass `m` outside of the coordinate's limits, which is left to the prior:
+/// mass `m` outside the coordinate's limits, which the prior keeps:
 ///
 /// ```text
 /// q / p = (1 - s) (r + m) + s
 /// ```
 pub(super) fn of_real(bells: &Bells, place: Place, share: f64, slope: Option<&mut [f64]>) -> f64 {
     let floor = (1.0 - share) * bells.mass_outside(place.limits, 0.0, None) + share;
-    // A coordinate that is not a number is not inside.
+    // A NaN coordinate is not inside.
     let inside = place.z > place.limits.0 && place.z < place.limits.1;
     let density = if inside { bells.density(place.z, 0.0, None) } else { 0.0 };
     let net = if density > 0.0 { (1.0 - share) * density * (-place.log_prior).exp() } else { 0.0 };
@@ -110,7 +110,7 @@ pub(super) fn of_real(bells: &Bells, place: Place, share: f64, slope: Option<&mu
     if small { quotient.ln() } else { (-share).ln_1p() + density.ln() - place.log_prior }
 }
 
-/// `ln(q / p)` of a whole number: `q = (1 - s) n + s p`, `n` being the mass between two numbers.
+/// `ln(q / p)` of a whole number: `q = (1 - s) n + s p`, where `n` is the mass between two numbers.
 pub(super) fn of_count(
     bells: &Bells,
     (a, b): (f64, f64),

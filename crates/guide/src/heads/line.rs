@@ -1,7 +1,7 @@
 //! Coordinates in which the priors of real numbers are alike.
 //!
 //! Each family has a rising map from its values `x` to a coordinate `z` in which the prior is near the standard
-//! Gaussian, or equal to it. `Phi` is the Gaussian's distribution function, `F` the family's.
+//! Gaussian, or equal to it. `Phi` is the Gaussian's distribution function, `F` that of the family.
 //!
 //! | family | `z` | prior density of `z` |
 //! | --- | --- | --- |
@@ -19,33 +19,33 @@
 //!
 //! (The moments of logarithms are approximate, which changes the coordinate and not the density.)
 //!
-//! A coordinate holds between two limits, within 7.2 of zero: beyond, the last digits of a uniform would decide. What lies outside
-//! is left to the prior.
+//! A coordinate holds between two limits, within 7.2 of zero, since beyond them the last digits of a uniform would decide. The
+//! prior keeps the values outside.
 
 use super::bells::HALF_LN_TAU;
 use niwaki_math::special::{normal_quantile, normal_tail};
 use niwaki_math::{Dist, Space};
 use std::f64::consts::{LN_2, PI};
 
-/// Coordinates are within this distance of zero.
+/// Largest distance of a coordinate from zero.
 const FARTHEST: f64 = 7.2;
-/// The Gaussian's tail there.
+/// The Gaussian's tail at this distance.
 const FARTHEST_TAIL: f64 = 3e-13;
-/// Between bounds, limits are so many of the bounds' last digits away from them.
+/// Distance of limits from the bounds, in last digits of the bounds.
 const DIGITS: f64 = 1e3;
-/// Logits are within this distance of zero: there a number below one has three digits of its distance from one left.
+/// Largest distance of a logit from zero: there the distance from one of a number below one still has three digits.
 const FARTHEST_LOGIT: f64 = 29.0;
-/// Logarithms are within this distance of zero, so that numbers have all their digits.
+/// Largest distance of a logarithm from zero, so that numbers keep all their digits.
 const FARTHEST_LOG: f64 = 690.0;
 
-/// Where a value stands in its prior.
+/// The place of a value in its prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// The coordinate; not a number for a value that the prior excludes.
+    /// The coordinate; NaN for a value that the prior excludes.
     pub z: f64,
     /// Log of the prior's density of `z`, nats.
     pub log_prior: f64,
-    /// The coordinate holds between these.
+    /// The coordinate holds between these limits.
     pub limits: (f64, f64),
 }
 
@@ -55,25 +55,25 @@ pub(super) struct Line<'d> {
     form: Form,
 }
 
-/// The coordinate's formula.
+/// The formula of the coordinate.
 enum Form {
-    /// `(x - center) / unit`; `exact` where the prior is the standard Gaussian.
+    /// `(x - center) / unit`; `exact` if the prior is the standard Gaussian.
     Straight { center: f64, unit: f64, exact: bool },
-    /// `(ln x - center) / unit`; `exact` where the prior is the standard Gaussian.
+    /// `(ln x - center) / unit`; `exact` if the prior is the standard Gaussian.
     Log { center: f64, unit: f64, exact: bool },
     /// `(logit x - center) / unit`.
     Logit { center: f64, unit: f64 },
-    /// From the two tails of the prior.
+    /// A coordinate from the two tails of the prior.
     Ranked,
     /// A truncated Gaussian: in units `u = sign (x - mean) / sd`, the tails of `u` and of the bounds.
     Cut { sign: f64, below: f64, above: f64, mass: f64 },
-    /// A truncated Gaussian: an exponential of this rate, by the distance from the bound that is nearer to the mean.
+    /// A truncated Gaussian as an exponential of this rate, by the distance from the bound that is nearer to the mean.
     Slope { from_lo: bool, rate: f64, width: f64 },
     /// Student's t.
     Root { stretch: f64 },
 }
 
-/// `z` of two probabilities that sum to one, from the smaller.
+/// The coordinate `z` of two probabilities that sum to one, from the smaller.
 fn score(below: f64, above: f64) -> f64 {
     if below <= above { normal_quantile(below) } else { -normal_quantile(above) }
 }
@@ -88,7 +88,7 @@ fn log_gamma_moments(shape: f64) -> (f64, f64) {
 }
 
 impl<'d> Line<'d> {
-    /// The coordinate of a family of real numbers; `None` of the others.
+    /// The coordinate of a family of real numbers; `None` for other families.
     pub(super) fn new(dist: &'d Dist) -> Option<Line<'d>> {
         let form = match *dist {
             Dist::Gaussian { mean, sd } => Form::Straight { center: mean, unit: sd, exact: true },
@@ -115,7 +115,7 @@ impl<'d> Line<'d> {
         Some(Line { dist, form })
     }
 
-    /// The coordinates between which values can be told apart.
+    /// The coordinates between which values are distinct.
     fn limits(&self) -> (f64, f64) {
         let within = |center: f64, unit: f64, size: f64| {
             (((-size - center) / unit).max(-FARTHEST), ((size - center) / unit).min(FARTHEST))
@@ -140,7 +140,7 @@ impl<'d> Line<'d> {
         }
     }
 
-    /// Where a value stands. A function of the value alone: a value that is drawn is scored by the same call.
+    /// The place of a value, which depends on the value alone: the call that drew a value and the call that scores it agree.
     pub(super) fn place(&self, x: f64, log_density: f64) -> Place {
         let (z, log_prior) = self.coordinate(x, log_density);
         Place { z, log_prior, limits: self.limits() }
@@ -222,7 +222,7 @@ impl<'d> Line<'d> {
         if !(z > least && z < most) {
             return None;
         }
-        // The smaller tail of z, and whether it is the upper one.
+        // The smaller tail of z, and whether it is the upper tail.
         let tail = || (normal_tail(z.abs()), z > 0.0);
         Some(match (&self.form, self.dist) {
             (Form::Straight { center, unit, .. }, _) => center + unit * z,
@@ -272,7 +272,7 @@ impl<'d> Line<'d> {
     }
 }
 
-/// The coordinate of a family that has none of its own: that of its space.
+/// The coordinate of a family without one of its own: that of its space.
 fn of_space(dist: &Dist) -> Option<Form> {
     match dist.family().space() {
         Space::Line => Some(Form::Straight { center: dist.center()?, unit: dist.scale()?, exact: false }),
@@ -285,7 +285,7 @@ fn of_space(dist: &Dist) -> Option<Form> {
 }
 
 /// The coordinate of a truncated Gaussian. Tails are computed on the side of the mean where most of the interval lies, so
-/// that their differences lose few digits; where they would, an exponential is used.
+/// that their differences lose few digits; if they would lose many, an exponential is used.
 fn cut(mean: f64, sd: f64, lo: f64, hi: f64) -> Form {
     let (a, b) = ((lo - mean) / sd, (hi - mean) / sd);
     let sign = if a + b > 0.0 { -1.0 } else { 1.0 };
@@ -302,7 +302,7 @@ fn cut(mean: f64, sd: f64, lo: f64, hi: f64) -> Form {
 
 #[cfg(test)]
 mod tests {
-    //! The coordinate of a space leads back to the value, and its prior is that of the value.
+    //! The coordinate of a space leads back to the value, and its prior agrees with that of the value.
     use super::*;
 
     #[test]

@@ -1,13 +1,13 @@
-//! Outputs of a network as a density of a choice.
+//! Heads: outputs of a network as a density of a choice.
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `head` | [`Head`]: which density a site has; drawing and scoring |
-//! | `lesson` | [`Lesson`]: what a density needs of a choice's prior and value; the quotient of the two densities |
+//! | `head` | [`Head`]: the density of a site; drawing and scoring |
+//! | `lesson` | [`Lesson`]: a choice's prior and value as numbers; the quotient of the two densities |
 //! | `line` | coordinates in which the priors of real numbers are alike |
 //! | `bells` | mixtures of Gaussians over such a coordinate |
 //! | `classes` | finitely many values |
-//! | [`natural`] | the dissertation's outputs, as those of a head |
+//! | [`natural`] | the dissertation's outputs, translated to those of a head |
 //!
 //! With the network's density `n`, the prior `p` and the share `s` of the prior, a choice is drawn from
 //!
@@ -15,7 +15,7 @@
 //! q = (1 - s) n + s p
 //! ```
 //!
-//! Everything here is computed in `f64`, whatever the network computes in.
+//! This module computes in `f64`, for any number type of the network.
 
 mod bells;
 mod classes;

@@ -1,28 +1,28 @@
-//! The dissertation's outputs: a choice itself is predicted, whatever its prior is (dissertation 6.4).
+//! The dissertation's outputs, which predict a choice itself, for any prior (dissertation 6.4).
 //!
-//! Its code differs from its text in some of these:
+//! These outputs follow the dissertation's code, which differs from its text in part:
 //!
-//! - a real number is a mixture of Gaussians of the number itself: sigmoids of outputs, over their sum, are the weights;
+//! - a real number is a mixture of Gaussians of the number itself: its weights are sigmoids of outputs, over their sum;
 //!   then come a mean and the log of a deviation for each component;
-//! - a truth value, or one of two values, has one output: its sigmoid is the probability of the second;
-//! - of more values each has an output: sigmoids over their sum.
+//! - a truth value, or a choice of two values, has one output, whose sigmoid is the probability of the second value;
+//! - a choice of more values has an output for each value: the probabilities are sigmoids over their sum.
 //!
-//! [`Head`] gives densities from outputs relative to the prior. So these outputs are translated to those of the head,
-//! which gives the same density, with the share of the prior and the limits that every guide has. Whole numbers, and
-//! real numbers of other families than the Gaussian, have their mixture in the coordinate of the head: the dissertation
+//! [`Head`] gives densities from outputs relative to the prior. So the dissertation's outputs are translated to outputs of the head
+//! with an equal density, with the share of the prior and the limits of every guide. Whole numbers, and
+//! real numbers of families other than the Gaussian, have their mixture in the coordinate of the head: the dissertation
 //! has no such choices.
 
 use super::{Head, Number};
 use niwaki_math::Dist;
 
-/// What the translation needs of a prior.
+/// The numbers of a prior that the translation needs.
 #[derive(Clone, Copy)]
 pub enum Natural<'a> {
-    /// Mean and deviation of a Gaussian; 0 and 1 of another.
+    /// Mean and deviation of a Gaussian; 0 and 1 of another family.
     Line {
-        /// What is zero in the head's coordinate.
+        /// The zero of the head's coordinate.
         mean: f64,
-        /// What is one in it.
+        /// The unit of the head's coordinate.
         sd: f64,
     },
     /// Log probabilities of all values, nats.
@@ -37,7 +37,7 @@ pub fn unit(dist: &Dist) -> (f64, f64) {
     }
 }
 
-/// How many outputs a network has for a head.
+/// The number of a network's outputs for a head.
 pub(crate) fn outputs(head: &Head) -> usize {
     if head.outputs() == 2 && matches!(head, Head::Finite { .. }) { 1 } else { head.outputs() }
 }
@@ -51,7 +51,7 @@ fn sigmoid(x: f64) -> f64 {
     log_sigmoid(x).exp()
 }
 
-/// The outputs for `head` of those of a network.
+/// Translates the outputs of a network to outputs for `head`.
 pub(crate) fn translate<N: Number>(raw: &[N], natural: Natural<'_>, to: &mut Vec<f64>) {
     to.clear();
     match natural {
@@ -63,7 +63,7 @@ pub(crate) fn translate<N: Number>(raw: &[N], natural: Natural<'_>, to: &mut Vec
             to.extend(pairs.chunks_exact(2).map(|pair| pair[1].into() - sd.ln()));
         }
         Natural::Values(logs) => {
-            // What the prior excludes stays excluded whatever its output is.
+            // An excluded value of the prior stays excluded, for any output.
             let relative = |x: f64, log: f64| log_sigmoid(x) - if log.is_finite() { log } else { 0.0 };
             match *raw {
                 [x] => {
@@ -75,7 +75,7 @@ pub(crate) fn translate<N: Number>(raw: &[N], natural: Natural<'_>, to: &mut Vec
     }
 }
 
-/// Derivatives by a network's outputs, from those by the head's.
+/// Derivatives by a network's outputs, from those by the head's outputs.
 pub(crate) fn back(raw: &[f64], natural: Natural<'_>, slopes: &[f64], to: &mut Vec<f64>) {
     to.clear();
     match natural {

@@ -8,16 +8,16 @@
 //! a = d a + (1 - d) w
 //! ```
 //!
-//! The averaged weights are `a / (1 - d^t)`. With them no schedule of rates is needed.
+//! The averaged weights are `a / (1 - d^t)`. They make a schedule of rates unnecessary.
 
 use crate::net::Real;
 
 /// The usual decays of the mean slope and of the mean square.
 const DECAYS: [f64; 2] = [0.9, 0.999];
-/// What keeps the quotient finite.
+/// Addend that keeps the quotient finite.
 const LEAST: f64 = 1e-8;
 
-/// What is kept from step to step.
+/// The state of the optimiser.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Adam<T: Real = f32> {
     /// `m` and `v`.
@@ -26,38 +26,38 @@ pub struct Adam<T: Real = f32> {
     average: Vec<T>,
     /// Decays of the mean slope and of the mean square.
     decays: [f64; 2],
-    /// Steps done.
+    /// The number of steps so far.
     step: u64,
 }
 
 impl<T: Real> Adam<T> {
-    /// Before the first step, for so many weights.
+    /// The state before the first step, for this number of weights.
     pub fn new(weights: usize) -> Adam<T> {
         Adam::with_decays(weights, DECAYS)
     }
 
-    /// Before the first step, with other decays than the usual ones.
+    /// The state before the first step, with unusual decays.
     pub fn with_decays(weights: usize, decays: [f64; 2]) -> Adam<T> {
         let zeros = vec![T::ZERO; weights];
         Adam { moments: [zeros.clone(), zeros.clone()], average: zeros, decays, step: 0 }
     }
 
-    /// Moments, average and steps done.
+    /// Moments, average and number of steps.
     pub(crate) fn parts(&self) -> (&[Vec<T>; 2], &[T], u64) {
         (&self.moments, &self.average, self.step)
     }
 
-    /// Goes on from these.
+    /// Sets moments, average and number of steps.
     pub(crate) fn put(&mut self, moments: [Vec<T>; 2], average: Vec<T>, step: u64) {
         (self.moments, self.average, self.step) = (moments, average, step);
     }
 
-    /// Steps done.
+    /// The number of steps so far.
     pub fn step(&self) -> u64 {
         self.step
     }
 
-    /// One step against `scale` times the slope; `averaging` is `d`.
+    /// Makes a step against `scale` times the slope; `averaging` is `d`.
     pub fn advance(&mut self, weights: &mut [T], slope: &[T], scale: f64, rate: f64, averaging: f64) {
         self.step += 1;
         let number = T::from_f64;
@@ -90,7 +90,7 @@ impl<T: Real> Adam<T> {
 
 #[cfg(test)]
 mod tests {
-    //! The first step has the size of the rate, and the average of equal weights is theirs.
+    //! The first step has the size of the rate, and the average of equal weights equals them.
     use super::*;
 
     #[test]

@@ -1,4 +1,4 @@
-//! Steps on rows that count by signed weights: what the gradient of a bound is made of (Mnih & Rezende 2016).
+//! Steps on rows with signed weights, which make up the gradient of a bound (Mnih & Rezende 2016).
 //!
 //! A score-function gradient is a sum over choices, each with the weight `a` of the run that made it:
 //!
@@ -6,8 +6,8 @@
 //! slope = sum over rows of a grad ln q(row)
 //! ```
 //!
-//! A step of Adam goes along it. The rows of each step are others, drawn by the present network; means and deviations of
-//! inputs are those of the rows that the state was begun with.
+//! Adam steps along this slope. The present network draws new rows for each step; means and deviations of inputs
+//! are those of the rows at the start of the state.
 
 use super::rows::Rows;
 use super::stored::{Moving, Stored, Unfit};
@@ -21,12 +21,12 @@ pub struct Climb<T: Real = f32> {
 }
 
 impl<T: Real> Climb<T> {
-    /// Before the first step. Inputs are standardised by the rows; a network that was trained before keeps its answers.
+    /// A climb before its first step. The rows standardise the inputs; a network that was trained before keeps its answers.
     pub fn new(net: Net<T>, rows: &Rows) -> Climb<T> {
         Climb { state: State::new(net, rows), chunks: Vec::new() }
     }
 
-    /// Steps done.
+    /// The number of steps so far.
     pub fn step(&self) -> u64 {
         self.state.step()
     }
@@ -36,7 +36,7 @@ impl<T: Real> Climb<T> {
         self.state.folded(self.state.net.weights.clone())
     }
 
-    /// The network with averaged weights; before the first step, the present one.
+    /// The network with averaged weights; before the first step, the present network.
     pub fn averaged(&self, averaging: f64) -> Net<T> {
         self.state.folded(self.state.averaged(averaging))
     }
@@ -47,7 +47,7 @@ impl<T: Real> Climb<T> {
         (self.state.folded(weights.clone()), *loss, *step)
     }
 
-    /// Keeps the averaged weights, which have this loss, where none before had less.
+    /// Stores the averaged weights as the best if their loss is the smallest so far.
     pub fn judge(&mut self, loss: f64, averaging: f64) {
         if loss < self.state.best.0 {
             self.state.best = (loss, self.step(), self.state.averaged(averaging));
@@ -57,14 +57,14 @@ impl<T: Real> Climb<T> {
     /// The sum over rows of `weights` times the slope of `ln q`, by each weight of the network.
     ///
     /// # Errors
-    /// The site of the first row whose loss or slope is not finite; `None` where only the sum is not.
+    /// The site of the first row whose loss or slope is not finite; `None` if only the sum is not finite.
     pub fn slope(&mut self, rows: &Rows, weights: &[f64], share: f64) -> Result<Vec<T>, Option<usize>> {
         let picks: Vec<usize> = (0..rows.len()).filter(|row| weights[*row] != 0.0).collect();
         if picks.is_empty() {
             return Ok(vec![T::ZERO; self.state.net.weights.len()]);
         }
         self.state.room(picks.len(), &mut self.chunks);
-        // A loss is minus `ln q`, but for a constant.
+        // A loss is minus `ln q`, up to a constant.
         let times = |row: usize| -weights[row];
         match self.state.slope(rows, &picks, &times, share, &mut self.chunks) {
             Ok(_) => Ok(self.chunks[0].slope.clone()),
@@ -72,10 +72,10 @@ impl<T: Real> Climb<T> {
         }
     }
 
-    /// A step along such a sum.
+    /// A step along the sum of [`Climb::slope`].
     ///
     /// # Errors
-    /// As for [`Climb::slope`]; the weights stay those before.
+    /// See [`Climb::slope`]; the weights then stay unchanged.
     pub fn advance(&mut self, rows: &Rows, weights: &[f64], with: &Training) -> Result<(), Option<usize>> {
         let slope = self.slope(rows, weights, with.share)?;
         let (adam, mut moved) = (&mut self.state.adam, self.state.net.weights.clone());
@@ -87,21 +87,21 @@ impl<T: Real> Climb<T> {
         Ok(())
     }
 
-    /// As data.
+    /// The state as data.
     pub fn stored(&self, history: &[Progress]) -> Stored {
         let State { net, adam, best, .. } = &self.state;
         Stored::of(&net.weights, adam, best, (0.0, 0.0), history)
     }
 
-    /// Goes on from the data of a climb that began so.
+    /// Resumes from the data of a climb with the same start.
     ///
     /// # Errors
-    /// The data is not of this climb.
-    pub fn go_on(&mut self, left: &Stored) -> Result<Vec<Progress>, Unfit> {
+    /// The data belongs to another climb.
+    pub fn resume(&mut self, stored: &Stored) -> Result<Vec<Progress>, Unfit> {
         let (mut history, mut sums) = (Vec::new(), (0.0, 0.0));
         let State { net, adam, best, .. } = &mut self.state;
         let weights = &mut net.weights;
         let moving = Moving { weights, adam, best, sums: &mut sums, history: &mut history };
-        if left.put(moving) { Ok(history) } else { Err(Unfit) }
+        if stored.put(moving) { Ok(history) } else { Err(Unfit) }
     }
 }

@@ -2,15 +2,15 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `rows` | [`Rows`]: what a guide would have seen at each choice of some traces, and what was chosen |
+//! | `rows` | [`Rows`]: for each choice of some traces, a guide's inputs and the chosen value |
 //! | `slope` | the loss of a row, and its derivatives by all weights |
-//! | `scaling` | means and deviations of inputs: training sees standardised ones |
+//! | `scaling` | means and deviations of inputs, with which training standardises them |
 //! | `adam` | [`Adam`]: the optimiser |
-//! | `train` | [`train`]: steps on choices of all traces; the best by rows held out |
-//! | `climb` | [`Climb`]: steps on choices that count by signed weights |
+//! | `train` | [`train`]: steps on choices of all traces; the best weights by rows held out |
+//! | `climb` | [`Climb`]: steps on choices with signed weights |
 //!
-//! The loss of a choice is `-ln(q / p)`, nats: how much less likely the guide finds it than the prior does. The prior's
-//! share is in `q`.
+//! The loss of a choice is `-ln(q / p)`, nats: how much less likely the choice is under the guide than under the prior. The
+//! prior's share is in `q`.
 
 mod adam;
 mod climb;

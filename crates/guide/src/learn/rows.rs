@@ -1,9 +1,9 @@
-//! What a guide would have seen at each choice of some traces, and what was chosen.
+//! Rows: for each choice of some traces, a guide's inputs and the chosen value.
 
 use crate::heads::{Known, Lesson};
 use crate::net::NetForm;
 
-/// Choices to learn from. A window that is the same as at the choice before is stored once.
+/// Choices to learn from. A window that equals that of the choice before is stored once.
 #[derive(Clone, Debug, Default)]
 pub struct Rows {
     windows: usize,
@@ -12,14 +12,14 @@ pub struct Rows {
     traces: usize,
     rows: Vec<Row>,
     /// All windows, one after the other.
-    seen: Vec<f32>,
+    window_numbers: Vec<f32>,
     features: Vec<(u32, f32)>,
     numbers: Vec<f64>,
     /// Whether the next window belongs to another trace.
     apart: bool,
 }
 
-/// One choice: where its parts begin.
+/// A choice: the places where its parts begin.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     site: u32,
@@ -29,7 +29,7 @@ struct Row {
     kind: Kind,
 }
 
-/// Which lesson the numbers are.
+/// The kind of the lesson in the numbers.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Normal,
@@ -38,7 +38,7 @@ enum Kind {
 }
 
 impl Rows {
-    /// No rows yet, for networks of this form.
+    /// An empty list of rows, for networks of this form.
     pub fn new(form: &NetForm) -> Rows {
         Rows {
             windows: form.windows,
@@ -48,13 +48,13 @@ impl Rows {
         }
     }
 
-    /// The choices of another trace begin.
+    /// Begins the choices of another trace.
     pub fn trace(&mut self) {
         self.traces += 1;
         self.apart = true;
     }
 
-    /// Adds a choice: its site, what its window shows, its features as (number, value as it is), and the lesson.
+    /// Adds a choice: its site, the numbers of its window, its features as (number, raw value), and the lesson.
     ///
     /// # Panics
     ///
@@ -63,12 +63,12 @@ impl Rows {
         assert_eq!(window.len(), self.windows, "numbers of a window");
         assert!(site < self.sites_of_form, "no site {site}");
         assert!(features.iter().all(|(k, _)| (*k as usize) < self.features_of_form), "a feature's number");
-        let same = !self.apart && self.rows.last().is_some_and(|last| self.window_of(*last) == window);
-        if !same {
-            self.seen.extend_from_slice(window);
+        let is_repeated = !self.apart && self.rows.last().is_some_and(|last| self.window_of(*last) == window);
+        if !is_repeated {
+            self.window_numbers.extend_from_slice(window);
         }
         self.apart = false;
-        let window = self.seen.len().checked_div(self.windows).map_or(0, |n| n - 1);
+        let window = self.window_numbers.len().checked_div(self.windows).map_or(0, |n| n - 1);
         let (at, numbers) = (self.features.len(), self.numbers.len());
         self.features.extend_from_slice(features);
         let kind = match lesson {
@@ -94,9 +94,9 @@ impl Rows {
         });
     }
 
-    /// Adds the rows of other traces, of networks of the same form.
+    /// Adds the rows of other traces, for networks of this form.
     pub fn append(&mut self, other: &Rows) {
-        let windows = small(self.seen.len().checked_div(self.windows).unwrap_or(0));
+        let windows = small(self.window_numbers.len().checked_div(self.windows).unwrap_or(0));
         let (features, numbers) = (self.features.len(), self.numbers.len());
         self.rows.extend(other.rows.iter().map(|row| Row {
             window: row.window + windows,
@@ -104,24 +104,24 @@ impl Rows {
             numbers: row.numbers + numbers,
             ..*row
         }));
-        self.seen.extend_from_slice(&other.seen);
+        self.window_numbers.extend_from_slice(&other.window_numbers);
         self.features.extend_from_slice(&other.features);
         self.numbers.extend_from_slice(&other.numbers);
         self.traces += other.traces;
         self.apart = true;
     }
 
-    /// How many choices there are.
+    /// The number of choices.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no choices.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// How many traces began.
+    /// The number of traces.
     pub fn traces(&self) -> usize {
         self.traces
     }
@@ -129,14 +129,14 @@ impl Rows {
     /// Bytes of memory that the rows take.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.rows)
-            + size_of_val(&*self.seen)
+            + size_of_val(&*self.window_numbers)
             + size_of_val(&*self.features)
             + size_of_val(&*self.numbers)
     }
 
-    /// Windows that are stored.
+    /// The stored windows.
     pub(crate) fn all_windows(&self) -> impl Iterator<Item = &[f32]> {
-        self.seen.chunks_exact(self.windows.max(1))
+        self.window_numbers.chunks_exact(self.windows.max(1))
     }
 
     /// Features of all rows.
@@ -156,7 +156,7 @@ impl Rows {
 
     fn window_of(&self, row: Row) -> &[f32] {
         let start = row.window as usize * self.windows;
-        &self.seen[start..start + self.windows]
+        &self.window_numbers[start..start + self.windows]
     }
 
     /// The features of a row.
@@ -179,19 +179,19 @@ impl Rows {
     }
 }
 
-/// A number of rows, windows or features as a row has it: 2^32 of them would take 16 GB or more.
+/// A count of rows, windows or features as 32 bits, the size in a row: 2^32 of them would take 16 GB or more.
 fn small(n: usize) -> u32 {
     u32::try_from(n).expect("fewer than 2^32 rows")
 }
 
 #[cfg(test)]
 mod tests {
-    //! What is pushed comes back, and equal windows are stored once.
+    //! Choices are stored unchanged, and equal windows once.
     use super::*;
     use crate::heads::Head;
 
     #[test]
-    fn rows_come_back() {
+    fn rows_keep_their_choices() {
         let heads = vec![Head::Finite { values: 2 }, Head::Normal { components: 2 }];
         let mut rows = Rows::new(&NetForm::new(2, 3, heads));
         let coin = Lesson::Finite { value: 1, log_priors: [-0.5, -1.0].into() };

@@ -1,15 +1,15 @@
-//! Means and deviations of inputs: training sees standardised ones.
+//! Means and deviations of inputs, with which training standardises them.
 //!
-//! Features are standardised by the network itself, so that those that a site lacks can count as at their mean. For
+//! The network standardises features itself, so that a feature that a site lacks can count as its mean. For
 //! windows, means and deviations go into the weights of the first layer when training ends.
 
 use super::rows::Rows;
 use crate::net::{Layout, Net, Real};
 
-/// A window's number with a smaller deviation than this share of the largest is scaled like one at it: a number that was
-/// nearly always the same is not blown up.
+/// Least deviation of a window's number, as a share of the largest: smaller deviations count as this one, so that a number
+/// that was nearly constant is not blown up.
 const LEAST: f64 = 0.05;
-/// A feature whose deviation is a smaller share of its size does not change.
+/// Least deviation of a feature, as a share of its size; with a smaller deviation the feature counts as constant.
 const SAME: f64 = 1e-6;
 
 /// Sums over inputs, in the order of the rows.
@@ -36,7 +36,7 @@ impl Sums {
     }
 }
 
-/// One over a deviation; zero, where there is none.
+/// One over a deviation; zero for a deviation of zero.
 fn inverse<T: Real>(deviation: f64) -> T {
     T::from_f64(if deviation > 0.0 { 1.0 / deviation } else { 0.0 })
 }
@@ -52,7 +52,7 @@ pub(super) fn of_windows<T: Real>(rows: &Rows, windows: usize) -> Vec<(T, T)> {
     sums.iter().map(|s| (T::from_f64(s.mean), inverse(s.deviation().max(least)))).collect()
 }
 
-/// Sets the features' means and deviations of a network: of those that have none yet.
+/// Sets means and deviations of a network's features that have none yet.
 pub(super) fn set_features<T: Real>(net: &mut Net<T>, rows: &Rows) {
     let mut sums = vec![Sums::default(); net.features.len()];
     for (k, x) in rows.all_features() {
@@ -66,7 +66,7 @@ pub(super) fn set_features<T: Real>(net: &mut Net<T>, rows: &Rows) {
     }
 }
 
-/// Weights for standardised windows become weights for windows as they are.
+/// Turns weights for standardised windows into weights for raw windows.
 pub(super) fn fold<T: Real>(net: &mut Net<T>, scaling: &[(T, T)]) {
     let width = net.layout.width[0];
     let first = net.layout.first;
@@ -81,8 +81,8 @@ pub(super) fn fold<T: Real>(net: &mut Net<T>, scaling: &[(T, T)]) {
     }
 }
 
-/// Weights for windows as they are become weights for standardised ones: the inverse of [`fold`]. The weights of a number
-/// that does not change stay as they are.
+/// Turns weights for raw windows into weights for standardised windows: the inverse of [`fold`]. The weights of a number
+/// that never changes stay as they are.
 pub(super) fn unfold<T: Real>(net: &mut Net<T>, scaling: &[(T, T)]) {
     let width = net.layout.width[0];
     let first = net.layout.first;

@@ -3,7 +3,7 @@
 use super::rows::Rows;
 use crate::net::{LANES, Layout, Net, Real, Scratch};
 
-/// Memory for the passes of one thread.
+/// Memory for the passes of a thread.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Work<T: Real> {
     window: Vec<T>,
@@ -23,21 +23,21 @@ pub(crate) fn add_scaled<T: Real>(sums: &mut [T], row: &[T], scale: T) {
     }
 }
 
-/// The sum of products, in lanes that are added up at the end: one order on every machine.
+/// The sum of products, in lanes that are added up at the end, in an order that is equal on every machine.
 #[inline(always)]
 pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    let mut held = [T::ZERO; LANES];
+    let mut lanes = [T::ZERO; LANES];
     for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
         for lane in 0..LANES {
-            held[lane] += a[lane] * b[lane];
+            lanes[lane] += a[lane] * b[lane];
         }
     }
-    let [a, b, c, d, e, f, g, h] = held;
+    let [a, b, c, d, e, f, g, h] = lanes;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// Derivatives one layer back: of the inputs `hidden` (values of tanh) of `rows`, from those of its outputs; and the
-/// rows' own, added to `slope`.
+/// Propagates derivatives one layer back: writes those by the inputs `hidden` (values of tanh) from those by the outputs, and adds
+/// those by the weights `rows` to `slope`.
 #[inline(always)]
 pub(crate) fn back_through<T: Real>(
     rows: &[T],
@@ -55,8 +55,8 @@ pub(crate) fn back_through<T: Real>(
 }
 
 impl<T: Real> Work<T> {
-    /// The loss of a row, nats. `scaling` has mean and one over deviation of each number of a window, where the weights
-    /// are for standardised windows. With `slope`, derivatives are added there, so many times.
+    /// The loss of a row, nats. If the weights are for standardised windows, `scaling` has mean and one over deviation of each number
+    /// of a window. With `slope`, the derivatives times its factor are added to it.
     pub(super) fn loss(
         &mut self,
         net: &Net<T>,
@@ -118,7 +118,7 @@ impl<T: Real> Work<T> {
     }
 }
 
-/// The mean loss of all rows, nats per choice; not a number where one is not.
+/// The mean loss of all rows, nats per choice; NaN if a loss is NaN.
 pub fn loss<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> f64 {
     let mut work = Work::default();
     let sum: f64 = (0..rows.len()).map(|row| work.loss(net, None, rows, row, share, None)).sum();
@@ -131,14 +131,14 @@ pub fn loss_and_slope<T: Real>(net: &Net<T>, rows: &Rows, share: f64) -> (f64, V
     let mut slope = vec![T::ZERO; net.weights.len()];
     let sum: f64 =
         (0..rows.len()).map(|row| work.loss(net, None, rows, row, share, Some((&mut slope, 1.0)))).sum();
-    let one = T::from_f64(1.0 / rows.len().max(1) as f64);
-    slope.iter_mut().for_each(|x| *x *= one);
+    let share = T::from_f64(1.0 / rows.len().max(1) as f64);
+    slope.iter_mut().for_each(|x| *x *= share);
     (sum / rows.len().max(1) as f64, slope)
 }
 
 #[cfg(test)]
 mod tests {
-    //! Derivatives by weights are those of differences, and a folded network answers as the one that was trained.
+    //! Derivatives by weights agree with differences, and a folded network answers as the trained one.
     use super::super::scaling;
     use super::*;
     use crate::heads::{Head, Lesson};
@@ -152,7 +152,7 @@ mod tests {
         let form = NetForm { windows: 4, features: 3, hidden: [5, 9], heads };
         let mut net: Net<f64> = Net::start(form.clone(), 8);
         let mut stream = Stream::new(4, 0, 0, 0);
-        // Weights of heads begin at zero, where nothing reaches the other layers.
+        // Weights of heads begin at zero, so that nothing reaches the other layers.
         for (rows, constants, width) in net.layout.heads.clone() {
             for row in net.weights[rows..constants].chunks_exact_mut(width) {
                 row[..4].iter_mut().for_each(|w| *w = 0.5 * stream.normal());
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_by_weights_are_those_of_differences() {
+    fn derivatives_by_weights_agree_with_differences() {
         let (mut net, rows) = example();
         let (_, slope) = loss_and_slope(&net, &rows, 0.1);
         let mut reached = 0;
@@ -188,18 +188,18 @@ mod tests {
             let h = 1e-3;
             let numeric = (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
             moved(0.0);
-            // Padding is not reached, and must not move. What a pad would do to the loss does not matter.
+            // Padding is not reached, and must not move. Its effect on the loss does not matter.
             if *exact != 0.0 {
                 reached += 1;
                 assert!((numeric - exact).abs() < 1e-6 * exact.abs().max(1e-3), "{k}: {numeric} {exact}");
             }
         }
-        // All but the row of the feature that never changed.
+        // Every weight is reached except the row of the constant feature.
         assert_eq!(reached, net.size() - 5);
     }
 
     #[test]
-    fn a_folded_network_answers_as_the_one_that_was_trained() {
+    fn folded_networks_answer_as_trained_ones() {
         let (net, rows) = example();
         let windows: Vec<(f64, f64)> = scaling::of_windows(&rows, 4);
         let mut work = Work::default();
@@ -207,12 +207,12 @@ mod tests {
         scaling::fold(&mut folded, &windows);
         scaling::unfold(&mut back, &windows);
         for row in 0..rows.len() {
-            let one = work.loss(&net, Some(&windows), &rows, row, 0.1, None);
-            let two = work.loss(&folded, None, &rows, row, 0.1, None);
-            assert!((one - two).abs() < 1e-12, "{one} {two}");
-            let three = work.loss(&back, Some(&windows), &rows, row, 0.1, None);
-            let four = work.loss(&net, None, &rows, row, 0.1, None);
-            assert!((three - four).abs() < 1e-12, "{three} {four}");
+            let trained = work.loss(&net, Some(&windows), &rows, row, 0.1, None);
+            let from_folded = work.loss(&folded, None, &rows, row, 0.1, None);
+            assert!((trained - from_folded).abs() < 1e-12, "{trained} {from_folded}");
+            let from_unfolded = work.loss(&back, Some(&windows), &rows, row, 0.1, None);
+            let raw = work.loss(&net, None, &rows, row, 0.1, None);
+            assert!((from_unfolded - raw).abs() < 1e-12, "{from_unfolded} {raw}");
         }
     }
 }

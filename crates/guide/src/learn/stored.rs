@@ -1,10 +1,10 @@
-//! Training between two steps, as data: weights, what the optimiser keeps, what was seen.
+//! Training between two steps, as data: weights, the state of the optimiser, the progress.
 
 use super::{Adam, Progress};
 use crate::net::Real;
 use serde::{Deserialize, Serialize};
 
-/// Training between two steps. Reals are stored by the bits of the equal `f64`.
+/// Training between two steps. Reals are stored as the bits of the equal `f64`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stored {
     weights: Vec<u64>,
@@ -18,7 +18,7 @@ pub struct Stored {
     history: Vec<Progress>,
 }
 
-/// What changes from step to step.
+/// The parts of training that change from step to step.
 pub(crate) struct Moving<'a, T: Real> {
     pub weights: &'a mut Vec<T>,
     pub adam: &'a mut Adam<T>,
@@ -36,12 +36,12 @@ fn numbers<T: Real>(bits: &[u64]) -> Vec<T> {
 }
 
 impl Stored {
-    /// What the looks so far saw.
+    /// The progress at the looks so far.
     pub fn history(&self) -> &[Progress] {
         &self.history
     }
 
-    /// As data.
+    /// The parts of training as data.
     pub(crate) fn of<T: Real>(
         weights: &[T],
         adam: &Adam<T>,
@@ -61,11 +61,11 @@ impl Stored {
         }
     }
 
-    /// Puts training there; does nothing and returns false where the data is of a network of another size.
+    /// Sets the parts of training from the data. If the data is of a network of another size, returns false and changes nothing.
     pub(crate) fn put<T: Real>(&self, to: Moving<'_, T>) -> bool {
         let size = to.weights.len();
         let all = [&self.weights, &self.moments[0], &self.moments[1], &self.average];
-        if all.iter().any(|one| one.len() != size) || ![0, size].contains(&self.best.2.len()) {
+        if all.iter().any(|weights| weights.len() != size) || ![0, size].contains(&self.best.2.len()) {
             return false;
         }
         *to.weights = numbers(&self.weights);
@@ -78,14 +78,14 @@ impl Stored {
     }
 }
 
-/// Where a training begins, and who sees it at its borders, between two steps.
+/// The start of a training, and its observer at the borders between two steps.
 pub struct Way<'a> {
-    /// Data from which it goes on.
+    /// Data from which training resumes.
     pub left: Option<Stored>,
     /// Called between two steps.
     pub border: &'a mut dyn FnMut(&dyn Fn() -> Stored),
 }
 
-/// The data is not of this training.
+/// The error that data belongs to another training.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unfit;

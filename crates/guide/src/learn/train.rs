@@ -1,7 +1,7 @@
-//! Training: Adam (Kingma & Ba 2015, alg. 1), averaged weights, the best by rows held out.
+//! Training: Adam (Kingma & Ba 2015, alg. 1), averaged weights, and the best weights by rows held out.
 //!
-//! A step draws so many choices from all traces and moves the weights against the slope of their mean loss ([`Adam`]). The
-//! choices are cut into chunks of fixed size whose slopes are added up in their order, so the same seed gives the same
+//! A step draws choices from all traces and moves the weights against the slope of their mean loss ([`Adam`]). The
+//! choices are cut into chunks of fixed size whose slopes are added up in order, so equal seeds give equal
 //! bits on any number of threads.
 
 use super::adam::Adam;
@@ -16,9 +16,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Choices of a step that one thread works through.
+/// Choices of a step that one thread handles in a chunk.
 const CHUNK: usize = 64;
-/// At most so many rows that are held out are looked at, evenly spread.
+/// Most rows in a look at the rows held out; they are evenly spread.
 const MOST_HELD_OUT: usize = 8192;
 /// Settings of training.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,11 +27,11 @@ pub struct Training {
     pub rate: f64,
     /// Choices in a step.
     pub batch: usize,
-    /// How much of the averaged weights is kept in a step.
+    /// The share of the averaged weights that stays in a step.
     pub averaging: f64,
     /// Steps in all.
     pub steps: u64,
-    /// Steps between looks at the rows that are held out.
+    /// Steps between looks at the rows held out.
     pub every: u64,
     /// The prior's share in the guide, above 0 and below 1.
     pub share: f64,
@@ -40,7 +40,7 @@ pub struct Training {
 }
 
 impl Training {
-    /// The usual settings for so many rows: three times over the rows, but at least 1,500 steps and at most 12,000, with
+    /// The usual settings for this number of rows: three passes over the rows, but at least 1,500 steps and at most 12,000, with
     /// twenty looks.
     pub fn new(seed: u64, rows: usize) -> Training {
         let batch = 256;
@@ -49,25 +49,25 @@ impl Training {
     }
 }
 
-/// How training goes.
+/// The progress of training.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
-    /// Steps done.
+    /// The number of steps so far.
     pub step: u64,
     /// Steps in all.
     pub steps: u64,
-    /// Mean loss of the choices drawn since the last look, nats; of the start, as at the rows held out.
+    /// Mean loss of the choices drawn since the last look, nats; at the start, the loss on the rows held out.
     #[serde(with = "bits")]
     pub loss: f64,
-    /// Mean loss of the averaged weights on the rows that are held out, nats; `loss` again, if there are none.
+    /// Mean loss of the averaged weights on the rows held out, nats; equal to `loss` if there are none.
     #[serde(with = "bits")]
     pub held_out: f64,
-    /// The smallest of these so far, and its step.
+    /// The smallest loss on rows held out so far, and its step.
     #[serde(with = "best_bits")]
     pub best: (f64, u64),
 }
 
-/// Reals as the numbers of their bits: JSON has no infinity.
+/// Reals as the numbers of their bits, since JSON has no infinity.
 mod bits {
     use serde::{Deserialize, Deserializer, Serializer};
 
@@ -80,7 +80,7 @@ mod bits {
     }
 }
 
-/// The same for a loss and its step.
+/// A loss and its step, the loss as the number of its bits.
 mod best_bits {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -93,7 +93,7 @@ mod best_bits {
     }
 }
 
-/// Training that can go on: weights, and what the optimiser keeps.
+/// Training that can resume: weights, and the state of the optimiser.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<T: Real = f32> {
     /// The network, with weights for standardised windows.
@@ -111,22 +111,22 @@ pub struct State<T: Real = f32> {
 pub struct Trained<T: Real = f32> {
     /// The best network.
     pub net: Net<T>,
-    /// Its loss on the rows that are held out, nats, and its step.
+    /// The loss of the best network on the rows held out, nats, and its step.
     pub best: (f64, u64),
-    /// What every look saw.
+    /// The progress at every look.
     pub history: Vec<Progress>,
-    /// To go on from the last step.
+    /// The state after the last step, from which training can resume.
     pub state: State<T>,
 }
 
-/// Training that met a loss or a slope that is not a finite number.
+/// The failure of training at a loss or a slope that is not a finite number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged<T: Real = f32> {
     /// The step.
     pub step: u64,
-    /// The site of the first such choice; `None` where only the sum of many is not finite.
+    /// The site of the first such choice; `None` if only the sum of many is not finite.
     pub site: Option<usize>,
-    /// The choice's loss.
+    /// The loss of the choice.
     pub loss: f64,
     /// The best network before.
     pub net: Box<Net<T>>,
@@ -134,8 +134,8 @@ pub struct Diverged<T: Real = f32> {
 
 impl<T: Real> fmt::Display for Diverged<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let what = if self.loss.is_finite() { "a slope" } else { "the loss" };
-        write!(f, "in step {} {what} is not a finite number", self.step)?;
+        let quantity = if self.loss.is_finite() { "a slope" } else { "the loss" };
+        write!(f, "in step {} {quantity} is not a finite number", self.step)?;
         match self.site {
             Some(site) => write!(f, ", at a choice of site {site} (loss {})", self.loss),
             None => Ok(()),
@@ -145,7 +145,7 @@ impl<T: Real> fmt::Display for Diverged<T> {
 
 impl<T: Real> std::error::Error for Diverged<T> {}
 
-/// A part of a step.
+/// A chunk of a step.
 pub(super) struct Chunk<T: Real> {
     work: Work<T>,
     pub(super) slope: Vec<T>,
@@ -159,7 +159,7 @@ impl<T: Real> Chunk<T> {
 }
 
 impl<T: Real> State<T> {
-    /// Before the first step. Inputs are standardised by the rows.
+    /// The state before the first step. The rows standardise the inputs.
     pub(super) fn new(mut net: Net<T>, rows: &Rows) -> State<T> {
         let scaling = scaling::of_windows(rows, net.form.windows);
         if !net.fresh {
@@ -171,12 +171,12 @@ impl<T: Real> State<T> {
         State { scaling, adam: Adam::new(net.weights.len()), best, net }
     }
 
-    /// Steps done.
+    /// The number of steps so far.
     pub fn step(&self) -> u64 {
         self.adam.step()
     }
 
-    /// The network with these weights, for windows as they are.
+    /// The network with these weights, for raw windows.
     pub(super) fn folded(&self, weights: Vec<T>) -> Net<T> {
         let mut net = Net { weights, ..self.net.clone() };
         scaling::fold(&mut net, &self.scaling);
@@ -188,7 +188,7 @@ impl<T: Real> State<T> {
         if self.step() == 0 { self.net.weights.clone() } else { self.adam.averaged(averaging) }
     }
 
-    /// The mean loss of the averaged weights on rows that are held out.
+    /// The mean loss of the averaged weights on rows held out.
     fn look(&self, rows: &Rows, with: &Training) -> f64 {
         let net = Net { weights: self.averaged(with.averaging), ..self.net.clone() };
         let count = rows.len().min(MOST_HELD_OUT);
@@ -211,7 +211,7 @@ impl<T: Real> State<T> {
         (0..with.batch).map(|_| row(stream.next_u64())).collect()
     }
 
-    /// One step; its mean loss, or the site and loss at which it is not finite.
+    /// Makes a step. Returns its mean loss, or the site and loss at which it is not finite.
     fn advance(
         &mut self,
         rows: &Rows,
@@ -225,8 +225,8 @@ impl<T: Real> State<T> {
         Ok(loss)
     }
 
-    /// The sum of the losses of some rows; that of their slopes, each counted so many times, in the first of the `chunks`, of
-    /// which there are enough and at least one. Or the site and loss at which it is not finite.
+    /// The sum of the losses of some rows. The sum of their slopes, each times a factor, goes into the first of the `chunks`, which
+    /// must be enough for the rows, and at least one. Or the site and loss at which a sum is not finite.
     pub(super) fn slope(
         &self,
         rows: &Rows,
@@ -252,19 +252,19 @@ impl<T: Real> State<T> {
         for chunk in rest {
             sum.iter_mut().zip(&chunk.slope).for_each(|(sum, x)| *sum += *x);
         }
-        // Infinity and NaN times zero are NaN, and stay it in a sum.
+        // Infinity and NaN times zero are NaN, which stays in a sum.
         let sound = sum.iter().fold(T::ZERO, |flag, x| flag + *x * T::ZERO) == T::ZERO;
         if loss.is_finite() && sound { Ok(loss) } else { Err(self.cause(rows, share, picks)) }
     }
 
-    /// Room for the slopes of so many rows.
+    /// Adds chunks for the slopes of this number of rows.
     pub(super) fn room(&self, rows: usize, chunks: &mut Vec<Chunk<T>>) {
         let weights = self.net.weights.len();
         let needed = rows.div_ceil(CHUNK).max(1);
         chunks.resize_with(needed.max(chunks.len()), || Chunk::new(weights));
     }
 
-    /// The first choice of a step whose loss or slope is not finite: its site, and its loss.
+    /// The site and loss of the first choice of a step whose loss or slope is not finite.
     fn cause(&self, rows: &Rows, share: f64, batch: &[usize]) -> (Option<usize>, f64) {
         let mut work = Work::default();
         for row in batch {
@@ -278,13 +278,13 @@ impl<T: Real> State<T> {
     }
 }
 
-/// Trains a network. `watch` sees the progress at the start and at every look, and ends the training by `false`; the
-/// best network so far is the result. A network that was trained before goes on with its weights, standardised again by
+/// Trains a network. `watch` sees the progress at the start and at every look, and ends the training when it returns `false`; the
+/// result is the best network so far. A network that was trained before starts from its weights, standardised anew by
 /// these rows.
 ///
 /// # Panics
 ///
-/// If the share of the prior is not between 0 and 1, or the rows are of another form than the network.
+/// If the share of the prior is not between 0 and 1, or the rows have another form than the network.
 pub fn train<T: Real>(
     start: Net<T>,
     rows: &Rows,
@@ -295,14 +295,14 @@ pub fn train<T: Real>(
     resume(State::new(start, rows), rows, held_out, with, watch)
 }
 
-/// As [`train`], from the data of a training that began so, and seen at its borders.
+/// As [`train`], from stored data of a training with the same start, with a call at each border between steps.
 ///
 /// # Errors
-/// The data is not of this training.
+/// The data belongs to another training.
 ///
 /// # Panics
 ///
-/// As [`train`].
+/// See [`train`].
 pub fn train_along<T: Real>(
     start: Net<T>,
     rows: &Rows,
@@ -322,11 +322,11 @@ pub fn train_along<T: Real>(
     Ok(steps(state, rows, held_out, with, watch, (history, sums), way.border))
 }
 
-/// Goes on with training until `with.steps` steps are done in all.
+/// Resumes training until `with.steps` steps in total.
 ///
 /// # Panics
 ///
-/// As [`train`].
+/// See [`train`].
 pub fn resume<T: Real>(
     state: State<T>,
     rows: &Rows,
@@ -337,7 +337,7 @@ pub fn resume<T: Real>(
     steps(state, rows, held_out, with, watch, (Vec::new(), (0.0, 0.0)), &mut |_| {})
 }
 
-/// What the looks saw, and the sum and the number of the losses since the last.
+/// The progress at the looks, and the sum and the number of the losses since the last look.
 type Seen = (Vec<Progress>, (f64, f64));
 
 fn steps<T: Real>(
@@ -354,7 +354,7 @@ fn steps<T: Real>(
     state.room(with.batch, &mut chunks);
     let last = if rows.is_empty() { state.step() } else { with.steps };
     loop {
-        // Training that goes on has looked at its first step.
+        // Training that resumes has looked at its first step.
         let has_looked = history.last().is_some_and(|seen| seen.step == state.step());
         if !has_looked && (state.step().is_multiple_of(with.every.max(1)) || state.step() >= last) {
             let seen = if held_out.is_empty() { None } else { Some(state.look(held_out, with)) };

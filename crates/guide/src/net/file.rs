@@ -2,11 +2,11 @@
 //!
 //! | entry | type and shape |
 //! | --- | --- |
-//! | `weights` | `f32`, all of them, rows padded to eight |
+//! | `weights` | `f32`, all weights, rows padded to eight |
 //! | `features` | `f32`, (features, 2): mean, and one over the deviation |
 //! | metadata `niwaki` | JSON: the version of this format, the form, and the caller's text |
 //!
-//! The same network and text give the same bytes.
+//! Equal networks and texts give equal bytes.
 
 use super::form::{Layout, NetForm};
 use super::pass::Net;
@@ -18,10 +18,10 @@ use std::fmt;
 
 /// The version of the format.
 const VERSION: u32 = 1;
-/// A file has at most so many weights: what a form claims is checked before memory is reserved for it.
+/// Most weights of a file: the size in a form is checked before memory is reserved for it.
 const LARGEST: usize = 1 << 28;
 
-/// What is wrong with the bytes of a network.
+/// The fault in the bytes of a network, as a sentence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadFile(String);
 
@@ -34,12 +34,12 @@ impl fmt::Display for BadFile {
 impl std::error::Error for BadFile {}
 
 impl BadFile {
-    pub(crate) fn new(what: String) -> BadFile {
-        BadFile(what)
+    pub(crate) fn new(fault: String) -> BadFile {
+        BadFile(fault)
     }
 }
 
-/// The metadata.
+/// The metadata of a file.
 #[derive(Serialize, Deserialize)]
 struct About<F> {
     version: u32,
@@ -47,15 +47,15 @@ struct About<F> {
     text: String,
 }
 
-/// The entry of the metadata.
+/// The name of the metadata's entry.
 const ENTRY: &str = "niwaki";
 
-/// A network and a text of the caller's as bytes.
+/// The bytes of a network with a text of the caller.
 pub fn write(net: &Net, text: &str) -> Vec<u8> {
     write_as(ENTRY, &net.form, text, &net.weights, &net.features)
 }
 
-/// Bytes of a network of any kind; `entry` of the metadata says which.
+/// The bytes of a network; `entry` names its kind in the metadata.
 pub(crate) fn write_as<F: Serialize>(
     entry: &str,
     form: &F,
@@ -74,12 +74,12 @@ pub(crate) fn write_as<F: Serialize>(
         ("weights", view(vec![weights.len()], &weights_bytes)),
     ];
     let json = serde_json::to_string(&about).expect("plain data");
-    // One entry: several would be written in an order that changes.
+    // A single entry, since the order of several would vary.
     let metadata = HashMap::from([(entry.to_owned(), json)]);
     safetensors::serialize(tensors, Some(metadata)).expect("two small tensors")
 }
 
-/// The form and the text of a network's bytes; `None` without this entry.
+/// The form and the text in a network's bytes; `None` if the metadata lacks this entry.
 pub(crate) fn read_form<F: DeserializeOwned>(
     entry: &str,
     bytes: &[u8],
@@ -92,9 +92,9 @@ pub(crate) fn read_form<F: DeserializeOwned>(
     let version =
         serde_json::from_str::<serde_json::Value>(json).ok().and_then(|v| v.get("version")?.as_u64());
     if version != Some(VERSION.into()) {
-        let found = version.map_or("none".into(), |v| v.to_string());
+        let written_in = version.map_or("none".into(), |v| v.to_string());
         return Err(BadFile(format!(
-            "written in version {found} of the format; this engine reads version {VERSION}"
+            "written in version {written_in} of the format; this engine reads version {VERSION}"
         )));
     }
     let About { form, text, .. } = serde_json::from_str(json)
@@ -102,14 +102,14 @@ pub(crate) fn read_form<F: DeserializeOwned>(
     Ok(Some((form, text)))
 }
 
-/// So many weights, and the features, of a network's bytes.
+/// The weights and the features in a network's bytes, as many as these numbers.
 #[expect(clippy::type_complexity, reason = "the two tensors of the file")]
 pub(crate) fn read_numbers(
     bytes: &[u8],
     weights: usize,
     features: usize,
 ) -> Result<(Vec<f32>, Vec<(f32, f32)>), BadFile> {
-    let bad = |what: String| BadFile(what);
+    let bad = |fault: String| BadFile(fault);
     if weights > LARGEST {
         return Err(bad(format!("a network of {weights} weights is too large")));
     }
@@ -118,9 +118,9 @@ pub(crate) fn read_numbers(
     let numbers = |name: &str, shape: &[usize]| {
         let tensor = tensors.tensor(name).map_err(|_| bad(format!("there is no tensor `{name}`")))?;
         if tensor.dtype() != Dtype::F32 || tensor.shape() != shape {
-            let (kind, found) = (tensor.dtype(), tensor.shape());
+            let (kind, actual) = (tensor.dtype(), tensor.shape());
             return Err(bad(format!(
-                "`{name}` is {kind:?} of shape {found:?}; its network needs F32 of {shape:?}"
+                "`{name}` is {kind:?} of shape {actual:?}; its network needs F32 of {shape:?}"
             )));
         }
         let numbers: Vec<f32> =
@@ -135,7 +135,7 @@ pub(crate) fn read_numbers(
     Ok((weights, features))
 }
 
-/// The network and the text of some bytes.
+/// The network and the text in some bytes.
 pub fn read(bytes: &[u8]) -> Result<(Net, String), BadFile> {
     let Some((form, text)) = read_form::<NetForm>(ENTRY, bytes)? else {
         return Err(BadFile("a safetensors file, but not a guide: it has no entry `niwaki`".into()));
@@ -156,7 +156,7 @@ pub fn read(bytes: &[u8]) -> Result<(Net, String), BadFile> {
 
 #[cfg(test)]
 mod tests {
-    //! A network comes back from its bytes; damaged bytes give a message, never a panic.
+    //! Networks survive writing and reading; damaged bytes give a message, never a panic.
     use super::*;
     use crate::heads::Head;
 
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_network_comes_back_with_its_text() {
+    fn networks_and_texts_survive_writing_and_reading() {
         let net = net();
         let bytes = write(&net, "vines \"1\"");
         assert_eq!(bytes, write(&net, "vines \"1\""));

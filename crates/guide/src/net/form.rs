@@ -1,4 +1,4 @@
-//! Inputs, sizes and heads of a network, and where each of its weights stands.
+//! Inputs, sizes and heads of a network, and the places of its weights.
 
 use crate::heads::Head;
 use serde::{Deserialize, Serialize};
@@ -7,16 +7,16 @@ use std::ops::Range;
 /// Rows of weights are padded with zeros to a multiple of this, so that the compiler vectorises sums over them.
 pub(crate) const LANES: usize = 8;
 
-/// What a network reads and answers.
+/// The inputs and outputs of a network.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NetForm {
-    /// How many numbers windows have.
+    /// The length of windows.
     pub windows: usize,
-    /// How many features there are, over all sites.
+    /// The number of features, over all sites.
     pub features: usize,
     /// Sizes of the two hidden layers.
     pub hidden: [usize; 2],
-    /// The head of each site; a site is its place here.
+    /// The head of each site; a site's number is its index here.
     pub heads: Vec<Head>,
 }
 
@@ -27,22 +27,22 @@ impl NetForm {
     }
 }
 
-/// Where the weights stand in one list. A row holds the weights that leave one input, padded to [`LANES`].
+/// The places of weights in one list. A row holds the weights that leave one input, padded to [`LANES`].
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Layout {
     /// Padded sizes of the hidden layers.
     pub(crate) width: [usize; 2],
-    /// Rows of the windows, features and sites, then the constants of the first layer.
+    /// Start of the rows of windows, features and sites, then of the first layer's constants.
     pub(crate) windows: usize,
     pub(crate) features: usize,
     pub(crate) sites: usize,
     pub(crate) first: usize,
-    /// Rows of the second layer, then its constants.
+    /// Start of the second layer's rows, then of its constants.
     pub(crate) second: usize,
     pub(crate) second_constants: usize,
-    /// Of each site: where its rows begin, where its constants do, and the padded number of outputs.
+    /// For each site, the start of its rows, the start of its constants, and the padded number of outputs.
     pub(crate) heads: Vec<(usize, usize, usize)>,
-    /// How many there are.
+    /// The number of weights.
     pub(crate) len: usize,
 }
 

@@ -8,9 +8,9 @@
 //!
 //! | file | what it holds |
 //! | --- | --- |
-//! | `real` | the numbers it computes with: `f32`, and `f64` for tests |
-//! | `form` | [`NetForm`]: its inputs, sizes and heads, and where each weight stands |
-//! | `pass` | [`Net`]: from inputs to outputs |
+//! | `real` | the numbers of its computations: `f32`, and `f64` for tests |
+//! | `form` | [`NetForm`]: its inputs, sizes and heads, and the places of its weights |
+//! | `pass` | [`Net`]: its way from inputs to outputs |
 //! | `file` | its bytes, in the safetensors format |
 
 mod file;

@@ -1,10 +1,10 @@
-//! From inputs to outputs.
+//! A network's way from inputs to outputs.
 
 use super::form::{LANES, Layout, NetForm};
 use super::real::Real;
 use niwaki_math::Stream;
 
-/// A feature is held within so many deviations of its mean.
+/// Largest distance of a feature from its mean, in deviations.
 const FARTHEST: f64 = 10.0;
 
 /// A network.
@@ -12,11 +12,11 @@ const FARTHEST: f64 = 10.0;
 pub struct Net<T: Real = f32> {
     pub(crate) form: NetForm,
     pub(crate) layout: Layout,
-    /// All weights, as [`Layout`] has them. Those of windows apply to windows as they come.
+    /// All weights, in the order of [`Layout`]. The weights of windows apply to windows without standardisation.
     pub(crate) weights: Vec<T>,
-    /// Mean of each feature, and one over its deviation: zero for one that training did not see change.
+    /// Mean of each feature, and one over its deviation: zero for a feature that never changed in training.
     pub(crate) features: Vec<(T, T)>,
-    /// Whether it was never trained.
+    /// Whether the network was never trained.
     pub(crate) fresh: bool,
 }
 
@@ -31,7 +31,7 @@ pub struct Scratch<T: Real = f32> {
     pub(crate) outputs: Vec<T>,
 }
 
-/// Adds to `sums` the rows times the inputs, the first input first: the order of additions is the same in every lane
+/// Adds to `sums` the rows times the inputs, the first input first: the order of additions is equal in every lane
 /// and on every machine.
 #[inline(always)]
 pub(crate) fn add_rows<T: Real>(sums: &mut [T], rows: &[T], inputs: &[T]) {
@@ -47,18 +47,18 @@ pub(crate) fn add_rows<T: Real>(sums: &mut [T], rows: &[T], inputs: &[T]) {
     }
 }
 
-/// So many lanes of [`add_rows`], held in registers.
+/// Computes `N` lanes of [`add_rows`], held in registers.
 #[inline(always)]
 fn add_block<T: Real, const N: usize>(sums: &mut [T], rows: &[T], inputs: &[T], at: usize, width: usize) {
-    let mut held = [T::ZERO; N];
-    held.copy_from_slice(&sums[at..at + N]);
+    let mut lanes = [T::ZERO; N];
+    lanes.copy_from_slice(&sums[at..at + N]);
     for (row, x) in rows.chunks_exact(width).zip(inputs) {
         let row = &row[at..at + N];
         for lane in 0..N {
-            held[lane] += row[lane] * *x;
+            lanes[lane] += row[lane] * *x;
         }
     }
-    sums[at..at + N].copy_from_slice(&held);
+    sums[at..at + N].copy_from_slice(&lanes);
 }
 
 /// The hyperbolic tangent of each number.
@@ -72,7 +72,7 @@ pub(crate) fn squash<T: Real>(numbers: &mut [T]) {
 }
 
 impl<T: Real> Net<T> {
-    /// A network before training: the guide equals the prior, or nearly so for mixtures of Gaussians, whatever it sees.
+    /// A network before training: for any input, the guide equals the prior, or nearly so for mixtures of Gaussians.
     ///
     /// # Panics
     ///
@@ -83,7 +83,7 @@ impl<T: Real> Net<T> {
         let layout = Layout::new(&form);
         let mut weights = vec![T::ZERO; layout.len];
         let mut stream = Stream::new(seed, 0, 0, 0);
-        // Gaussian weights whose sum over standardised inputs has variance 1; a site's constants are smaller.
+        // Gaussian weights whose sum over standardised inputs has variance 1; the constants of sites are smaller.
         let mut fill = |block: usize, rows: usize, used: usize, width: usize, sd: f64| {
             for k in 0..rows {
                 let row = &mut weights[Layout::row(block, k, width)][..used];
@@ -105,12 +105,12 @@ impl<T: Real> Net<T> {
         Net { form, layout, weights, features, fresh: true }
     }
 
-    /// What it reads and answers.
+    /// The form: inputs and outputs.
     pub fn form(&self) -> &NetForm {
         &self.form
     }
 
-    /// How many weights it has, without padding.
+    /// The number of weights, without padding.
     pub fn size(&self) -> usize {
         let [first, second] = self.form.hidden;
         let inputs = self.form.windows + self.form.features + self.form.heads.len();
@@ -118,7 +118,7 @@ impl<T: Real> Net<T> {
         (inputs + 1) * first + (first + 1) * second + heads
     }
 
-    /// The same network in other numbers.
+    /// Converts the network to another type of numbers.
     pub fn convert<U: Real>(&self) -> Net<U> {
         let number = |x: &T| U::from_f64(x.to_f64());
         Net {
@@ -130,11 +130,11 @@ impl<T: Real> Net<T> {
         }
     }
 
-    /// The first layer's sums over a window, written to `sums`: computed once while place and scene stay the same.
+    /// Writes the first layer's sums over a window to `sums`; computed once while place and scene stay unchanged.
     ///
     /// # Panics
     ///
-    /// If the window has another length than the form says.
+    /// If the length of the window is not that of the form.
     pub fn see(&self, window: &[T], sums: &mut Vec<T>) {
         assert_eq!(window.len(), self.form.windows, "numbers of a window");
         let (layout, width) = (&self.layout, self.layout.width[0]);
@@ -143,7 +143,7 @@ impl<T: Real> Net<T> {
         add_rows(sums, &self.weights[layout.windows..layout.features], window);
     }
 
-    /// A feature's standardised value: zero for one that is not a finite number.
+    /// A feature's standardised value: zero if the value is not finite.
     #[inline(always)]
     pub(crate) fn standardised(&self, feature: u32, value: T) -> T {
         let (mean, scale) = self.features[feature as usize];
@@ -152,12 +152,12 @@ impl<T: Real> Net<T> {
         if x.to_f64().is_nan() { T::ZERO } else { x.clamp(-bound, bound) }
     }
 
-    /// Outputs of a site's head. `sums` are those that [`Net::see`] wrote; `features` are (number, value as it is), and
-    /// those that are not given count as at their mean.
+    /// Outputs of a site's head. `sums` are the sums from [`Net::see`]; `features` are (number, raw value), and
+    /// a missing feature counts as its mean.
     ///
     /// # Panics
     ///
-    /// If there is no such site or feature, or `sums` are of another network.
+    /// If there is no such site or feature, or `sums` come from another network.
     #[inline]
     pub fn answer<'s>(
         &self,
@@ -175,11 +175,11 @@ impl<T: Real> Net<T> {
         &outputs[..self.form.heads[site].outputs()]
     }
 
-    /// The second hidden layer at a site, each number between -1 and 1; all as for [`Net::answer`].
+    /// The second hidden layer at a site, each number between -1 and 1; parameters as for [`Net::answer`].
     ///
     /// # Panics
     ///
-    /// As [`Net::answer`].
+    /// See [`Net::answer`].
     #[inline]
     pub fn hidden<'s>(
         &self,

@@ -1,10 +1,10 @@
-//! The numbers a network computes with.
+//! The numbers of a network's computations.
 
 use std::fmt::Debug;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
-/// `f32`, or `f64` where digits matter more than time.
+/// `f32`, or `f64` if digits matter more than time.
 pub trait Real:
     Copy
     + Debug
@@ -26,15 +26,15 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
-    /// The nearest number.
+    /// The nearest number of this type.
     fn from_f64(x: f64) -> Self;
-    /// The same number.
+    /// The number as an `f64`.
     fn to_f64(self) -> f64;
     /// Square root.
     fn sqrt(self) -> Self;
     /// The number within two bounds.
     fn clamp(self, lo: Self, hi: Self) -> Self;
-    /// Hyperbolic tangent, the same bits on every machine.
+    /// Hyperbolic tangent, with equal bits on every machine.
     fn tanh(self) -> Self;
 }
 
@@ -58,9 +58,9 @@ impl Real for f32 {
     fn clamp(self, lo: f32, hi: f32) -> f32 {
         f32::clamp(self, lo, hi)
     }
-    /// A quotient of polynomials in the square, fitted to the smallest largest error on `[0, 8]`; from there on tanh is 1 to
-    /// all digits of an `f32` but the last. Within 4e-7 of tanh, and vectorised by the compiler: additions,
-    /// multiplications and one division, which every machine rounds alike.
+    /// A quotient of polynomials in the square, fitted to minimise the largest error on `[0, 8]`; from there on tanh is 1 to
+    /// all digits of an `f32` but the last. The error is below 4e-7. The compiler vectorises the additions,
+    /// multiplications and the division, which every machine rounds alike.
     #[inline(always)]
     fn tanh(self) -> f32 {
         const UP: [f32; 5] = [0.999_999_97, 0.134_381_89, 3.564_153e-3, 2.177_319_7e-5, 1.506_174_2e-8];

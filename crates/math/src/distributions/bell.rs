@@ -1,4 +1,4 @@
-//! The bell curve: gaussian, and log_normal, whose logarithm it is.
+//! The bell curve: gaussian, and log_normal, whose logarithm is gaussian.
 
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
@@ -13,14 +13,14 @@ pub(super) fn gaussian_log_density<S: Scalar>(mean: S, sd: S, x: S) -> S {
     gaussian_log_density_with(mean, sd, sd.ln(), x)
 }
 
-/// [`gaussian_log_density`], the logarithm of the deviation known.
+/// [`gaussian_log_density`] for a known logarithm of the deviation.
 #[inline(always)]
 pub(super) fn gaussian_log_density_with<S: Scalar>(mean: S, sd: S, log_sd: S, x: S) -> S {
     let z = (x - mean) / sd;
     S::from_f64(-0.5) * z * z - log_sd - S::from_f64(HALF_LN_TAU)
 }
 
-/// A standard Gaussian by the kept ziggurat, moved and scaled.
+/// A draw of `rand_distr`'s ziggurat, moved and scaled.
 #[inline]
 pub(super) fn gaussian_sample(mean: f64, sd: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let z: f64 = StandardNormal.sample(rng);
@@ -37,14 +37,14 @@ pub(super) fn log_normal_log_density<S: Scalar>(mean: S, sd: S, x: S) -> S {
     gaussian_log_density(mean, sd, log) - log
 }
 
-/// Whether every draw has a score. Its logarithm is rounded, and at most 745 for the largest number of 64 bits, which stands
-/// for what is beyond; the square of what is between it and `mean`, in units of `sd`, must be a number.
+/// Whether every draw has a score. The logarithm of a draw is rounded, and at most 745 for the largest number of 64 bits, which
+/// stands for all draws beyond. The square of its distance from `mean`, in units of `sd`, must be a number.
 #[inline]
 pub(super) fn log_normal_has_scores<S: Scalar>(mean: S, sd: S) -> bool {
     (mean.abs() + S::from_f64(745.0)) / sd <= S::from_f64(1e150)
 }
 
-/// e to a Gaussian.
+/// The exponential of a Gaussian draw.
 #[inline]
 pub(super) fn log_normal_sample(mean: f64, sd: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     gaussian_sample(mean, sd, rng).exp().clamp(f64::MIN_POSITIVE, f64::MAX)
@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mean_whose_draws_have_no_score_is_refused() {
+    fn means_whose_draws_have_no_score_are_refused() {
         let new = |mean, sd| Dist::new(Family::LogNormal, &[Param::Real(mean), Param::Real(sd)]);
         assert!(new(1e277, 2.4).is_err() && Dist::of_reals(Family::LogNormal, -1e277, 2.4).is_none());
         for (mean, sd) in [(1e100, 1.0), (-1e149, 1.0), (-700.0, 1e-10), (0.3, 1e-147)] {

@@ -1,4 +1,4 @@
-//! Reading parameters: each is checked once, when a distribution is built; all refusals are [`BadParameter`].
+//! Reads and checks parameters, once when a distribution is built; every refusal is a [`BadParameter`].
 
 use super::draw::Draw;
 use super::family::Dist;
@@ -14,18 +14,18 @@ pub struct BadParameter {
     pub family: Family,
     /// The parameter's name.
     pub parameter: &'static str,
-    /// The given value as text.
-    pub found: String,
+    /// The value of the parameter, as text.
+    pub value: String,
     /// The expected values.
     pub expected: &'static str,
-    /// Whether its kind and shape are right, and only its numbers are wrong.
+    /// Whether kind and shape are right, and only the numbers are wrong.
     pub out_of_range: bool,
 }
 
 impl fmt::Display for BadParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let BadParameter { family, parameter, found, expected, .. } = self;
-        write!(f, "`{parameter}` of {family} is {found}, expected {expected}")
+        let BadParameter { family, parameter, value, expected, .. } = self;
+        write!(f, "`{parameter}` of {family} is {value}, expected {expected}")
     }
 }
 
@@ -40,18 +40,18 @@ pub(super) struct Reader<'a, S: Scalar> {
 type Checked<T> = Result<T, BadParameter>;
 
 impl<'a, S: Scalar> Reader<'a, S> {
-    /// Fails when there are more or fewer parameters than the family has.
+    /// Fails if there are more or fewer parameters than the family has.
     #[inline]
     pub fn new(family: Family, params: &'a [Param<S>]) -> Checked<Self> {
         let names = family.parameters();
         if let Some(parameter) = names.get(params.len()) {
-            let (found, expected) = ("missing".to_string(), "a value");
-            return Err(BadParameter { family, parameter, found, expected, out_of_range: false });
+            let (value, expected) = ("missing".to_string(), "a value");
+            return Err(BadParameter { family, parameter, value, expected, out_of_range: false });
         }
         if params.len() > names.len() {
-            let found = format!("followed by {} more", params.len() - names.len());
+            let value = format!("followed by {} more", params.len() - names.len());
             let (parameter, expected) = (names[names.len() - 1], "no more parameters");
-            return Err(BadParameter { family, parameter, found, expected, out_of_range: false });
+            return Err(BadParameter { family, parameter, value, expected, out_of_range: false });
         }
         Ok(Reader { family, params })
     }
@@ -60,8 +60,8 @@ impl<'a, S: Scalar> Reader<'a, S> {
     #[cold]
     pub fn refuse<T>(&self, k: usize, expected: &'static str) -> Checked<T> {
         let (family, parameter) = (self.family, self.family.parameters()[k]);
-        let found = self.params[k].to_string();
-        Err(BadParameter { family, parameter, found, expected, out_of_range: true })
+        let value = self.params[k].to_string();
+        Err(BadParameter { family, parameter, value, expected, out_of_range: true })
     }
 
     /// The error of parameter `k`, which has another kind or shape: no number is valid in its place.

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 /// `k cos(x - mean) - ln(2 pi I_0(k))` for angles within half a turn of zero.
 ///
-/// Written relative to its peak, `-2 k sin^2((x - mean) / 2) - ln(2 pi exp(-k) I_0(k))`, so that a large `k`
+/// The density is written relative to its peak, `-2 k sin^2((x - mean) / 2) - ln(2 pi exp(-k) I_0(k))`, so that a large `k`
 /// loses no digits.
 #[inline(never)]
 pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
@@ -19,7 +19,7 @@ pub(super) fn log_density<S: Scalar>(mean: S, concentration: S, x: S) -> S {
 
 /// Best & Fisher 1979, section 2, in which the wrapped Cauchy proposal has `s = (1 + sqrt(1 + 4 k^2)) / (2 k)`.
 ///
-/// Differs: everything is written with `s - 1`, `1 - cos` and `1 - f`, which stay exact for any `k`.
+/// This code writes everything with `s - 1`, `1 - cos` and `1 - f`, which stay exact for any `k`.
 #[inline(never)]
 pub(super) fn sample(mean: f64, concentration: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let k = concentration;
@@ -27,7 +27,7 @@ pub(super) fn sample(mean: f64, concentration: f64, rng: &mut (impl RngCore + ?S
         return TAU * open_unit(rng) - PI;
     }
     let root = 1.0_f64.hypot(2.0 * k);
-    // Halves, because `2 k` may be beyond all numbers.
+    // Halves, because `2 k` may overflow.
     let above_one = (0.5 + 0.5 / (root + 2.0 * k)) / k;
     let angle = loop {
         let half_sin = (0.5 * PI * open_unit(rng)).sin();
@@ -43,7 +43,7 @@ pub(super) fn sample(mean: f64, concentration: f64, rng: &mut (impl RngCore + ?S
     wrap(mean + signed)
 }
 
-/// The same angle within half a turn of zero.
+/// The angle moved by whole turns to within half a turn of zero.
 fn wrap(angle: f64) -> f64 {
     let turn = angle - TAU * (angle / TAU).round();
     turn.clamp(-PI, PI)

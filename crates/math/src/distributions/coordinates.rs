@@ -1,4 +1,4 @@
-//! Coordinates without bounds: maps a real number with bounds to the line and back, and moves it in small steps there.
+//! Coordinates without bounds: maps of a bounded real number to the line and back, and small moves of it on the line.
 //!
 //! With `s(v) = 1 / (1 + exp(-v))`:
 //!
@@ -13,7 +13,7 @@
 //! | vectors | `v` | 0 |
 //!
 //! Gradient methods use the coordinate ([`Interval::value`]); a single small move multiplies the distances from the
-//! bounds instead ([`Interval::moved`]), so that it loses no digits. Where the numbers of 64 bits end, see [`super::ends`].
+//! bounds instead ([`Interval::moved`]), so that it loses no digits. See [`super::ends`] for the ends of the numbers of 64 bits.
 
 use super::draw::Draw;
 use super::space::Space;
@@ -21,7 +21,7 @@ use super::support::Support;
 use crate::scalar::Scalar;
 use std::f64::consts::PI;
 
-/// Real numbers between two bounds, each of which may be missing.
+/// Real numbers between two optional bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval<S = f64> {
     /// Lower bound.
@@ -37,21 +37,21 @@ pub struct Placed<S> {
     pub value: S,
     /// Log of dx/dv, without the width.
     pub log_slope: S,
-    /// Between two bounds: log of the width, which is to be added, and of the share `s(v)`.
+    /// Between two bounds: the log of the width, which the caller must add, and the log of the share `s(v)`.
     pub between: Option<(S, S)>,
 }
 
 /// `1 / (1 + exp(-v))`.
 pub fn logistic<S: Scalar>(v: S) -> S {
-    let one = S::from_f64(1.0);
-    one / (one + (-v).exp())
+    let unity = S::from_f64(1.0);
+    unity / (unity + (-v).exp())
 }
 
 impl<S: Scalar> Interval<S> {
     /// All real numbers.
     pub const LINE: Interval<S> = Interval { lo: None, hi: None };
 
-    /// The coordinate of a number; of a bound that of the last number inside.
+    /// The coordinate of a number; a bound has the coordinate of the last number inside.
     pub fn coordinate(&self, x: f64) -> f64 {
         let bounds = Interval { lo: self.lo.map(S::value), hi: self.hi.map(S::value) };
         if bounds == Interval::LINE {
@@ -65,7 +65,7 @@ impl<S: Scalar> Interval<S> {
             (None, Some(hi)) => (hi - x).ln(),
             (Some(lo), Some(hi)) => {
                 let share = (x - lo) / (hi - lo);
-                // Of a share that rounds to one the distance from the bound has the digits.
+                // If the share rounds to one, the distance from the bound has the digits.
                 if share < 1.0 { share.ln() - (-share).ln_1p() } else { (x - lo).ln() - (hi - x).ln() }
             }
         }
@@ -90,7 +90,7 @@ impl<S: Scalar> Interval<S> {
 }
 
 impl Interval {
-    /// A number whose coordinate moves by `z`, and the log densities of the move and its reverse, up to common terms:
+    /// A number moved by `z` in its coordinate, and the log densities of the move and its reverse, up to common terms:
     /// minus the logs of dx/dv.
     pub fn moved(&self, x: f64, z: f64) -> (f64, f64, f64) {
         match (self.lo, self.hi) {
@@ -117,8 +117,8 @@ impl Interval {
 }
 
 impl Space {
-    /// The coordinates in which a value may move whatever the parameters are: with bounds that depend on them it moves
-    /// on the line. `None` of discrete values.
+    /// The coordinates in which a value may move for any parameters: on the line if the bounds depend on parameters.
+    /// `None` for discrete values.
     pub fn coordinates(self) -> Option<Support> {
         match self {
             Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => None,
@@ -134,8 +134,8 @@ impl Space {
 }
 
 impl Support {
-    /// A value each of whose coordinates moves by its own `z`, and the log densities of the move and its reverse, up to
-    /// common terms. `None` for a value of another kind, and for a discrete one.
+    /// A value moved by a separate `z` in each coordinate, and the log densities of the move and its reverse, up to
+    /// common terms. `None` for a value of another kind, and for a discrete value.
     pub fn moved(&self, old: &Draw, mut z: impl FnMut() -> f64) -> Option<(Draw, f64, f64)> {
         match (self, old) {
             (Support::Reals(interval), Draw::Real(x)) => {
@@ -166,7 +166,7 @@ impl Support {
 
 #[cfg(test)]
 mod tests {
-    //! Coordinates are invertible, and their slopes are those of differences; the same for moves.
+    //! Coordinates are invertible, and their slopes agree with differences; moves too.
     use super::*;
 
     #[test]

@@ -1,8 +1,8 @@
 //! Counts of events: poisson, binomial.
 //!
 //! With `k` events, the log probabilities are differences of terms that grow like `k ln k`. Loader's form
-//! ("Fast and accurate computation of binomial probabilities", 2000) has no such terms: with the deviance
-//! `D(x, m) = x ln(x / m) + m - x` and the error `e` of Stirling's formula,
+//! ("Fast and accurate computation of binomial probabilities", 2000) avoids such terms. It uses the deviance
+//! `D(x, m) = x ln(x / m) + m - x` and the error `e` of Stirling's formula:
 //!
 //! ```text
 //! ln poisson(k; r)     = -e(k) - D(k, r) - ln(2 pi k) / 2
@@ -14,7 +14,7 @@ use crate::streams::RngCore;
 use rand_distr::Distribution;
 use std::f64::consts::TAU;
 
-/// Rates above this would draw counts that do not fit an integer.
+/// Largest rate: above it, counts would not fit into an integer.
 pub(super) const LARGEST_RATE: f64 = 1e15;
 
 /// `ln k! - (k ln k - k + ln(2 pi k) / 2)`, the error of Stirling's formula.
@@ -60,7 +60,7 @@ pub(super) fn poisson_log_density<S: Scalar>(rate: S, k: i64) -> S {
     -deviance(k, rate) - S::from_f64(stirling_error(k) + 0.5 * (TAU * k).ln())
 }
 
-/// The kept sampler's draw.
+/// A draw of `rand_distr`'s sampler.
 #[inline(never)]
 #[expect(clippy::cast_possible_truncation, reason = "counts beyond the largest integer are replaced by it")]
 pub(super) fn poisson_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
@@ -75,7 +75,7 @@ pub(super) fn binomial_log_density<S: Scalar>(n: i64, p: S, k: i64) -> S {
         return never;
     }
     let (successes, failures, trials) = (k as f64, (n - k) as f64, n as f64);
-    // All or nothing: the powers alone, leaving out 0 * ln 0.
+    // With 0 or `n` successes only one power is left; the other term would be 0 * ln 0.
     if k == 0 || k == n {
         let some = if k == 0 { (-p).ln_1p() } else { p.ln() };
         return if n == 0 { S::from_f64(0.0) } else { S::from_f64(trials) * some };
@@ -83,13 +83,13 @@ pub(super) fn binomial_log_density<S: Scalar>(n: i64, p: S, k: i64) -> S {
     if p.value() <= 0.0 || p.value() >= 1.0 {
         return never;
     }
-    let (one, size) = (S::from_f64(1.0), S::from_f64(trials));
+    let (unity, size) = (S::from_f64(1.0), S::from_f64(trials));
     let fixed = stirling_error(trials) - stirling_error(successes) - stirling_error(failures)
         + 0.5 * (trials / (TAU * successes * failures)).ln();
-    S::from_f64(fixed) - deviance(successes, size * p) - deviance(failures, size * (one - p))
+    S::from_f64(fixed) - deviance(successes, size * p) - deviance(failures, size * (unity - p))
 }
 
-/// The kept sampler's draw.
+/// A draw of `rand_distr`'s sampler.
 #[inline(never)]
 pub(super) fn binomial_sample(n: i64, p: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
     rand_distr::Binomial::new(n.max(0) as u64, p).map_or(0, |d| d.sample(rng) as i64)

@@ -1,7 +1,6 @@
-//! What each family does: building (with checks), scoring, drawing.
+//! Operations of the families: building (with checks), scoring, drawing.
 //!
-//! Expensive families are not inlined (`inline(never)`): inlined, they would slow down every choice by their use of
-//! registers.
+//! Expensive families are not inlined (`inline(never)`), since their use of registers would slow down every choice.
 
 use super::check::{BadParameter, Reader};
 use super::draw::Draw;
@@ -19,7 +18,7 @@ use std::sync::Arc;
 
 impl<S: Scalar> Dist<S> {
     /// The distribution of two real parameters, for the families that models build at every choice; `None`
-    /// where [`Dist::new`] would refuse them, and for any other family.
+    /// if [`Dist::new`] would refuse the parameters, and for other families.
     #[inline]
     pub fn of_reals(family: Family, a: S, b: S) -> Option<Dist<S>> {
         let positive = |x: S| x > S::from_f64(0.0) && x.is_finite();
@@ -38,8 +37,8 @@ impl<S: Scalar> Dist<S> {
         Some(dist)
     }
 
-    /// The log density at `x` of [`Dist::of_reals`] of the parameters, without building it;
-    /// for the families that are observed most often.
+    /// The log density at `x` of a distribution with these parameters, without building it; for the families that are
+    /// observed most often.
     #[inline(always)]
     pub fn log_density_of_reals(family: Family, a: S, b: S, x: S, logs: &mut LastLog<S>) -> Option<S> {
         let zero = S::from_f64(0.0);
@@ -51,7 +50,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// The distribution of this family with these parameters, or the error in them.
+    /// The distribution of this family with these parameters, or the error of a bad parameter.
     pub fn new(family: Family, params: &[Param<S>]) -> Result<Dist<S>, BadParameter> {
         let r = Reader::new(family, params)?;
         Ok(match family {
@@ -126,7 +125,7 @@ impl<S: Scalar> Dist<S> {
             Family::Dirichlet => {
                 const EXPECTED: &str = "finite numbers above zero, at least one";
                 let concentrations = r.vector_where(0, EXPECTED, |x| x > S::from_f64(0.0))?;
-                // The logarithm of the gamma function, and so the density, overflows beyond.
+                // Beyond, the logarithm of the gamma function overflows, and so the density.
                 if concentrations.iter().map(|a| a.value()).sum::<f64>() > vectors::MOST_CONCENTRATED {
                     return r.refuse(0, "numbers above zero, whose sum is at most 1e300");
                 }
@@ -138,9 +137,9 @@ impl<S: Scalar> Dist<S> {
             Family::DiagonalGaussian => Dist::DiagonalGaussian(Arc::new(DiagonalGaussian::read(&r)?)),
             Family::Multinomial => Dist::Multinomial(Arc::new(Multinomial::read(&r)?)),
             Family::MultivariateBernoulli => {
-                let one = S::from_f64(1.0);
-                let expected = "numbers from 0 to 1, at least one";
-                let ps = r.vector_where(0, expected, |p| p >= S::from_f64(0.0) && p <= one)?;
+                let unity = S::from_f64(1.0);
+                let expected = "numbers from 0 to 1, at least unity";
+                let ps = r.vector_where(0, expected, |p| p >= S::from_f64(0.0) && p <= unity)?;
                 Dist::MultivariateBernoulli(ps.into())
             }
             Family::Mixture => Dist::Mixture(Arc::new(Mixture::read(&r)?)),
@@ -148,7 +147,7 @@ impl<S: Scalar> Dist<S> {
         })
     }
 
-    /// Bytes that its parameters take beside it. Parameters that are shared count for each distribution.
+    /// Bytes of the parameters outside the enum itself. Shared parameters count for each distribution.
     pub fn bytes(&self) -> usize {
         let real = size_of::<S>();
         let weights = |w: &Weights<S>| 64 + w.len() * (2 * real + size_of::<f64>());
@@ -161,7 +160,7 @@ impl<S: Scalar> Dist<S> {
                 let n = g.mean.len();
                 128 + n * (2 * size_of::<Vec<S>>() + real) + (n * n + n * (n + 1) / 2) * real
             }
-            // Mixtures are flat: a component is no mixture.
+            // Mixtures are flat: no component is a mixture.
             Dist::Mixture(m) => {
                 let component = |dist: &Dist<S>| size_of::<Dist<S>>() + dist.bytes();
                 32 + weights(&m.weights) + m.components.iter().map(component).sum::<usize>()
@@ -175,7 +174,7 @@ impl<S: Scalar> Dist<S> {
 
     /// Log density of `x`, nats; minus infinity outside the support and for values of another kind.
     ///
-    /// Kinds are Python's: 1 is accepted for 1.0 or true, and 3.0 for 3.
+    /// Kinds count as in Python: 1 is accepted for 1.0 or true, and 3.0 for 3.
     #[inline]
     pub fn log_density(&self, x: &Draw<S>) -> S {
         let never = S::from_f64(f64::NEG_INFINITY);
@@ -222,7 +221,7 @@ impl<S: Scalar> Dist<S> {
             }
             Dist::Mixture(m) => m.log_density(x),
             Dist::Delta(value) => {
-                if same(value, x) {
+                if are_equal(value, x) {
                     S::from_f64(0.0)
                 } else {
                     never
@@ -231,7 +230,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// [`Dist::log_density`] at a real number; the frequent families without a [`Draw`].
+    /// [`Dist::log_density`] at a real number, without a [`Draw`] for the frequent families.
     #[inline(always)]
     pub fn log_density_of_real(&self, x: S) -> S {
         match self {
@@ -241,7 +240,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// [`Dist::log_density`] at a whole number; the most frequent family without a [`Draw`].
+    /// [`Dist::log_density`] at a whole number, without a [`Draw`] for the most frequent family.
     #[inline(always)]
     pub fn log_density_of_int(&self, k: i64) -> S {
         match self {
@@ -333,8 +332,8 @@ fn interval<S: Scalar>(r: &Reader<'_, S>, k: usize) -> Result<(S, S), BadParamet
     Ok((lo, hi))
 }
 
-/// Equality as in Python: 1 is 1.0 is true.
-fn same<S: Scalar>(a: &Draw<S>, b: &Draw<S>) -> bool {
+/// Equality as in Python: 1 equals 1.0 and true.
+fn are_equal<S: Scalar>(a: &Draw<S>, b: &Draw<S>) -> bool {
     match (a, b) {
         (Draw::Vector(a), Draw::Vector(b)) => a == b,
         (Draw::Int(a), Draw::Int(b)) => a == b,
@@ -344,7 +343,7 @@ fn same<S: Scalar>(a: &Draw<S>, b: &Draw<S>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    //! Parameters are refused with the right messages; parameters give the distribution back.
+    //! Refusals have the right messages, and the parameters of a distribution build it again.
     use super::*;
 
     fn refusal(family: Family, params: &[Param]) -> String {
@@ -385,15 +384,15 @@ mod tests {
                         Param::Dists(_) => continue,
                         _ => Param::Real(bad),
                     };
-                    let refused = Dist::new(family, &params).unwrap_err();
-                    assert_eq!((refused.family, refused.parameter), (family, family.parameters()[k]));
+                    let error = Dist::new(family, &params).unwrap_err();
+                    assert_eq!((error.family, error.parameter), (family, family.parameters()[k]));
                 }
             }
         }
     }
 
     #[test]
-    fn parameters_lead_back_to_the_distribution() {
+    fn parameters_build_the_distribution_again() {
         for &family in Family::ALL {
             let d = super::super::testing::example(family);
             assert_eq!(d.family(), family);
@@ -402,7 +401,7 @@ mod tests {
     }
 
     #[test]
-    fn a_distribution_that_is_not_made_has_the_density_of_one_that_is() {
+    fn densities_from_reals_equal_densities_of_distributions() {
         let mut rng = super::super::testing::stream(98);
         let mut logs = LastLog::default();
         for round in 0..1000 {
@@ -452,8 +451,7 @@ mod tests {
                     built += 1;
                     let x = d.sample(&mut rng);
                     let log = d.log_density(&x);
-                    // The largest float may be so far from the exact draw that not even the
-                    // logarithm of its density is a float.
+                    // The largest float may be so far from the exact draw that even the logarithm of its density is out of range.
                     let last = |x: f64| x.abs() >= f64::MAX || x.abs() <= f64::MIN_POSITIVE;
                     let lost = log == f64::NEG_INFINITY && matches!(x, Draw::Real(x) if last(x));
                     assert!(log.is_finite() || lost, "{d:?} drew {x:?}: {log}");

@@ -22,7 +22,7 @@ pub enum Draw<S = f64> {
 }
 
 impl<S: Scalar> Draw<S> {
-    /// As a truth value. Numbers count as in Python: 1 is true, 0 is false, others are neither.
+    /// The draw as a truth value. As in Python, 1 is true and 0 is false; other numbers are neither.
     #[inline]
     pub fn as_bool(&self) -> Option<bool> {
         match self {
@@ -33,14 +33,14 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
-    /// As a whole number. As in Python, true is 1, and 3.0 is 3.
+    /// The draw as a whole number. As in Python, true is 1, and 3.0 is 3.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "a whole number of at most 2^53")]
     pub fn as_int(&self) -> Option<i64> {
         match self {
             Draw::Int(i) => Some(*i),
             Draw::Bool(b) => Some(i64::from(*b)),
-            // Above 2^53 a float no longer names one whole number.
+            // Above 2^53 a float no longer stands for a single whole number.
             Draw::Real(x) if x.value().fract() == 0.0 && x.value().abs() <= 9_007_199_254_740_992.0 => {
                 Some(x.value() as i64)
             }
@@ -48,7 +48,7 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
-    /// As a real number. As in Python, 3 is 3.0 and true is 1.0.
+    /// The draw as a real number. As in Python, 3 is 3.0 and true is 1.0.
     #[inline]
     pub fn as_real(&self) -> Option<S> {
         match self {
@@ -59,7 +59,7 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
-    /// As a vector.
+    /// The draw as a vector.
     #[inline]
     pub fn as_vector(&self) -> Option<&[S]> {
         match self {
@@ -68,7 +68,7 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
-    /// As whole numbers in a row; kinds are as in [`Draw::as_int`].
+    /// The draw as a list of whole numbers; kinds count as in [`Draw::as_int`].
     pub fn as_counts(&self) -> Option<Vec<i64>> {
         match self {
             Draw::Counts(all) => Some(all.to_vec()),
@@ -78,7 +78,7 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
-    /// As truth values in a row; kinds are as in [`Draw::as_bool`].
+    /// The draw as a list of truth values; kinds count as in [`Draw::as_bool`].
     pub fn as_truths(&self) -> Option<Vec<bool>> {
         match self {
             Draw::Truths(all) => Some(all.to_vec()),
@@ -88,7 +88,7 @@ impl<S: Scalar> Draw<S> {
         }
     }
 
-    /// The same value over another kind of number.
+    /// Converts the draw to another kind of number.
     pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Draw<T> {
         match self {
             Draw::Bool(b) => Draw::Bool(*b),
@@ -125,7 +125,7 @@ fn truth(f: &mut fmt::Formatter<'_>, b: bool) -> fmt::Result {
     f.write_str(if b { "True" } else { "False" })
 }
 
-/// As text, shortened where it is long.
+/// Text of the draw, shortened if it is long.
 impl<S: Scalar> fmt::Display for Draw<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

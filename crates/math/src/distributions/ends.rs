@@ -1,15 +1,15 @@
-//! Ends of intervals: the numbers of 64 bits end before the interval does.
+//! Ends of intervals, where the numbers of 64 bits end before the interval does.
 //!
 //! A value is the nearest number of 64 bits inside its interval, and the last such number at each end stands for everything
-//! beyond it. That may be much: of `gamma(0.001, 1000)` half of the mass is below 1e-305, of `beta(0.1, 0.1)` one part in
-//! eighty above `1 - 1e-16`. So a density at the last number says nothing about its probability. Coordinates without bounds
-//! ([`super::coordinates`]) do not end there, and every kernel takes the density of the coordinate:
+//! beyond it. The mass beyond may be large: half of the mass of `gamma(0.001, 1000)` is below 1e-305, and one part in eighty of
+//! the mass of `beta(0.1, 0.1)` is above `1 - 1e-16`. So a density at the last number says nothing about its probability.
+//! Coordinates without bounds ([`super::coordinates`]) do not end there, and every kernel uses the density of the coordinate:
 //!
 //! * forward runs draw a coordinate and round its number;
-//! * gradient methods move the coordinate; its number is what the program sees ([`Dist::log_density_of_coordinate`]);
-//! * a small move ([`Dist::moved`]) knows the number alone. From the last one it starts at a coordinate that is drawn from
-//!   those which it stands for, with their density. Beyond the last number the program sees one value, so that density is
-//!   the distribution's own, and it falls by a constant `rate` for each unit of the coordinate:
+//! * gradient methods move the coordinate; the program sees its number ([`Dist::log_density_of_coordinate`]);
+//! * a small move ([`Dist::moved`]) knows the number alone. From a last number it starts at a coordinate drawn from those that
+//!   this number stands for, with their density. Beyond the last number the program sees one value, so that density is
+//!   the distribution's alone, and it falls by a constant `rate` for each unit of the coordinate:
 //!
 //! | family | below | above |
 //! | --- | --- | --- |
@@ -19,8 +19,8 @@
 //! | log_normal | a normal | a normal |
 //! | others | 1 | 1 |
 //!
-//! The empty places fall faster than that, and have no mass. Intervals whose bounds are parameters (uniform,
-//! truncated_gaussian) have these for last numbers: their densities are finite there.
+//! The empty table cells fall faster than that, and have no mass. Intervals whose bounds are parameters (uniform,
+//! truncated_gaussian) have the bounds as last numbers: their densities are finite there.
 
 use super::coordinates::Interval;
 use super::draw::Draw;
@@ -34,23 +34,23 @@ use crate::streams::{RngCore, open_unit};
 use rand_distr::{Distribution, Exp1, StandardNormal};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// The coordinates between which `exp` is a normal number.
+/// Least and greatest coordinate whose `exp` is a normal number.
 pub const COORDINATES: (f64, f64) = (-708.0, 709.0);
-/// Positive numbers from here down, and from here up, stand for all that is beyond: e to the power of these coordinates, up
+/// Least and greatest positive number: each stands for all numbers beyond it. They are e to the power of [`COORDINATES`], up
 /// to rounding.
 const LAST: (f64, f64) = (LEAST, 8.218e307);
-/// Shares and positive numbers from here down stand for all that is smaller.
+/// The least share or positive number; it stands for all smaller numbers.
 pub const LEAST: f64 = 3.307_554e-308;
 
 impl Interval {
-    /// The last numbers inside.
+    /// The least and the greatest number inside the interval.
     pub fn inside(&self) -> (f64, f64) {
         let least = |lo: f64| if lo == 0.0 { LAST.0 } else { lo.next_up() };
         let most = |hi: f64| if hi == 0.0 { -LAST.0 } else { hi.next_down() };
         (self.lo.map_or(-LAST.1, least), self.hi.map_or(LAST.1, most))
     }
 
-    /// The coordinate at which a last number, below or above, begins.
+    /// The coordinate at which the last number below or above begins.
     fn begin(&self, (least, most): (f64, f64), above: bool) -> f64 {
         let (at, half) = match above {
             false => (least, 0.5 * (least.next_up() - least)),
@@ -65,7 +65,7 @@ impl Interval {
         }
     }
 
-    /// The nearest number of a coordinate, between the last ones.
+    /// The nearest number of a coordinate, clamped to the last numbers.
     fn nearest(&self, v: f64, (least, most): (f64, f64)) -> f64 {
         let share = |v: f64| 1.0 / (1.0 + (-v).exp());
         let x = match (self.lo, self.hi) {
@@ -88,7 +88,7 @@ impl Interval {
 }
 
 impl Support {
-    /// Whether a real value, or each share, is between the last numbers inside.
+    /// Whether a real value, or each share, is strictly between the last numbers.
     pub fn has_inside(&self, value: &Draw) -> bool {
         match (self, value) {
             (Support::Reals(interval), Draw::Real(x)) if *interval != Interval::LINE => {
@@ -107,8 +107,8 @@ fn log_logistic(v: f64) -> f64 {
 }
 
 impl<S: Scalar> Dist<S> {
-    /// Where its values lie, if that is an open interval with ends that do not depend on parameters: the ends do not belong
-    /// to it, and may have much mass near them.
+    /// The space of the values if it is an open interval with constant ends: the ends are not values, and may have much mass
+    /// near them.
     pub fn open_space(&self) -> Option<Space> {
         match (self, self.family().space()) {
             (_, space @ (Space::Positive | Space::Unit)) => Some(space),
@@ -120,7 +120,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// The log density of a positive number with this logarithm, which may be beyond the numbers' range, nats.
+    /// The log density of a positive number, given also its logarithm, as the number may be out of range, nats.
     pub fn log_density_by_log(&self, x: S, log: S) -> S {
         match self {
             Dist::Gamma { shape, scale } => super::waiting::gamma_log_density_at(*shape, *scale, x, log),
@@ -138,7 +138,7 @@ impl<S: Scalar> Dist<S> {
         }
     }
 
-    /// The log density over the coordinate of a share of (0, 1), by the logarithms of the share and of the rest, nats.
+    /// The log density over the coordinate of a share of (0, 1), from the logarithms of the share and of the rest, nats.
     pub fn log_density_by_shares(&self, share: S, rest: S) -> Option<S> {
         match self {
             Dist::Beta { a, b } => {
@@ -158,7 +158,7 @@ impl<S: Scalar> Dist<S> {
 }
 
 impl Dist {
-    /// The last numbers of its interval: the bounds themselves, where these belong to it.
+    /// The last numbers of the interval: the bounds themselves if they are values.
     fn last(&self, interval: &Interval) -> (f64, f64) {
         match (self.open_space(), interval.lo, interval.hi) {
             (None, Some(lo), Some(hi)) => (lo, hi),
@@ -166,7 +166,7 @@ impl Dist {
         }
     }
 
-    /// The log density over the coordinate of its interval, also where that is beyond the last number, nats.
+    /// The log density over the coordinate of the interval, also at coordinates beyond the last number, nats.
     pub fn log_density_of_coordinate(&self, interval: &Interval, v: f64) -> f64 {
         let (share, rest) = (log_logistic(v), log_logistic(-v));
         let nearest = || interval.nearest(v, self.last(interval));
@@ -182,7 +182,7 @@ impl Dist {
         }
     }
 
-    /// By how much the log density of the coordinate falls for each unit beyond the last number.
+    /// The decrease of the coordinate's log density for each unit beyond the last number.
     fn rate(&self, above: bool) -> f64 {
         match self {
             Dist::Beta { a, b } => {
@@ -198,12 +198,12 @@ impl Dist {
         }
     }
 
-    /// A coordinate of those for which the last number stands: by their density.
+    /// A draw of the coordinates for which the last number stands, by their density.
     fn beyond(&self, interval: &Interval, above: bool, rng: &mut (impl RngCore + ?Sized)) -> f64 {
         let begin = interval.begin(self.last(interval), above);
         match self {
             Dist::Mixture(m) => {
-                // A component by its mass there.
+                // A component is drawn by its mass there.
                 let mass = |(k, c): (usize, &Dist)| {
                     m.weights.log_probability(k as i64) + c.log_mass(interval, above)
                 };
@@ -238,8 +238,8 @@ impl Dist {
         }
     }
 
-    /// A value each of whose coordinates moves by a Gaussian step of this deviation, and the log densities of the move and
-    /// its reverse, up to common terms. `None` for a value of another kind, and for a discrete one.
+    /// A value moved by a Gaussian step of this deviation in each coordinate, and the log densities of the move and
+    /// its reverse, up to common terms. `None` for a value of another kind, and for a discrete value.
     pub fn moved(
         &self,
         old: &Draw,
@@ -265,7 +265,7 @@ impl Dist {
         }
     }
 
-    /// A number whose coordinate moves by `z`.
+    /// A number moved by `z` in its coordinate.
     fn moved_within(
         &self,
         interval: &Interval,
@@ -287,7 +287,7 @@ impl Dist {
         };
         let to = from + z;
         let new = interval.nearest(to, (least, most));
-        // The score has the density of the number; what counts is that of the coordinate.
+        // The score has the density of the number; the move needs that of the coordinate.
         let log = |x: f64, v: f64| match is_last(x) {
             true => self.log_density_of_real(x) - self.log_density_of_coordinate(interval, v),
             false => -interval.log_slope(x),
@@ -323,12 +323,12 @@ fn moved_shares(a: &[f64], x: &[f64], z: &[f64], rng: &mut (impl RngCore + ?Size
     to.iter_mut().for_each(|v| *v -= log_sum);
     let new: Vec<f64> = to.iter().map(|v| v.exp().max(LAST.0)).collect();
     let log = |x: &[f64], v: &[f64]| -> f64 {
-        let one = |((a, x), v): ((&f64, &f64), &f64)| match *x > LAST.0 {
+        let log_term = |((a, x), v): ((&f64, &f64), &f64)| match *x > LAST.0 {
             true => -x.ln(),
-            // As for an interval. A corner of the simplex has a score where the concentration is one.
+            // This case equals that of an interval. A corner of the simplex has a score if the concentration is one.
             false => (if *a == 1.0 { 0.0 } else { (a - 1.0) * x.ln() }) - a * v,
         };
-        a.iter().zip(x).zip(v).map(one).sum()
+        a.iter().zip(x).zip(v).map(log_term).sum()
     };
     let (forward, backward) = (log(&new, &to), log(x, &from));
     (new, forward, backward)
@@ -336,7 +336,7 @@ fn moved_shares(a: &[f64], x: &[f64], z: &[f64], rng: &mut (impl RngCore + ?Size
 
 #[cfg(test)]
 mod tests {
-    //! Moves that start and end anywhere leave the law of forward draws invariant, at parameters whose mass is at the ends.
+    //! Moves from and to any place leave the law of forward draws invariant, also with much mass at the ends.
     use super::super::testing::*;
     use super::*;
     use crate::{Family, Param};
@@ -365,11 +365,11 @@ mod tests {
         ]
     }
 
-    /// One move from each of many forward draws; the share of draws at the ends, and of those on one side of a coordinate,
-    /// are what they were. A share is compared with itself before the move: of n pairs, the difference of the two counts is
-    /// within 4.5 times the root of the number of pairs that changed, but for 7e-6.
+    /// A move from each of many forward draws leaves the share of draws at the ends, and of those on one side of a coordinate,
+    /// unchanged. The test compares a share before and after the move: of n pairs, the difference of the two counts is
+    /// within 4.5 times the root of the number of changed pairs, except with probability 7e-6.
     #[test]
-    fn one_move_leaves_the_law_of_forward_draws_as_it_is() {
+    fn moves_keep_the_law_of_forward_draws() {
         for (number, d) in extreme().into_iter().enumerate() {
             let Support::Reals(interval) = d.support() else { panic!("an interval") };
             let (least, most) = d.last(&interval);

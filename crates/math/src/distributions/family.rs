@@ -1,9 +1,8 @@
 //! The table of the families: the name, parameters and space of values of each.
 //!
-//! A row holds the family's variants of [`Family`] and [`Dist`], its parameters with what the manual says of each, its name in a
-//! model and its [`Space`], what a draw is and what the parameters may be. All other
-//! properties of a family follow from these by an exhaustive `match`, below the table and wherever a [`Space`] or a
-//! [`Support`] is used: a family cannot be left out.
+//! A row holds the family's variants of [`Family`] and [`Dist`], its parameters with their texts for the manual, and its name in
+//! a model. It also holds its [`Space`], a description of its draws, and the limits of its parameters. All other properties follow
+//! from these by an exhaustive `match`, below the table and wherever a [`Space`] or a [`Support`] is used: so no family is left out.
 
 use super::coordinates::Interval;
 use super::draw::Draw;
@@ -111,7 +110,7 @@ macro_rules! default {
     };
 }
 
-/// Most parameters of a family whose parameters are numbers.
+/// The largest number of parameters of a family whose parameters are numbers.
 pub const MOST_NUMBERS: usize = 4;
 
 /// A field that is a number.
@@ -131,42 +130,42 @@ impl<S: Scalar> Number<S> for i64 {
     }
 }
 
-/// What the manual and Python's classes say of a family; they are written from this.
+/// Texts of a family; the manual and Python's classes are written from them.
 #[derive(Clone, Copy, Debug)]
 pub struct Manual {
-    /// The name of its class in Python.
+    /// The name of the class in Python.
     pub class: &'static str,
-    /// What it is.
+    /// The description of the family.
     pub doc: &'static str,
-    /// Its parameters, in their order.
+    /// The parameters, in order.
     pub parameters: &'static [Parameter],
-    /// What a draw is.
+    /// The description of a draw.
     pub gives: &'static str,
-    /// What its parameters may be; every number is finite.
+    /// The limits of the parameters; every number is finite.
     pub limits: &'static str,
 }
 
 /// A parameter of a family, or of a word of the language that makes a solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// Its name in a call.
+    /// The name in a call.
     pub name: &'static str,
-    /// Its type in Python.
+    /// The type in Python.
     pub python: &'static str,
-    /// What is taken where it is left out, as Python writes it; none for what must be given.
+    /// The default value as Python writes it; none for a required parameter.
     pub default: Option<&'static str>,
-    /// What the manual says of it.
+    /// The text for the manual.
     pub doc: &'static str,
 }
 
 impl Parameter {
-    /// Its fields, in their order.
+    /// The fields, in order.
     pub fn row(&self) -> (&'static str, &'static str, Option<&'static str>, &'static str) {
         (self.name, self.python, self.default, self.doc)
     }
 }
 
-/// Declares the enums from the table, and what follows from it.
+/// Declares the enums of the table and their methods.
 macro_rules! families {
     ($( $(#[doc = $doc:literal])* $variant:ident
         $({ $($(#[doc = $about:literal])* $field:ident: $type:ident $(= $default:literal)?,)* })?
@@ -190,7 +189,7 @@ macro_rules! families {
                 match self { $(Family::$variant => &[$($(stringify!($field)),*)? $($($parameter),*)?],)* }
             }
 
-            /// What the manual says of it.
+            /// The texts for the manual and for Python.
             pub const fn manual(self) -> Manual {
                 match self {
                     $(Family::$variant => Manual {
@@ -216,7 +215,7 @@ macro_rules! families {
                 }
             }
 
-            /// Where its values lie.
+            /// The space of the values.
             pub const fn space(self) -> Space {
                 match self { $(Family::$variant => Space::$space,)* }
             }
@@ -255,7 +254,7 @@ macro_rules! families {
                 }
             }
 
-            /// The parameters of a family whose parameters are numbers, and how many these are; none of the others.
+            /// Writes the parameters of a family whose parameters are numbers, and returns their number; zero for other families.
             pub fn numbers(&self, to: &mut [f64; MOST_NUMBERS]) -> usize {
                 match self {
                     $(Dist::$variant $({ $($field),* })? $(($whole))? => {
@@ -267,7 +266,7 @@ macro_rules! families {
                 }
             }
 
-            /// The same distribution over another kind of number.
+            /// Converts the distribution to another kind of number.
             pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Dist<T> {
                 match self {
                     $(Dist::$variant $({ $($field),* })? $(($whole))? => {
@@ -276,7 +275,7 @@ macro_rules! families {
                 }
             }
 
-            /// Where the values lie.
+            /// The set of the values.
             pub fn support(&self) -> Support<S> {
                 match self {
                     $(Dist::$variant $({ $($field),* })? $(($whole))? => support!($space $($($place)*)?),)*
@@ -290,7 +289,7 @@ macro_rules! families {
                 }
             }
 
-            /// The scale of a family on the whole line or of vectors; the first of a mixture of such.
+            /// The scale of a family on the whole line or of vectors; for a mixture, that of its first component.
             pub fn scale(&self) -> Option<S> {
                 match self {
                     $(Dist::$variant $({ $($field),* })? $(($whole))? => scale!($space $($($place)*)?),)*
@@ -504,7 +503,7 @@ impl fmt::Display for Family {
 
 #[cfg(test)]
 mod tests {
-    //! Every name gives its family back.
+    //! Every name belongs to one family.
     use super::*;
 
     #[test]

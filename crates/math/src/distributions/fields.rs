@@ -1,4 +1,4 @@
-//! The fields of distributions: over another kind of number, and as parameters.
+//! The fields of distributions: their conversion to another kind of number, and their parameters.
 
 use super::draw::Draw;
 use super::lists::{DiagonalGaussian, Multinomial};
@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 /// A field of a distribution over the numbers `S`.
 pub(super) trait Field<S: Scalar> {
-    /// The same field over other numbers.
+    /// The type of the field over other numbers.
     type Over<T: Scalar>;
 
-    /// The same field over another kind of number.
+    /// Converts the field to another kind of number.
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Self::Over<T>;
 
-    /// The parameters that it holds, in their order.
+    /// The parameters that the field holds, in order.
     fn params(&self) -> Vec<Param<S>>;
 }
 
@@ -130,14 +130,14 @@ impl<S: Scalar> Field<S> for Weights<S> {
 
     fn over<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Weights<T> {
         Weights {
-            given: self.given.iter().map(|w| number(*w)).collect(),
+            unscaled: self.unscaled.iter().map(|w| number(*w)).collect(),
             log: self.log.iter().map(|w| number(*w)).collect(),
             cumulative: self.cumulative.clone(),
         }
     }
 
     fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Vector(self.given.to_vec())]
+        vec![Param::Vector(self.unscaled.to_vec())]
     }
 }
 
@@ -150,6 +150,6 @@ impl<S: Scalar> Field<S> for Mixture<S> {
     }
 
     fn params(&self) -> Vec<Param<S>> {
-        vec![Param::Vector(self.weights.given().to_vec()), Param::Dists(self.components.clone())]
+        vec![Param::Vector(self.weights.unscaled().to_vec()), Param::Dists(self.components.clone())]
     }
 }

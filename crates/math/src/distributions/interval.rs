@@ -4,7 +4,7 @@ use super::waiting::log_gamma_draw;
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
 
-/// `-ln(hi - lo)`; both ends belong to the support, since rounding can reach them.
+/// `-ln(hi - lo)`; both ends are in the support, since rounding can reach them.
 #[inline]
 pub(super) fn uniform_log_density<S: Scalar>(lo: S, hi: S, x: S) -> S {
     if x >= lo && x <= hi { -(hi - lo).ln() } else { S::from_f64(f64::NEG_INFINITY) }
@@ -16,17 +16,17 @@ pub(super) fn uniform_sample(lo: f64, hi: f64, rng: &mut (impl RngCore + ?Sized)
     (lo + (hi - lo) * open_unit(rng)).min(hi)
 }
 
-/// `(a - 1) ln x + (b - 1) ln(1 - x) - ln B(a, b)`; at an end its limit, where that is finite.
+/// `(a - 1) ln x + (b - 1) ln(1 - x) - ln B(a, b)`; at an end its limit if that is finite.
 #[inline(never)]
 pub(super) fn beta_log_density<S: Scalar>(a: S, b: S, x: S) -> S {
-    let one = S::from_f64(1.0);
+    let unity = S::from_f64(1.0);
     let log_norm = || a.ln_gamma() + b.ln_gamma() - (a + b).ln_gamma();
-    if !(x > S::from_f64(0.0) && x < one) {
-        let is_flat = x == S::from_f64(0.0) && a == one || x == one && b == one;
+    if !(x > S::from_f64(0.0) && x < unity) {
+        let is_flat = x == S::from_f64(0.0) && a == unity || x == unity && b == unity;
         return if is_flat { -log_norm() } else { S::from_f64(f64::NEG_INFINITY) };
     }
     let log_norm = log_norm();
-    (a - one) * x.ln() + (b - one) * (-x).ln_1p() - log_norm
+    (a - unity) * x.ln() + (b - unity) * (-x).ln_1p() - log_norm
 }
 
 /// `X / (X + Y)` of two gamma draws, by their logarithms: with small `a` and `b` both underflow.
@@ -38,7 +38,7 @@ pub(super) fn beta_sample(a: f64, b: f64, rng: &mut (impl RngCore + ?Sized)) -> 
     } else if log_ratio < 30.0 {
         1.0 / (1.0 + (-log_ratio).exp())
     } else {
-        // The distance from one has the digits.
+        // The distance from one keeps the digits.
         1.0 - (-log_ratio).exp()
     };
     x.clamp(f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON)
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_has_the_limit_of_the_density_where_that_is_a_number() {
+    fn ends_have_the_finite_limit_of_the_density() {
         let at = |family, parameters: &[f64], x: f64| dist(family, parameters).log_density(&Draw::Real(x));
         assert_eq!(at(Family::Beta, &[1.0, 1.0], 0.0), 0.0);
         assert_eq!(at(Family::Beta, &[1.0, 1.0], 1.0), 0.0);
@@ -69,7 +69,7 @@ mod tests {
         assert_eq!(at(Family::Gamma, &[1.0, 2.0], 0.0), -(2.0_f64.ln()));
         assert_eq!(at(Family::Exponential, &[1.0], 0.0), 0.0);
         assert_eq!(at(Family::Uniform, &[0.0, 1.0], 1.0), 0.0);
-        // Zero, or infinite: the end is outside.
+        // The limit is zero or infinite: the end is outside.
         for (family, parameters, x) in [
             (Family::Beta, &[1.0, 3.0][..], 1.0),
             (Family::Beta, &[0.5, 1.0], 0.0),
@@ -91,7 +91,7 @@ mod tests {
             assert!(d.log_density(&x).is_finite());
             low += usize::from(matches!(x, Draw::Real(x) if x < 0.5));
         }
-        // 200 fair coins stay within 100 +- 40 but for 2e-8.
+        // 200 fair coins stay within 100 +- 40, except with probability 2e-8.
         assert!((60..=140).contains(&low), "{low}");
     }
 }

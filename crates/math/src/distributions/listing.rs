@@ -1,4 +1,4 @@
-//! The list of a distribution's values where it is finite, and what one distribution has that another lacks.
+//! Lists of the values of finite distributions, and values of one distribution that another lacks.
 
 use super::coordinates::Interval;
 use super::draw::Draw;
@@ -7,24 +7,24 @@ use super::lists::truths;
 use super::support::Support;
 use crate::scalar::Scalar;
 
-/// Longer lists of values are not enumerated.
+/// Lists with more values are not enumerated.
 const LONGEST_LIST: i64 = 1 << 20;
 
 impl<S: Scalar> Dist<S> {
-    /// How many components its values have, of a family of vectors.
+    /// The length of the values of a family of vectors.
     pub fn dimension(&self) -> Option<usize> {
         self.support().dimension()
     }
 
-    /// Whether the densities of both have one measure (counting, or length, area, ...), so that their ratio is defined
+    /// Whether both densities have the same measure (counting, or length, area, ...), so that their ratio is defined
     /// and they can be mixed.
     pub fn compares_with(&self, other: &Dist<S>) -> bool {
         let (a, b) = (self.support().in_bounds(), other.support().in_bounds());
         std::mem::discriminant(&a) == std::mem::discriminant(&b) && a.dimension() == b.dimension()
     }
 
-    /// Values of `other`, of the same measure, that this distribution certainly never draws, for a message: one of
-    /// finitely many, or an end of an interval. Gaps inside an interval are not detected.
+    /// Values of `other`, of the same measure, that this distribution certainly never draws, as text for a message: a value
+    /// of finitely many, or an end of an interval. Gaps inside an interval are not detected.
     ///
     /// ```
     /// use niwaki_math::Dist;
@@ -68,7 +68,7 @@ impl<S: Scalar> Dist<S> {
         if outside.is_none() && !has_gaps {
             return None;
         }
-        // The ends of a finite support may themselves be impossible, so each of its values is tested.
+        // The ends of a finite support may be impossible, so each value is tested.
         let Some(values) = other.enumerate() else { return outside };
         let missing = values.into_iter().find(|x| self.log_density(x).value() == f64::NEG_INFINITY)?;
         Some(match missing {
@@ -80,8 +80,8 @@ impl<S: Scalar> Dist<S> {
         })
     }
 
-    /// The values of positive probability, in order, where they are finitely many (up to about a million). Over recorded
-    /// numbers also those whose probability is zero here and varies.
+    /// The values of positive probability, in order, if there are finitely many (up to about a million). Over recorded
+    /// numbers the list includes values whose probability is zero here but varies.
     ///
     /// ```
     /// use niwaki_math::{Dist, Draw};
@@ -129,7 +129,7 @@ mod tests {
     use crate::{Family, Param};
 
     #[test]
-    fn lists_leave_out_what_is_impossible() {
+    fn lists_omit_impossible_values() {
         let weights = Param::Vector(vec![0.0, 1.0, 0.0, 2.0]);
         let d: Dist = Dist::new(Family::Categorical, &[weights]).unwrap();
         assert_eq!(d.enumerate(), Some(vec![Draw::Int(1), Draw::Int(3)]));
@@ -139,9 +139,9 @@ mod tests {
         assert_eq!(Dist::<f64>::DiscreteUniform { lo: i64::MIN, hi: i64::MAX }.enumerate(), None);
     }
 
-    /// Missing values are named; impossible values at the ends do not count.
+    /// Messages name the missing values; impossible values at the ends do not count.
     #[test]
-    fn what_a_distribution_never_draws_is_seen() {
+    fn values_that_are_never_drawn_are_reported() {
         let weights = |w: &[f64]| Dist::new(Family::Categorical, &[Param::Vector(w.to_vec())]).unwrap();
         let range = |lo, hi| Dist::<f64>::DiscreteUniform { lo, hi };
         let lacking = |q: Dist, p: Dist| q.lacks(&p);

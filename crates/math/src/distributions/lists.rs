@@ -1,17 +1,17 @@
-//! Lists of independent or shared-out values: multinomial, multivariate_bernoulli, diagonal_gaussian.
+//! Lists of independent or divided values: multinomial, multivariate_bernoulli, diagonal_gaussian.
 
 use super::{bell, counts, whole};
 use crate::scalar::Scalar;
 use crate::streams::RngCore;
 
-/// How `n` trials are shared out over categories.
+/// The division of `n` trials among categories.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Multinomial<S: Scalar = f64> {
     /// The number of trials.
     pub n: i64,
-    /// Weights of the categories, as given.
+    /// Weights of the categories, as the model passed them.
     pub(super) weights: Vec<S>,
-    /// Of each category: its share of what it and those after it have.
+    /// For each category, its weight relative to the sum of its weight and the weights after it.
     pub(super) shares: Vec<S>,
 }
 
@@ -26,7 +26,7 @@ impl<S: Scalar> Multinomial<S> {
         self.weights.is_empty()
     }
 
-    /// One binomial after another: what the first category takes, what the second takes of the rest, ...
+    /// A sum of binomials: of the first category among all trials, of the second among the rest, and so on.
     #[inline(never)]
     pub(super) fn log_density(&self, counts: &[i64]) -> S {
         let never = S::from_f64(f64::NEG_INFINITY);
@@ -39,7 +39,7 @@ impl<S: Scalar> Multinomial<S> {
         }
         let (mut rest, mut log) = (self.n, S::from_f64(0.0));
         for (at, (share, k)) in self.shares.iter().zip(counts).enumerate() {
-            // Without trials there is nothing to share out; the logarithm of a share of zero would spoil the sum.
+            // Without trials there is nothing to divide, and the logarithm of a zero share would spoil the sum.
             if rest > 0 {
                 let after = &self.weights[at + 1..];
                 let is_sure = share.value() >= 1.0 && after.iter().any(|w| w.value() > 0.0);
@@ -59,7 +59,7 @@ impl<S: Scalar> Multinomial<S> {
         log
     }
 
-    /// The binomials' draws, one after the other.
+    /// Draws of the binomials, in order.
     #[inline(never)]
     pub(super) fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Vec<i64> {
         let mut rest = self.n;
@@ -71,9 +71,9 @@ impl<S: Scalar> Multinomial<S> {
         self.shares.iter().map(&mut take).collect()
     }
 
-    /// All lists of counts, in order, where they are at most so many.
+    /// All lists of counts, in order; `None` if there are more than `longest`.
     pub(super) fn enumerate(&self, longest: u64) -> Option<Vec<Vec<i64>>> {
-        // Their number is a binomial coefficient.
+        // The number of lists is a binomial coefficient.
         let (n, mut number) = (u64::try_from(self.n).ok()?, 1_u64);
         for j in 1..self.len() as u64 {
             number = number.checked_mul(n.checked_add(j)?)? / j;
@@ -87,13 +87,13 @@ impl<S: Scalar> Multinomial<S> {
         loop {
             list[last] = self.n - list[..last].iter().sum::<i64>();
             lists.push(list.clone());
-            // The next one: the last category that can have one more, those after it nothing.
+            // The next list: one more in the last category that allows it, zero in those after it.
             let mut at = last;
             let mut after = list[last];
             while at > 0 && after == 0 {
                 at -= 1;
                 after += std::mem::take(&mut list[at]);
-                // `list[at]` itself is what can be given to the category before.
+                // The category before can take all of `list[at]`.
             }
             if at == 0 {
                 return Some(lists);
@@ -104,26 +104,26 @@ impl<S: Scalar> Multinomial<S> {
     }
 }
 
-/// Products of smaller shares and numbers of trials may be no normal numbers.
+/// Bound of precision: a product of a smaller share and the number of trials may be subnormal.
 const TINY: f64 = 1e-290;
 
-/// The log probability of `k` of `n` for a category beside others, one of which has a share that is lost beside the rest's.
+/// The log probability of `k` of `n` in a category, by logarithms: a small share is lost beside the larger ones.
 #[cold]
 fn by_logs<S: Scalar>(n: i64, weight: S, after: &[S], k: i64) -> S {
     if k > n {
         return S::from_f64(f64::NEG_INFINITY);
     }
-    let others = after.iter().rev().fold(S::from_f64(0.0), |sum, w| sum + *w);
-    let total = (weight + others).ln();
+    let rest = after.iter().rev().fold(S::from_f64(0.0), |sum, w| sum + *w);
+    let total = (weight + rest).ln();
     let power = |k: i64, w: S| {
         let is_none = k == 0;
         if is_none { S::from_f64(0.0) } else { S::from_f64(k as f64) * (w.ln() - total) }
     };
     let ways = |k: i64| libm::lgamma(k as f64 + 1.0);
-    S::from_f64(ways(n) - ways(k) - ways(n - k)) + power(k, weight) + power(n - k, others)
+    S::from_f64(ways(n) - ways(k) - ways(n - k)) + power(k, weight) + power(n - k, rest)
 }
 
-/// The sum over truth values that are independent.
+/// The sum of the log probabilities of independent truth values.
 #[inline(never)]
 pub(super) fn bernoullis_log_density<S: Scalar>(ps: &[S], truths: &[bool]) -> S {
     if truths.len() != ps.len() {
@@ -133,18 +133,18 @@ pub(super) fn bernoullis_log_density<S: Scalar>(ps: &[S], truths: &[bool]) -> S 
     ps.iter().zip(truths).map(log).fold(S::from_f64(0.0), |sum, log| sum + log)
 }
 
-/// One truth value for each probability.
+/// A draw of a truth value for each probability.
 pub(super) fn bernoullis_sample<S: Scalar>(ps: &[S], rng: &mut (impl RngCore + ?Sized)) -> Vec<bool> {
     ps.iter().map(|p| whole::bernoulli_sample(p.value(), rng)).collect()
 }
 
-/// All lists of so many truth values, in order, where they are at most so many.
+/// All lists of `count` truth values, in order; `None` if there are more than `longest`.
 pub(super) fn truths(count: usize, longest: u64) -> Option<Vec<Vec<bool>>> {
     let number = 1_u64.checked_shl(u32::try_from(count).ok()?).filter(|number| *number <= longest)?;
     Some((0..number).map(|bits| (0..count).rev().map(|i| bits >> i & 1 != 0).collect()).collect())
 }
 
-/// Gaussians that are independent.
+/// A vector of independent Gaussians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiagonalGaussian<S: Scalar = f64> {
     /// Centre, shape (n,).
@@ -154,7 +154,7 @@ pub struct DiagonalGaussian<S: Scalar = f64> {
 }
 
 impl<S: Scalar> DiagonalGaussian<S> {
-    /// The root of the mean variance: a typical distance between its values.
+    /// The root of the mean variance: a typical distance between values.
     pub(super) fn scale(&self) -> S {
         let sum = self.sd.iter().fold(S::from_f64(0.0), |sum, sd| sum + *sd * *sd);
         (sum / S::from_f64(self.sd.len() as f64)).sqrt()
@@ -171,7 +171,7 @@ impl<S: Scalar> DiagonalGaussian<S> {
         parts.map(log).fold(S::from_f64(0.0), |sum, log| sum + log)
     }
 
-    /// One draw of each.
+    /// A draw of each Gaussian.
     #[inline(never)]
     pub(super) fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Vec<f64> {
         let draw = |(mean, sd): (&S, &S)| bell::gaussian_sample(mean.value(), sd.value(), rng);
@@ -181,7 +181,7 @@ impl<S: Scalar> DiagonalGaussian<S> {
 
 #[cfg(test)]
 mod tests {
-    //! Lists have all the probability, and their parts are the families of one value.
+    //! Probabilities of all lists sum to one, and the entries of lists agree with families of a single value.
     use super::super::testing::*;
     use crate::{Dist, Draw, Family, Param};
 
@@ -197,8 +197,8 @@ mod tests {
     fn a_multinomial_of_two_is_a_binomial() {
         let (d, two) = (multinomial(9, &[1.0, 3.0]), Dist::Binomial { n: 9, p: 0.25 });
         for k in 0..=9 {
-            let (one, other) = (d.log_density(&counts(&[k, 9 - k])), two.log_density(&Draw::Int(k)));
-            assert!((one - other).abs() < 1e-12);
+            let (actual, expected) = (d.log_density(&counts(&[k, 9 - k])), two.log_density(&Draw::Int(k)));
+            assert!((actual - expected).abs() < 1e-12);
         }
         // By hand: 6! / (1! 2! 3!) / 3^6.
         let expected = (60.0_f64 / 729.0).ln();
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_of_counts_have_all_the_probability() {
+    fn probabilities_of_all_lists_of_counts_sum_to_one() {
         for (d, number) in [
             (multinomial(0, &[1.0, 2.0]), 1),
             (multinomial(4, &[5.0]), 1),
@@ -226,8 +226,8 @@ mod tests {
     }
 
     #[test]
-    fn a_weight_that_is_lost_beside_the_others_has_its_probability() {
-        // 5 ln of the first, ln 5 and ln of the second: by logarithms of the weights.
+    fn tiny_weights_keep_their_probability() {
+        // 5 ln of the first share, ln 5 and ln of the second, by logarithms of the weights.
         let expected = 5.0_f64.ln() + 1e-320_f64.ln();
         for weights in [[1.0, 1e-320], [1e-320, 1.0]] {
             let k = if weights[0] == 1.0 { [4, 1] } else { [1, 4] };
@@ -258,8 +258,8 @@ mod tests {
         assert_eq!(values.len(), 4);
         let total: f64 = values.iter().map(|x| d.log_density(x).exp()).sum();
         assert!((total - 1.0).abs() < 1e-12);
-        let one = d.log_density(&Draw::Truths([true, false, true].into()));
-        assert!((one - (0.2_f64 * 0.3).ln()).abs() < 1e-12);
+        let log = d.log_density(&Draw::Truths([true, false, true].into()));
+        assert!((log - (0.2_f64 * 0.3).ln()).abs() < 1e-12);
         assert_eq!(d.log_density(&Draw::Vector([1.0, 0.5, 1.0].into())), f64::NEG_INFINITY);
         assert_eq!(d.log_density(&Draw::Truths([true].into())), f64::NEG_INFINITY);
     }

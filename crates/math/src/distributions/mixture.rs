@@ -32,15 +32,16 @@ impl<S: Scalar> Mixture<S> {
         log_sum_exp_of(self.components.iter().enumerate().map(term))
     }
 
-    /// A draw of a drawn component.
+    /// A draw from a random component.
     #[inline(never)]
     pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> Draw<S> {
         self.components[self.weights.sample(rng)].sample(rng)
     }
 
-    /// The components that can be chosen, here or with other values of recorded weights.
+    /// The components that can be chosen, with these weights or with other values of recorded weights.
     fn possible(&self) -> impl Iterator<Item = &Dist<S>> {
-        let chosen = |k: usize| self.weights.given()[k].varies() || self.weights.given()[k].value() > 0.0;
+        let chosen =
+            |k: usize| self.weights.unscaled()[k].varies() || self.weights.unscaled()[k].value() > 0.0;
         self.components.iter().enumerate().filter(move |(k, _)| chosen(*k)).map(|(_, c)| c)
     }
 
@@ -50,7 +51,7 @@ impl<S: Scalar> Mixture<S> {
         supports.reduce(Support::cover).unwrap_or(Support::Booleans)
     }
 
-    /// Values of all components, each once.
+    /// The values of all components, each listed once.
     pub(super) fn enumerate(&self) -> Option<Vec<Draw<S>>> {
         let mut values: Vec<Draw<S>> = Vec::new();
         for component in self.possible() {
@@ -101,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn kinds_do_not_mix() {
+    fn components_of_different_kinds_are_refused() {
         let delta = Dist::Delta(Draw::Real(0.0));
         let spike = mixture(&[1.0, 1.0], vec![delta, dist(Family::Gaussian, &[0.0, 1.0])]);
         assert_eq!(spike.unwrap_err().expected, "distributions over values of one kind");

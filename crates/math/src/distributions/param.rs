@@ -8,9 +8,9 @@ use std::fmt;
 /// A parameter of a distribution, as a model passes it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Param<S: Scalar = f64> {
-    /// A truth value; counts as 0 or 1 where a number is wanted.
+    /// A truth value; counts as 0 or 1 if a number is expected.
     Bool(bool),
-    /// A whole number; counts as a real where one is wanted.
+    /// A whole number; counts as a real number if that is expected.
     Int(i64),
     /// A real number.
     Real(S),
@@ -20,11 +20,11 @@ pub enum Param<S: Scalar = f64> {
     Matrix(Vec<Vec<S>>),
     /// Distributions.
     Dists(Vec<Dist<S>>),
-    /// A value to be returned as it is.
+    /// A value that the distribution returns unchanged.
     Draw(Draw<S>),
 }
 
-/// As text, shortened where it is long.
+/// Text of the parameter, shortened if it is long.
 impl<S: Scalar> fmt::Display for Param<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,8 +1,8 @@
-//! Where a whole number stands in its distribution, as a normal score: the number that a standard Gaussian falls below
-//! as often as the distribution gives at most `k`.
+//! Ranks of whole numbers as normal scores. The score of `k` is the number that a standard Gaussian falls below with the
+//! probability that the distribution gives at most `k`.
 //!
-//! The scores of all `k` cut the line into one piece for each value. A density on the line then gives each value a
-//! probability: that of its piece.
+//! The scores of all `k` cut the line into one piece for each value. So a density on the line gives each value the
+//! probability of its piece.
 //!
 //! | family | P(at most k) |
 //! | --- | --- |
@@ -15,16 +15,16 @@ use super::family::Dist;
 use super::whole::discrete_uniform_size;
 use crate::special::{normal_quantile, normal_tail};
 
-/// With a larger variance sums have too many terms.
+/// Largest variance for which probabilities are summed; beyond, the sums have too many terms.
 const LARGEST_SUM: f64 = 100.0;
 
-/// The score of two probabilities that sum to one, from the smaller.
+/// The score of two probabilities that sum to one, computed from the smaller.
 fn score(below: f64, above: f64) -> f64 {
     if below <= above { normal_quantile(below) } else { -normal_quantile(above) }
 }
 
-/// The same from the sum towards the nearer end; of a value below the mean that most draws do not exceed, the other, which has
-/// more digits.
+/// The score from the sum of probabilities towards the nearer end. For a value below the mean that at least half of the
+/// draws reach, the sum above has more digits.
 fn nearer(is_below: bool, below: impl Fn() -> f64, above: impl Fn() -> f64) -> f64 {
     if is_below {
         let below = below();
@@ -36,7 +36,7 @@ fn nearer(is_below: bool, below: impl Fn() -> f64, above: impl Fn() -> f64) -> f
     score(1.0 - above, above)
 }
 
-/// `first (1 + ratio(1) + ratio(1) ratio(2) + ...)`, for ratios that fall.
+/// `first (1 + ratio(1) + ratio(1) ratio(2) + ...)`, for decreasing ratios.
 fn series(first: f64, ratio: impl Fn(f64) -> f64) -> f64 {
     let (mut term, mut sum, mut j) = (first, 0.0, 1.0);
     while term > 1e-17 * sum {
@@ -47,7 +47,7 @@ fn series(first: f64, ratio: impl Fn(f64) -> f64) -> f64 {
     sum
 }
 
-/// A score from the deviance of what lies between `k` and `k + 1`.
+/// A score from the deviance at `k + 1/2`.
 fn signed_root(x: f64, mean: f64, deviance: f64) -> f64 {
     (2.0 * deviance.max(0.0)).sqrt().copysign(x - mean)
 }
@@ -80,9 +80,9 @@ fn binomial(n: i64, p: f64, k: i64) -> f64 {
 }
 
 impl Dist {
-    /// The number that a standard Gaussian falls below with the probability of at most `k`: it never falls with `k`, is
-    /// minus infinity below the smallest value and plus infinity from the largest on. With variances above 100 it is
-    /// off by 0.02 at most. `None` for other families than poisson, binomial, geometric and discrete_uniform.
+    /// The normal score of `k`: the number that a standard Gaussian falls below with the probability of at most `k`. It never
+    /// falls with `k`, is minus infinity below the smallest value and plus infinity from the largest on. With variances above 100
+    /// its error is at most 0.02. `None` for families other than poisson, binomial, geometric and discrete_uniform.
     ///
     /// ```
     /// use niwaki_math::Dist;
@@ -114,7 +114,7 @@ impl Dist {
         })
     }
 
-    /// The first `k` whose [`Dist::normal_score`] is `z` or more: a Gaussian `z` gives a draw of the distribution.
+    /// The least `k` whose [`Dist::normal_score`] is at least `z`: a Gaussian `z` gives a draw of the distribution.
     ///
     /// The search starts at a guess from mean and deviation, and doubles its steps.
     #[expect(
@@ -138,7 +138,7 @@ impl Dist {
         };
         let reached = |k: i64| self.normal_score(k).is_some_and(|score| score >= z);
         let start = (guess.ceil() as i64).clamp(lo, hi);
-        // `above` is reached; everything up to `below` is not, or `below` is one less than the smallest value.
+        // The answer is at most `above` and greater than `below`, which may be one less than the smallest value.
         let (mut below, mut above) = (lo.saturating_sub(1), hi);
         let mut step = 1;
         if reached(start) {
@@ -174,7 +174,7 @@ impl Dist {
 
 #[cfg(test)]
 mod tests {
-    //! Scores are those of summed probabilities, never fall, and are inverted.
+    //! Scores agree with those of summed probabilities, never fall, and are inverted.
     use super::*;
     use crate::Draw;
 
@@ -199,20 +199,20 @@ mod tests {
     }
 
     #[test]
-    fn scores_are_those_of_sums_and_never_fall() {
+    fn scores_agree_with_sums_and_never_fall() {
         for d in families() {
             let (mut below, mut last) = (0.0, f64::NEG_INFINITY);
             let large = d.normal_score(2500).is_some_and(f64::is_finite);
             for k in -5..6000 {
                 below += d.log_density(&Draw::Int(k)).exp();
-                let got = d.normal_score(k).unwrap();
-                assert!(got >= last, "{d:?} at {k}: {got} after {last}");
-                last = got;
+                let score = d.normal_score(k).unwrap();
+                assert!(score >= last, "{d:?} at {k}: {score} after {last}");
+                last = score;
                 let expected = normal_quantile(below);
                 if expected.abs() < 5.0 {
                     let near =
                         if large || matches!(d, Dist::Binomial { n: 3000, p: 0.4 }) { 0.02 } else { 1e-7 };
-                    assert!((got - expected).abs() < near, "{d:?} at {k}: {got} for {expected}");
+                    assert!((score - expected).abs() < near, "{d:?} at {k}: {score} for {expected}");
                 }
             }
         }

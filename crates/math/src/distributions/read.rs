@@ -74,15 +74,15 @@ impl<S: Scalar> Weights<S> {
     /// Parameter `k` of the reader as weights.
     pub(super) fn read(reader: &Reader<'_, S>, k: usize) -> Result<Self, BadParameter> {
         const EXPECTED: &str = "finite weights, none negative, with a positive finite sum";
-        let given = reader.vector_where(k, EXPECTED, |w| w >= S::from_f64(0.0))?;
-        let total = given.iter().fold(S::from_f64(0.0), |sum, w| sum + *w);
+        let weights = reader.vector_where(k, EXPECTED, |w| w >= S::from_f64(0.0))?;
+        let total = weights.iter().fold(S::from_f64(0.0), |sum, w| sum + *w);
         if !(total.value() > 0.0 && total.is_finite()) {
             return reader.refuse(k, EXPECTED);
         }
         let log_total = total.ln();
-        let log = given.iter().map(|w| w.ln() - log_total).collect();
+        let log = weights.iter().map(|w| w.ln() - log_total).collect();
         let mut sum = 0.0;
-        let mut cumulative: Box<[f64]> = given
+        let mut cumulative: Box<[f64]> = weights
             .iter()
             .map(|w| {
                 sum += w.value();
@@ -90,9 +90,9 @@ impl<S: Scalar> Weights<S> {
             })
             .collect();
         // Rounding may leave the last sum below 1, and trailing zeros must never be drawn.
-        let last = given.iter().rposition(|w| w.value() > 0.0).unwrap_or(0);
+        let last = weights.iter().rposition(|w| w.value() > 0.0).unwrap_or(0);
         cumulative[last..].fill(1.0);
-        Ok(Weights { given: given.into(), log, cumulative })
+        Ok(Weights { unscaled: weights.into(), log, cumulative })
     }
 }
 

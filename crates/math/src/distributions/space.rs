@@ -1,6 +1,6 @@
-//! Where the values of a family lie.
+//! The spaces that the values of families lie in.
 
-/// Where the values of a family lie, for all of its parameters.
+/// The space of a family's values, for all parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// Truth values.
@@ -27,14 +27,14 @@ pub enum Space {
     Counts,
     /// Lists of truth values.
     Truths,
-    /// Where the values of its components lie.
+    /// The space of the components' values.
     Components,
-    /// A value that is given.
+    /// A constant value.
     Fixed,
 }
 
 impl Space {
-    /// Whether values are real numbers or vectors, other than ones that are given.
+    /// Whether values are real numbers or vectors, and not constants.
     pub const fn is_continuous(self) -> bool {
         match self {
             Space::Booleans | Space::Categories | Space::Integers | Space::Fixed => false,

@@ -1,18 +1,18 @@
-//! Where a distribution's values lie.
+//! The sets that the values of distributions lie in.
 
 use super::coordinates::Interval;
 use super::draw::Draw;
 use crate::scalar::Scalar;
 use std::f64::consts::PI;
 
-/// Where the values of a distribution lie.
+/// The set of a distribution's values.
 ///
 /// Single values inside may still be impossible: a weight of zero, the gap between a mixture's components.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Support<S = f64> {
     /// True and false.
     Booleans,
-    /// So many whole numbers from zero, without order.
+    /// Whole numbers from zero, as many as this number, without order.
     Categories(usize),
     /// Whole numbers from `lo` to `hi`, both included; `None` is no bound.
     Integers {
@@ -57,7 +57,7 @@ impl<S: Scalar> Support<S> {
         }
     }
 
-    /// By bounds alone: categories are whole numbers, and angles are real ones.
+    /// The support by bounds alone: categories become whole numbers, and angles real numbers.
     #[must_use]
     pub fn in_bounds(self) -> Support<S> {
         match self {
@@ -71,7 +71,7 @@ impl<S: Scalar> Support<S> {
         }
     }
 
-    /// The smallest support in bounds that contains both (which are of one kind).
+    /// The smallest support in bounds that contains both supports, which must be of one kind.
     pub(super) fn cover(self, other: Support<S>) -> Support<S> {
         match (self, other) {
             (Support::Integers { lo, hi }, Support::Integers { lo: lo2, hi: hi2 }) => {
@@ -91,7 +91,7 @@ impl<S: Scalar> Support<S> {
         }
     }
 
-    /// How many components its vectors have.
+    /// The length of the vectors or lists.
     pub fn dimension(&self) -> Option<usize> {
         match self {
             Support::Simplex(n) | Support::Vectors(n) | Support::VectorPoints(n) => Some(*n),

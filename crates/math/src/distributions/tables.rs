@@ -1,33 +1,33 @@
-//! Categorical distributions side by side, for many draws: one of each particle, say.
+//! Categorical distributions side by side, for many draws, such as those of all particles.
 //!
-//! Each is a row of the same length, so that a draw compares a fixed number of sums, without a jump.
+//! Each distribution is a row of fixed length, so a draw compares a fixed number of sums, without a jump.
 
 use super::family::Dist;
 use crate::rounding::grid;
 
-/// A few categorical distributions over few choices.
+/// Categorical distributions over few choices, as rows of a table.
 ///
 /// ```
 /// use niwaki_math::distributions::Tables;
 /// use niwaki_math::{Dist, Family, Param, Stream, StreamKey, grid};
 /// let coin = Dist::new(Family::Categorical, &[Param::Vector(vec![0.2, 0.8])]).unwrap();
 /// let tables = Tables::of(&[&coin]).unwrap();
-/// let mut found = (0, 0.0);
-/// tables.draw([(0, 0.5)].into_iter(), |k, log| found = (k, log));
-/// assert_eq!(found, (1, grid(coin.log_density_of_int(1))));
+/// let mut draw = (0, 0.0);
+/// tables.draw([(0, 0.5)].into_iter(), |k, log| draw = (k, log));
+/// assert_eq!(draw, (1, grid(coin.log_density_of_int(1))));
 /// ```
 #[derive(Clone, Debug)]
 pub struct Tables {
-    /// How many numbers a row has.
+    /// The number of entries in a row.
     width: usize,
-    /// Running sums of probabilities, filled up with 1.
+    /// Running sums of probabilities; 1 in the unused entries.
     cumulative: Vec<f64>,
     /// Log probabilities on the grid, nats.
     log: Vec<f64>,
 }
 
 impl Tables {
-    /// The tables of distributions; `None` where one is not categorical, or is over more than 16 choices.
+    /// The tables of distributions; `None` if one is not categorical, or has more than 16 choices.
     pub fn of(dists: &[&Dist]) -> Option<Tables> {
         let all = dists.iter().map(|dist| match dist {
             Dist::Categorical(weights) => Some(&**weights),
@@ -47,8 +47,8 @@ impl Tables {
         Some(Tables { width, cumulative, log })
     }
 
-    /// Draws from the distribution of each number by a uniform, as [`Dist::sample`] does; the choice and its log probability
-    /// on the [`grid`] go to `each`.
+    /// Draws from a row by a uniform, for each pair of row and uniform, as [`Dist::sample`] does. Each choice goes to `each`
+    /// with its log probability on the [`grid`].
     #[inline]
     pub fn draw(&self, all: impl Iterator<Item = (usize, f64)>, each: impl FnMut(i64, f64)) {
         match self.width {
@@ -75,7 +75,7 @@ impl Tables {
 
 #[cfg(test)]
 mod tests {
-    //! Draws and log probabilities are those of the distributions, to the bit.
+    //! Draws and log probabilities equal those of the distributions, to the bit.
     use super::*;
     use crate::streams::StreamKey;
     use crate::{Draw, Family, Param};
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn draws_are_those_of_the_distributions() {
+    fn draws_equal_those_of_the_distributions() {
         for most in [1, 3, 4, 5, 8, 9, 16] {
             let weights = |d: usize| {
                 (0..1 + d % most).map(move |k| ((k * 7 + d) % 5) as f64 + 0.01 * k as f64 + f64::from(k == 0))

@@ -1,4 +1,4 @@
-//! Heavier tails than the bell curve's: laplace, cauchy, student_t.
+//! Families with heavier tails than the bell curve: laplace, cauchy, student_t.
 
 use super::waiting::log_gamma_draw;
 use crate::scalar::Scalar;
@@ -13,7 +13,7 @@ pub(super) fn laplace_log_density<S: Scalar>(loc: S, scale: S, x: S) -> S {
     -((x - loc) / scale).abs() - scale.ln() - S::from_f64(std::f64::consts::LN_2)
 }
 
-/// By inversion from the nearer end, so that both tails keep their digits.
+/// A draw by inversion from the nearer end, so that both tails keep their digits.
 #[inline]
 pub(super) fn laplace_sample(loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let u = open_unit(rng);
@@ -27,7 +27,7 @@ pub(super) fn cauchy_log_density<S: Scalar>(loc: S, scale: S, x: S) -> S {
     -ln_1p_square(x - loc, scale) - scale.ln() - S::from_f64(PI.ln())
 }
 
-/// `ln(1 + (distance / unit)^2)`, also where the quotient or its square would overflow.
+/// `ln(1 + (distance / unit)^2)`, also if the quotient or its square would overflow.
 #[inline]
 fn ln_1p_square<S: Scalar>(distance: S, unit: S) -> S {
     let z = distance / unit;
@@ -38,7 +38,7 @@ fn ln_1p_square<S: Scalar>(distance: S, unit: S) -> S {
     }
 }
 
-/// The tangent of an even angle.
+/// The tangent of a uniform angle.
 #[inline(never)]
 pub(super) fn cauchy_sample(loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     (loc + scale * (PI * (open_unit(rng) - 0.5)).tan()).clamp(f64::MIN, f64::MAX)
@@ -53,7 +53,7 @@ pub(super) fn student_t_log_density<S: Scalar>(df: S, loc: S, scale: S, x: S) ->
     log_norm - half * (df + c(1.0)) * ln_1p_square(x - loc, scale * df.sqrt())
 }
 
-/// A standard Gaussian over the root of an independent chi-square's mean.
+/// A standard Gaussian divided by the root of an independent chi-square's mean.
 #[inline(never)]
 pub(super) fn student_t_sample(df: f64, loc: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let z: f64 = StandardNormal.sample(rng);
@@ -88,7 +88,7 @@ mod tests {
 
     #[test]
     fn a_cauchy_has_half_its_mass_within_one_scale() {
-        // 10000 fair coins: within 5000 +- 250 but for 6e-7.
+        // 10000 fair coins stay within 5000 +- 250, except with probability 6e-7.
         let d = dist(Family::Cauchy, &[3.0, 2.0]);
         let inside = (0..10_000)
             .filter(|k| matches!(d.sample(&mut stream(*k)), Draw::Real(x) if (x - 3.0).abs() < 2.0));

@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 /// Draws in each test.
 pub(super) const DRAWS: usize = 20_000;
 
-/// A family with numbers as parameters.
+/// A distribution of a family whose parameters are numbers.
 pub(super) fn dist(family: Family, numbers: &[f64]) -> Dist {
     let params: Vec<Param> = numbers.iter().map(|x| Param::Real(*x)).collect();
     Dist::new(family, &params).expect("good parameters")
@@ -32,7 +32,7 @@ pub(super) fn entry(x: &Draw, k: usize) -> f64 {
     }
 }
 
-/// Some distribution of each family.
+/// An example of each family.
 pub(super) fn example(family: Family) -> Dist {
     let real = |x: &[f64]| x.iter().map(|x| Param::Real(*x)).collect::<Vec<_>>();
     let params = match family {
@@ -58,7 +58,7 @@ pub(super) fn example(family: Family) -> Dist {
     Dist::new(family, &params).expect("good parameters")
 }
 
-/// The density integrates to one over `[lo, hi]`, and draws have its distribution function.
+/// Asserts that the density integrates to one over `[lo, hi]`, and that draws follow its distribution function.
 pub(super) fn continuous_agrees(d: &Dist, lo: f64, hi: f64) {
     let draws = (0..DRAWS as u64).map(|k| match d.sample(&mut stream(k)) {
         Draw::Real(x) => x,
@@ -67,7 +67,7 @@ pub(super) fn continuous_agrees(d: &Dist, lo: f64, hi: f64) {
     follows(d, lo, hi, draws.collect());
 }
 
-/// `draws` have the distribution function of `d`, which has all its mass (but 1e-9) in `[lo, hi]`.
+/// Asserts that `draws` follow the distribution function of `d`, whose mass (but 1e-9) is in `[lo, hi]`.
 pub(super) fn follows(d: &Dist, lo: f64, hi: f64, mut draws: Vec<f64>) {
     // The midpoint rule on a grid of cells; its error is checked by the total mass.
     const CELLS: usize = 400_000;
@@ -93,7 +93,7 @@ pub(super) fn follows(d: &Dist, lo: f64, hi: f64, mut draws: Vec<f64>) {
     }
 }
 
-/// Probabilities over `range` sum to one, and draws fall into it with these probabilities.
+/// Asserts that probabilities over `range` sum to one, and that draws follow them.
 pub(super) fn discrete_agrees(d: &Dist, range: RangeInclusive<i64>) {
     let lo = *range.start();
     let probability: Vec<f64> = range.map(|k| d.log_density(&Draw::Int(k)).exp()).collect();

@@ -1,14 +1,14 @@
-//! truncated_gaussian: a Gaussian given that it falls between two bounds, far out in its tail as well.
+//! truncated_gaussian: a Gaussian conditioned to lie between two bounds, also far out in its tail.
 //!
-//! In standard units `z = (x - mean) / sd` the bounds are `a < b`. With both on one side (say `0 <= a`) nothing
-//! is computed relative to the peak, which may be `exp(-1e300)` away, but relative to the near bound:
+//! In standard units `z = (x - mean) / sd` the bounds are `a < b`. If both are on one side (say `0 <= a`), everything is
+//! computed relative to the near bound, not to the peak, which may be `exp(-1e300)` away:
 //!
 //! ```text
 //! density = exp(-(z - a)(z + a) / 2) / (sqrt(2 pi) sd M),     M = exp(a^2 / 2) (Phi(b) - Phi(a))
 //! M = (erfcx(a / sqrt 2) - exp(-(b - a)(a + b) / 2) erfcx(b / sqrt 2)) / 2
 //! ```
 //!
-//! and `M` by quadrature where that difference would cancel. Drawing: Robert 1995, "Simulation of truncated
+//! Quadrature gives `M` when that difference would cancel. Drawing: Robert 1995, "Simulation of truncated
 //! normal variables", sections 2.1 and 2.2, with offsets from the near bound. Bounds below the mean are mirrored.
 
 use super::bell::HALF_LN_TAU;
@@ -18,7 +18,7 @@ use crate::streams::{RngCore, open_unit};
 use rand_distr::{Distribution, Exp1, StandardNormal};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Whether the bounds, in standard units, and twice their size are numbers.
+/// Whether the bounds in standard units, and twice their size, are finite.
 pub(super) fn is_in_reach<S: Scalar>(mean: S, sd: S, lo: S, hi: S) -> bool {
     let is_near = |bound: S| ((bound - mean) / sd).abs() <= S::from_f64(1e307);
     is_near(lo) && is_near(hi)
@@ -38,14 +38,14 @@ pub(super) fn log_density<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
     }
     let c = S::from_f64;
     let z = (x - mean) / sd;
-    // The error functions have opposite signs: their difference is a sum.
+    // The error functions have opposite signs, so their difference is a sum.
     let up = ((hi - mean) / sd * c(FRAC_1_SQRT_2)).erf();
     let down = ((lo - mean) / sd * c(FRAC_1_SQRT_2)).erf();
     let mass = c(0.5) * (up - down);
     c(-0.5) * z * z - sd.ln() - c(HALF_LN_TAU) - mass.ln()
 }
 
-/// Log density when `mean <= lo`.
+/// Log density if `mean <= lo`.
 fn one_side<S: Scalar>(mean: S, sd: S, lo: S, hi: S, x: S) -> S {
     let c = S::from_f64;
     let (a, b, width) = ((lo - mean) / sd, (hi - mean) / sd, (hi - lo) / sd);
@@ -94,10 +94,10 @@ fn around_the_peak(a: f64, b: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
 
 /// `t = z - a` for a standard Gaussian given `0 <= a <= z <= a + width`.
 fn offset(a: f64, width: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
-    // Robert's best rate for an exponential proposal from `a` on; `hypot` since squares may overflow.
+    // Robert's best rate of an exponential proposal from `a` on; `hypot`, since squares may overflow.
     let rate = 0.5 * (a + a.hypot(2.0));
     if rate * width < 1.5 {
-        // The density falls by less than exp(-2.7) across: propose uniformly.
+        // The density falls by less than exp(-2.7) over the width, so a uniform proposal is good.
         loop {
             let t = width * open_unit(rng);
             if open_unit(rng) < (-0.5 * t * (a + a + t)).exp() {
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_beyond_all_numbers_are_refused_and_those_far_out_are_drawn() {
+    fn bounds_out_of_reach_are_refused_and_far_bounds_work() {
         let new = |sd: f64| Dist::new(Family::TruncatedGaussian, &[0.5, sd, 1.0, 2.0].map(Param::Real));
         assert!(new(1e-307).is_err());
         let far = new(1e-299).unwrap();

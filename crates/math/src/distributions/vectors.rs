@@ -5,7 +5,7 @@ use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
 use rand_distr::{Distribution, StandardNormal};
 
-/// Largest distance from one of the sum of a simplex's entries: the rounding of a million additions.
+/// Largest distance of a simplex's sum from one: the rounding of a million additions.
 const SUM_TOLERANCE: f64 = 1e-9;
 
 /// The largest sum of a Dirichlet's concentrations.
@@ -16,11 +16,11 @@ pub(super) const MOST_CONCENTRATED: f64 = 1e300;
 pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) -> S {
     let never = S::from_f64(f64::NEG_INFINITY);
     let sum: f64 = x.iter().map(|x| x.value()).sum();
-    let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
-    // At a corner the density is its limit, where that is finite: with a concentration of one the entry has no part in it.
-    let has_limit = |(x, a): (&S, &S)| *x > zero || *x == zero && *a == one;
+    let (zero, unity) = (S::from_f64(0.0), S::from_f64(1.0));
+    // At a corner the density is its limit if that is finite: an entry with concentration one adds no factor.
+    let has_limit = |(x, a): (&S, &S)| *x > zero || *x == zero && *a == unity;
     let inside = x.len() == concentrations.len() && x.iter().zip(concentrations).all(has_limit);
-    // Written so that a NaN is outside.
+    // The condition is written so that NaN is outside.
     if !(inside && (sum - 1.0).abs() <= SUM_TOLERANCE) {
         return never;
     }
@@ -35,7 +35,7 @@ pub(super) fn dirichlet_log_density<S: Scalar>(concentrations: &[S], x: &[S]) ->
     log + total.ln_gamma()
 }
 
-/// Gamma draws over their sum; by their logarithms where a concentration is below one, of which draws underflow.
+/// Gamma draws divided by their sum; by logarithms if a concentration is below one, since such draws underflow.
 #[inline(never)]
 pub(super) fn dirichlet_sample<S: Scalar>(
     concentrations: &[S],
@@ -58,8 +58,8 @@ pub(super) fn dirichlet_sample<S: Scalar>(
     logs.iter().map(|l| ((l - largest).exp() / total).max(f64::MIN_POSITIVE)).collect()
 }
 
-/// A draw for concentrations below 1e-300, where even the logarithms of gamma draws are out of range: one entry has all of
-/// the mass, each with a probability proportional to its concentration.
+/// A draw for concentrations below 1e-300, at which even the logarithms of gamma draws are out of range. A single entry has all
+/// of the mass; its probability is proportional to its concentration.
 #[cold]
 fn vertex<S: Scalar>(concentrations: &[S], rng: &mut (impl RngCore + ?Sized)) -> Vec<f64> {
     let most = concentrations.iter().fold(0.0, |m: f64, a| m.max(a.value()));
@@ -87,7 +87,7 @@ pub struct MultivariateGaussian<S: Scalar = f64> {
 }
 
 impl<S: Scalar> MultivariateGaussian<S> {
-    /// The root of the mean variance: a typical distance between its values.
+    /// The root of the mean variance: a typical distance between values.
     pub(super) fn scale(&self) -> S {
         let sum = (0..self.mean.len()).fold(S::from_f64(0.0), |sum, i| sum + self.covariance[i][i]);
         (sum / S::from_f64(self.mean.len() as f64)).sqrt()
@@ -102,8 +102,8 @@ impl<S: Scalar> MultivariateGaussian<S> {
         let mut y: Vec<S> = Vec::with_capacity(x.len());
         let mut square = S::from_f64(0.0);
         for (i, row) in self.factor.iter().enumerate() {
-            let known = row.iter().zip(&y).fold(x[i] - self.mean[i], |rest, (l, y)| rest - *l * *y);
-            let entry = known / row[i];
+            let rest = row.iter().zip(&y).fold(x[i] - self.mean[i], |rest, (l, y)| rest - *l * *y);
+            let entry = rest / row[i];
             square = square + entry * entry;
             y.push(entry);
         }
@@ -122,20 +122,20 @@ impl<S: Scalar> MultivariateGaussian<S> {
     }
 }
 
-/// Lower triangular factor of a symmetric matrix, or `None` when it is not positive definite.
+/// Lower triangular factor of a symmetric matrix; `None` if the matrix is not positive definite.
 pub(super) fn cholesky<S: Scalar>(matrix: &[Vec<S>]) -> Option<Vec<Vec<S>>> {
     let mut factor: Vec<Vec<S>> = Vec::with_capacity(matrix.len());
-    for (i, given) in matrix.iter().enumerate() {
+    for (i, entries) in matrix.iter().enumerate() {
         let mut row: Vec<S> = Vec::with_capacity(i + 1);
         for j in 0..=i {
             let above: &[S] = if j < i { &factor[j] } else { &row };
-            let rest = row.iter().zip(above).take(j).fold(given[j], |rest, (a, b)| rest - *a * *b);
+            let rest = row.iter().zip(above).take(j).fold(entries[j], |rest, (a, b)| rest - *a * *b);
             if j < i {
                 row.push(rest / factor[j][j]);
-            } else if rest.value() > 1e-14 * given[i].value() && rest.value() > 0.0 {
+            } else if rest.value() > 1e-14 * entries[i].value() && rest.value() > 0.0 {
                 row.push(rest.sqrt());
             } else {
-                // A pivot lost in rounding: the matrix is singular up to rounding.
+                // The pivot is lost in rounding: the matrix is singular up to rounding.
                 return None;
             }
         }
@@ -163,7 +163,7 @@ mod tests {
         }
         assert_eq!(d.log_density(&vector(&[0.4, 0.4])), f64::NEG_INFINITY);
         assert_eq!(d.log_density(&vector(&[0.0, 1.0])), f64::NEG_INFINITY);
-        // A corner has the limit of the density, where that is a number.
+        // A corner has the limit of the density if that is a number.
         let of = |a: &[f64]| Dist::new(Family::Dirichlet, &[Param::Vector(a.to_vec())]).unwrap();
         assert!((of(&[1.0; 3]).log_density(&vector(&[0.0, 0.0, 1.0])) - 2.0_f64.ln()).abs() < 1e-12);
         let edge = of(&[1.0, 2.0, 3.0]).log_density(&vector(&[0.0, 0.25, 0.75]));
@@ -179,7 +179,7 @@ mod tests {
     fn a_flat_dirichlet_has_betas_for_margins() {
         let d = Dist::new(Family::Dirichlet, &[Param::Vector(vec![1.0; 5])]).unwrap();
         for k in 0..100 {
-            // Of ones the density is `gamma(5)` everywhere.
+            // With concentrations of one the density is `gamma(5)` everywhere.
             assert!((d.log_density(&d.sample(&mut stream(k))) - 24.0_f64.ln()).abs() < 1e-12);
         }
         let lasts: Vec<f64> = (0..DRAWS as u64).map(|k| entry(&d.sample(&mut stream(k)), 4)).collect();
@@ -217,12 +217,12 @@ mod tests {
             assert!(d.log_density(&x) > f64::NEG_INFINITY, "{x:?}");
             first += usize::from(entry(&x, 0) == 1.0);
         }
-        // 400 draws of 3/4 stay within 300 +- 60 but for 5e-12.
+        // 400 draws of probability 3/4 stay within 300 +- 60, except with probability 5e-12.
         assert!((240..=360).contains(&first), "{first}");
     }
 
     #[test]
-    fn a_gaussian_vector_is_a_margin_and_a_conditional() {
+    fn gaussian_vectors_agree_with_margin_and_conditional() {
         let (mean, cov) = (vec![1.0, -2.0], vec![vec![4.0, 1.2], vec![1.2, 1.0]]);
         let d = Dist::new(Family::MultivariateGaussian, &[Param::Vector(mean), Param::Matrix(cov)]).unwrap();
         // x1 given x0 has mean -2 + 0.3 (x0 - 1) and variance 1 - 0.36.
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn covariances_that_are_none_are_refused() {
+    fn invalid_covariances_are_refused() {
         let build = |cov: Vec<Vec<f64>>| {
             Dist::new(Family::MultivariateGaussian, &[Param::Vector(vec![0.0, 0.0]), Param::Matrix(cov)])
         };

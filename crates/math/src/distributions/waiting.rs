@@ -10,7 +10,7 @@ pub(super) fn exponential_log_density<S: Scalar>(rate: S, x: S) -> S {
     if x < S::from_f64(0.0) { S::from_f64(f64::NEG_INFINITY) } else { rate.ln() - rate * x }
 }
 
-/// The kept ziggurat's draw, scaled.
+/// A draw of `rand_distr`'s ziggurat, scaled.
 #[inline]
 pub(super) fn exponential_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let e: f64 = Exp1.sample(rng);
@@ -21,17 +21,17 @@ pub(super) fn exponential_sample(rate: f64, rng: &mut (impl RngCore + ?Sized)) -
 #[inline]
 pub(super) fn gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> S {
     if x <= S::from_f64(0.0) {
-        // Of the shape 1, an exponential, the density at zero is a number.
+        // With shape 1, an exponential, the density at zero is finite.
         let is_exponential = x == S::from_f64(0.0) && shape == S::from_f64(1.0);
         return if is_exponential { -scale.ln() } else { S::from_f64(f64::NEG_INFINITY) };
     }
     gamma_log_density_at(shape, scale, x, x.ln())
 }
 
-/// The same above zero, the logarithm known.
+/// [`gamma_log_density`] above zero, for a known logarithm of `x`.
 #[inline]
 pub(super) fn gamma_log_density_at<S: Scalar>(shape: S, scale: S, x: S, log_x: S) -> S {
-    // Two logarithms: the quotient may underflow.
+    // Two logarithms, since the quotient may underflow.
     let log = log_x - scale.ln();
     (shape - S::from_f64(1.0)) * log - x / scale - scale.ln() - shape.ln_gamma()
 }
@@ -48,13 +48,13 @@ pub(super) fn log_gamma_draw(shape: f64, rng: &mut (impl RngCore + ?Sized)) -> f
     g.max(f64::MIN_POSITIVE).ln() + log_power
 }
 
-/// The kept sampler's draw of a shape of one or more.
+/// A draw of `rand_distr`'s sampler for a shape of at least one.
 #[inline]
 pub(super) fn gamma_draw(shape: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     rand_distr::Gamma::new(shape, 1.0).map_or(shape, |d| d.sample(rng)).max(f64::MIN_POSITIVE)
 }
 
-/// The kept sampler's draw, scaled.
+/// A draw of `rand_distr`'s sampler, scaled.
 #[inline(never)]
 pub(super) fn gamma_sample(shape: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     let x = if shape < 1.0 {
@@ -74,14 +74,14 @@ pub(super) fn inverse_gamma_log_density<S: Scalar>(shape: S, scale: S, x: S) -> 
     inverse_gamma_log_density_at(shape, scale, x, x.ln())
 }
 
-/// The same above zero, the logarithm known.
+/// [`inverse_gamma_log_density`] above zero, for a known logarithm of `x`.
 #[inline]
 pub(super) fn inverse_gamma_log_density_at<S: Scalar>(shape: S, scale: S, x: S, log_x: S) -> S {
     let log = scale.ln() - log_x;
     (shape + S::from_f64(1.0)) * log - scale / x - scale.ln() - shape.ln_gamma()
 }
 
-/// `scale` over a gamma draw.
+/// The quotient of `scale` and a gamma draw.
 #[inline(never)]
 pub(super) fn inverse_gamma_sample(shape: f64, scale: f64, rng: &mut (impl RngCore + ?Sized)) -> f64 {
     (scale.ln() - log_gamma_draw(shape, rng)).exp().clamp(f64::MIN_POSITIVE, f64::MAX)

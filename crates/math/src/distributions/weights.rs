@@ -1,7 +1,7 @@
 //! The table of weights behind categorical and mixture.
 //!
-//! Weights need not sum to one. Logarithms and running sums are computed once, when the table is built, so
-//! that scoring is a look-up and drawing one uniform and a search.
+//! Weights need not sum to one. Logarithms and running sums are computed once, when the table is built. So
+//! a score is a look-up, and a draw needs one uniform and a search.
 
 use crate::scalar::Scalar;
 use crate::streams::{RngCore, open_unit};
@@ -9,8 +9,8 @@ use crate::streams::{RngCore, open_unit};
 /// Weights of the choices 0, 1, ..., n - 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights<S: Scalar = f64> {
-    /// As given.
-    pub(super) given: Box<[S]>,
+    /// The weights before scaling, as the model passed them.
+    pub(super) unscaled: Box<[S]>,
     /// Log probabilities, nats.
     pub(super) log: Box<[S]>,
     /// Running sums of the probabilities; from the last possible choice on exactly 1.
@@ -18,7 +18,7 @@ pub struct Weights<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Weights<S> {
-    /// How many choices there are.
+    /// The number of choices.
     pub fn len(&self) -> usize {
         self.log.len()
     }
@@ -28,9 +28,9 @@ impl<S: Scalar> Weights<S> {
         self.log.is_empty()
     }
 
-    /// The weights as given.
-    pub fn given(&self) -> &[S] {
-        &self.given
+    /// The weights before scaling, as the model passed them.
+    pub fn unscaled(&self) -> &[S] {
+        &self.unscaled
     }
 
     /// Running sums of the probabilities; from the last possible choice on exactly 1.
@@ -38,7 +38,7 @@ impl<S: Scalar> Weights<S> {
         &self.cumulative
     }
 
-    /// Log probability of choice `k`, nats; minus infinity for one that does not exist.
+    /// Log probability of choice `k`, nats; minus infinity if there is no such choice.
     #[inline]
     pub fn log_probability(&self, k: i64) -> S {
         match usize::try_from(k).ok().and_then(|k| self.log.get(k)) {
@@ -47,12 +47,12 @@ impl<S: Scalar> Weights<S> {
         }
     }
 
-    /// The first choice whose running sum exceeds a uniform; one of weight zero never is.
+    /// The first choice whose running sum exceeds a uniform; never a choice of weight zero.
     #[inline]
     pub fn sample(&self, rng: &mut (impl RngCore + ?Sized)) -> usize {
         let u = open_unit(rng);
         if self.cumulative.len() <= 16 {
-            // The sums do not fall, so all are compared: there is no jump to be predicted.
+            // The sums never fall, so all are compared: the processor has no jump to predict.
             self.cumulative.iter().filter(|sum| **sum <= u).count()
         } else {
             self.cumulative.partition_point(|sum| *sum <= u)
@@ -62,7 +62,7 @@ impl<S: Scalar> Weights<S> {
 
 #[cfg(test)]
 mod tests {
-    //! Draws follow the weights, whatever their sum, and choices of weight zero are never drawn.
+    //! Draws follow the weights, whatever the weights sum to, and choices of weight zero are never drawn.
     use super::super::testing::*;
     use crate::{Dist, Draw, Family, Param};
 

@@ -15,7 +15,7 @@ pub(super) fn bernoulli_sample(p: f64, rng: &mut (impl RngCore + ?Sized)) -> boo
     open_unit(rng) < p
 }
 
-/// How many values there are, as a float (up to 2^64).
+/// The number of values, as a float (up to 2^64).
 #[inline]
 pub(super) fn discrete_uniform_size(lo: i64, hi: i64) -> f64 {
     hi.wrapping_sub(lo) as u64 as f64 + 1.0
@@ -27,7 +27,7 @@ pub(super) fn discrete_uniform_log_density(lo: i64, hi: i64, x: i64) -> f64 {
     if x < lo || x > hi { f64::NEG_INFINITY } else { -discrete_uniform_size(lo, hi).ln() }
 }
 
-/// The high half of a product of 64 bits with the range; the few products that would make some values more
+/// The high half of the product of 64 random bits and the range. The few products that would make some values more
 /// likely than others are drawn again (Lemire 2019, alg. 5).
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "the two halves of a product")]
@@ -56,7 +56,7 @@ pub(super) fn geometric_log_density<S: Scalar>(p: S, x: i64) -> S {
     }
 }
 
-/// By inversion; counts beyond the largest `i64` are replaced by it.
+/// A draw by inversion; the largest `i64` replaces larger counts.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "counts beyond the largest integer are replaced by it")]
 pub(super) fn geometric_sample(p: f64, rng: &mut (impl RngCore + ?Sized)) -> i64 {
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn the_widest_and_the_rarest() {
+    fn extreme_ranges_and_probabilities_are_drawn() {
         let all = Dist::<f64>::DiscreteUniform { lo: i64::MIN, hi: i64::MAX };
         assert!((all.log_density(&Draw::Int(7)) + 64.0 * 2.0_f64.ln()).abs() < 1e-12);
         assert!(matches!(all.sample(&mut stream(1)), Draw::Int(_)));

@@ -56,7 +56,7 @@ impl Placer {
             spread: value.abs().max(f64::MIN_POSITIVE),
             is_angle: false,
         };
-        let given = |inputs: &[Var]| {
+        let build = |inputs: &[Var]| {
             let (arguments, constants) = inputs.split_at(lifted.arguments.len());
             let mut args = self.model.args.clone();
             for ((place, _), x) in lifted.arguments.iter().zip(arguments) {
@@ -74,7 +74,7 @@ impl Placer {
             Ok((program, args))
         };
         let run = Placed {
-            given: &given,
+            build: &build,
             inputs: lifted.arguments.iter().chain(&lifted.constants).map(input).collect(),
             held: self.model.held.as_deref(),
             limits: self.model.limits,

@@ -1,5 +1,5 @@
-//! Annealed importance sampling (Neal 2001, "Annealed importance sampling"): particles go from the prior to the posterior on a
-//! ladder of laws between them, moved by a chain at each.
+//! Annealed importance sampling (Neal 2001, "Annealed importance sampling"). Particles go from the prior to the posterior on a
+//! ladder of laws; at each rung a chain moves them.
 //!
 //! ```text
 //! f_k(x) = prior(x) exp(b_k s(x))           0 = b_0 < b_1 < ... < b_n = 1; s: the log score
@@ -7,17 +7,17 @@
 //! log w = sum over k of (b_k - b_(k-1)) s(x_(k-1))
 //! ```
 //!
-//! The weight of rung `k` is taken at the state *before* the moves of this rung. Then the mean of `w` is unbiased for the
-//! evidence, and weighted particles follow the posterior, however few moves there are and however badly they mix: what a move
-//! misses, the weights count.
+//! The weight of rung `k` is computed at the state *before* the moves of this rung. Then the mean of `w` is unbiased for the
+//! evidence, and weighted particles follow the posterior, for any number of moves and any mixing: the weights correct the
+//! errors of the moves.
 //!
-//! Differs: a prior may have impossible runs, on which a chain cannot stand. `f_0` is the prior of the possible runs, drawn by
-//! trying again, and its constant is the probability that a run is possible. Of `N` tries that it took to find `n` runs,
-//! `(n - 1) / (N - 1)` is unbiased for it (Haldane 1945, inverse sampling) and independent of the runs themselves, so that the
-//! product with the mean of `w` stays unbiased. It needs two particles.
+//! This code differs from the paper: a prior may have impossible runs, on which a chain cannot stand. So `f_0` is the prior of the
+//! possible runs, drawn by repeated tries, and its constant is the probability that a run is possible. If `n` possible runs took
+//! `N` tries, `(n - 1) / (N - 1)` is an unbiased estimate of this probability (Haldane 1945, inverse sampling). It is independent
+//! of the runs themselves, so its product with the mean of `w` is unbiased too. The estimate needs two particles.
 //!
-//! No move depends on what a particle has met: kernels do not adapt, and scales of proposals come from forward runs of their
-//! own. Particles are independent, so they are the same on any number of threads.
+//! No move depends on the history of a particle: kernels do not adapt, and scales of proposals come from separate forward
+//! runs. Particles are independent, so they are equal on any number of threads.
 
 use niwaki_chain::Chain;
 use niwaki_chain::kernel::Kernel;
@@ -35,29 +35,29 @@ use serde::Deserialize;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Evenly spaced numbers to this power are the powers of a ladder (Friel & Pettitt 2008, section 3): the law changes fastest
+/// The powers of a ladder are evenly spaced numbers to this power (Friel & Pettitt 2008, section 3), since the law changes fastest
 /// near the prior.
 const BEND: i32 = 4;
 
-/// The powers of the score: so many rungs, or a list of one's own.
+/// The powers of the score: a number of rungs, or a list of powers.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 pub enum Powers {
-    /// So many rungs.
+    /// A number of rungs.
     Rungs(usize),
-    /// These.
-    Own(Vec<f64>),
+    /// A list of powers.
+    List(Vec<f64>),
 }
 
 impl Powers {
-    /// The powers after 0, in order, the last 1.
+    /// The powers after 0, in rising order; the last is 1.
     ///
     /// # Errors
     /// No rungs; powers that do not rise from above 0 to 1.
     pub fn ladder(&self) -> Result<Vec<f64>, Fault> {
         let powers = match self {
             Powers::Rungs(n) => (1..=*n).map(|k| (k as f64 / *n as f64).powi(BEND)).collect(),
-            Powers::Own(powers) => powers.clone(),
+            Powers::List(powers) => powers.clone(),
         };
         let rises = powers.windows(2).all(|pair| pair[0] < pair[1]);
         match (powers.first(), powers.last()) {
@@ -71,17 +71,17 @@ impl Powers {
 /// The settings.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// How many particles, at least two.
+    /// The number of particles, at least two.
     pub particles: usize,
     /// The powers after 0.
     pub powers: Vec<f64>,
-    /// How particles are moved.
+    /// The kernel that moves particles.
     pub kernel: Kernel,
     /// Proposals for each particle at each rung.
     pub moves: u64,
-    /// Most forward runs for a first state of a particle.
+    /// Most forward runs for the first state of a particle.
     pub tries: u64,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
@@ -89,8 +89,8 @@ impl Settings {
     /// Refuses settings that make no sense.
     fn check(&self) -> Result<(), Fault> {
         if self.particles < 2 || self.moves == 0 {
-            let what = "fewer than two particles, or no moves";
-            return Err(Fault::new("bad-setting", what).with_help("use 100 particles and 10 moves"));
+            let message = "fewer than two particles, or no moves";
+            return Err(Fault::new("bad-setting", message).with_help("use 100 particles and 10 moves"));
         }
         if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
             return Err(Fault::new("bad-kernel", "an annealing kernel has powers of its own")
@@ -100,38 +100,38 @@ impl Settings {
     }
 }
 
-/// What annealed importance sampling gives.
+/// The result of annealed importance sampling.
 pub struct Annealed {
-    /// The particles that have come to the end, with their weights: their mean is the evidence.
+    /// The particles at the end of the ladder, with their weights, whose mean is the evidence.
     pub runs: Vec<Run>,
-    /// Log of the evidence, nats; none where the search was stopped.
+    /// Log of the evidence, nats; `None` if the search was stopped.
     pub log_evidence: Option<f64>,
     /// The effective sample size of the weights.
     pub effective: f64,
     /// The powers after 0.
     pub powers: Vec<f64>,
-    /// Forward runs that the first states took.
+    /// Number of forward runs for the first states.
     pub tries: u64,
-    /// Proposals, and those that were kept.
+    /// Proposals, and accepted proposals.
     pub moved: Count,
-    /// Whether it was stopped.
+    /// Whether the search was stopped.
     pub interrupted: bool,
 }
 
-/// One particle at the top of the ladder.
-struct Climbed {
+/// A particle at the top of the ladder.
+struct Arrival {
     run: Run,
     tries: u64,
     moved: Count,
 }
 
-/// Particles on their way from the prior to the posterior.
+/// Moves particles from the prior to the posterior.
 ///
-/// `watch` is called after each rung of each particle: with minus infinity, and when it has come to the end with its log
-/// score. When it returns false, the particles that are on their way are dropped.
+/// `watch` is called after each rung of each particle: with the log score after the last rung, with minus infinity before. When
+/// it returns false, unfinished particles are dropped.
 ///
 /// # Errors
-/// Settings that make no sense, no possible first state, a fault of the program; stopped before any particle has ended.
+/// Settings that make no sense, no possible first state, a fault of the program, or a stop before the first particle is finished.
 pub fn annealed(
     task: &Task,
     settings: &Settings,
@@ -145,19 +145,23 @@ pub fn annealed(
         stopped: AtomicBool::new(false),
         watch,
     };
-    let all: Vec<Option<Climbed>> = (0..settings.particles as u64)
+    let all: Vec<Option<Arrival>> = (0..settings.particles as u64)
         .into_par_iter()
         .map(|number| climb.particle(number))
         .collect::<Result<_, Failure>>()?;
     let interrupted = all.iter().any(Option::is_none);
     let (mut runs, mut tries, mut moved) = (Vec::with_capacity(all.len()), 0, Count::default());
-    for one in all.into_iter().flatten() {
-        tries += one.tries;
-        moved += one.moved;
-        runs.push(one.run);
+    for arrival in all.into_iter().flatten() {
+        tries += arrival.tries;
+        moved += arrival.moved;
+        runs.push(arrival.run);
     }
     if runs.is_empty() {
-        return Err(Fault::new("out-of-time", "stopped before the first particle had come to the end").into());
+        return Err(Fault::new(
+            "out-of-time",
+            "the search was stopped before the first particle was finished",
+        )
+        .into());
     }
     let log_possible = log_possible(runs.len() as u64, tries);
     runs.iter_mut().for_each(|run| run.log_weight += log_possible);
@@ -168,14 +172,14 @@ pub fn annealed(
     Ok(Annealed { runs, log_evidence, effective, powers, tries, moved, interrupted })
 }
 
-/// Log of an unbiased estimate of the probability that a run is possible, of the tries that it took to find so many; of one
-/// that is alone the share, which is used where a search was stopped.
-fn log_possible(found: u64, tries: u64) -> f64 {
-    let less = u64::from(found > 1);
-    ((found - less) as f64 / (tries - less) as f64).ln()
+/// Log of an unbiased estimate of the probability that a run is possible, from the tries that some runs took. For a
+/// single run it is the share of its tries, which only a stopped search uses.
+fn log_possible(runs: u64, tries: u64) -> f64 {
+    let less = u64::from(runs > 1);
+    ((runs - less) as f64 / (tries - less) as f64).ln()
 }
 
-/// What all particles share.
+/// The inputs that all particles share.
 struct Climb<'a> {
     task: &'a Task,
     settings: &'a Settings,
@@ -185,25 +189,26 @@ struct Climb<'a> {
 }
 
 impl Climb<'_> {
-    /// One particle from a run of the prior to the end; none where the search was stopped before.
-    fn particle(&self, number: u64) -> Result<Option<Climbed>, Failure> {
+    /// Moves a particle from a run of the prior to the end of the ladder; `None` if the search was stopped before.
+    fn particle(&self, number: u64) -> Result<Option<Arrival>, Failure> {
         if self.stopped.load(Ordering::Relaxed) {
             return Ok(None);
         }
         let Climb { task, settings, .. } = self;
-        let own = niwaki_chain::Settings {
+        let chain_settings = niwaki_chain::Settings {
             seed: settings.seed,
             kernel: settings.kernel.clone(),
             thin: 0,
             tries: settings.tries,
             ..niwaki_chain::Settings::default()
         };
-        let plan = Plan::new(&own.kernel)?;
-        let (state, _, tries) = State::tried(task, Streams::new(own.seed, number), own.tries, None)?;
+        let plan = Plan::new(&chain_settings.kernel)?;
+        let (state, _, tries) =
+            State::tried(task, Streams::new(chain_settings.seed, number), chain_settings.tries, None)?;
         if number == 0 {
             plan.check(&state, task)?;
         }
-        let mut chain: Chain = Chain::at(task, &own, number, plan, state, &self.spreads)?;
+        let mut chain: Chain = Chain::at(task, &chain_settings, number, plan, state, &self.spreads)?;
         let (mut power, mut log_weight) = (0.0, 0.0);
         for &next in &settings.powers {
             let score = chain.state.score();
@@ -220,7 +225,7 @@ impl Climb<'_> {
         }
         let run = Run { log_weight, ..chain.now(&task.program) };
         self.look(run.log_score);
-        Ok(Some(Climbed { run, tries, moved: chain.counts.all() }))
+        Ok(Some(Arrival { run, tries, moved: chain.counts.all() }))
     }
 
     fn look(&self, score: f64) {

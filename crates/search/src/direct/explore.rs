@@ -1,6 +1,6 @@
-//! Chains of a task that follow its gradient, each from its own possible run.
+//! Chains of a task that follow its gradient, each from a possible run.
 //!
-//! Discrete choices and the structure stay as they are in that run: a point at which the run would make other choices is
+//! Discrete choices and the structure stay as in that run: a point at which the run would make other choices is
 //! refused, and its trajectory rejected.
 
 use super::rows;
@@ -23,13 +23,13 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The draws of one chain.
+/// The draws of a chain.
 pub struct Explored {
-    /// Its draws, in coordinates.
+    /// The draws, in coordinates.
     pub draws: Draws,
-    /// A recording of its structure.
+    /// A recording of the chain's structure.
     pub recorded: Arc<Recorded>,
-    /// The choices that were held fixed, with names. Those of one value are not among them.
+    /// The fixed choices, with names, without choices that have a single possible value.
     pub fixed: Vec<Choice>,
     /// The values of the continuous choices by rows, `(draws, sum of widths)`.
     pub numbers: Vec<f64>,
@@ -43,13 +43,13 @@ impl Explored {
         &self.recorded.choices
     }
 
-    /// How many numbers the continuous choices of a draw have.
+    /// The number of numbers in the continuous choices of a draw.
     pub fn width(&self) -> usize {
         rows::width(&self.recorded)
     }
 
-    /// Of each draw, by running it: the log density of its choices without Jacobians, and its factors and observations,
-    /// nats.
+    /// The log density of the choices of each draw without Jacobians, and its factors and observations, nats, by running
+    /// the program.
     ///
     /// # Errors
     /// A fault of the program.
@@ -60,43 +60,43 @@ impl Explored {
 
 /// The settings of a search.
 pub struct Plan<'a> {
-    /// How each chain moves.
+    /// The settings of each chain's moves.
     pub settings: &'a Settings,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
-    /// How many chains.
+    /// The number of chains.
     pub chains: usize,
-    /// Most forward runs for the start of each.
+    /// Most forward runs for the start of each chain.
     pub tries: u64,
-    /// Values of choices at the start, where they are known.
+    /// Known values of choices at the start.
     pub known: Option<&'a HashMap<u128, Value>>,
 }
 
-/// The number of lanes, where each thread has at least as many chains, and where it has fewer.
+/// The number of lanes if each thread has at least as many chains, and the number if it has fewer.
 const MANY: usize = 64;
 const FEW: usize = 16;
-/// Fewer chains run alone, each with machine code: empty lanes cost as much as full ones.
+/// Least number of chains in lanes; fewer run alone, with machine code, since empty lanes cost as much as full lanes.
 const LEAST: usize = 12;
 
 /// A chain before it runs.
 pub(super) struct Member {
     pub(super) number: usize,
     pub(super) target: Live,
-    /// The path of its first run, which its target may leave.
+    /// The path of the first run, which the target may leave.
     pub(super) recorded: Arc<Recorded>,
     /// The coordinates of that run.
     pub(super) start: Vec<f64>,
 }
 
-/// Draws from a task's distribution. `watch` is called regularly with the transitions of all chains; when it returns
-/// false, the chains end with their draws so far.
+/// Draws from a task's distribution. `watch` is called regularly with the number of transitions of all chains; when it
+/// returns false, the chains end with their draws so far.
 ///
-/// Where each thread has a dozen chains or more of one structure, with trajectories of a fixed length and a metric of
-/// scales, they run in [`lanes`]. Their draws are the same to the bit as alone.
+/// Chains run in [`lanes`] if each thread has at least a dozen of one structure, with trajectories of a fixed length and a metric
+/// of scales. Their draws equal those of single chains to the bit.
 ///
 /// # Errors
-/// Sketches, a run without continuous choices, no possible start, an operation without a derivative on which the score
-/// depends, a start without a finite gradient, a fault of the program.
+/// Sketches, a run without continuous choices, no possible start, an operation without a derivative that the score
+/// depends on, a start without a finite gradient, a fault of the program.
 pub fn explore(
     task: &Task,
     plan: &Plan<'_>,
@@ -114,10 +114,10 @@ pub fn explore(
     if let Some(metric) = &plan.settings.metric {
         fits(metric, first.start.len())?;
     }
-    let others: Vec<Result<Member, Failure>> =
+    let members_after: Vec<Result<Member, Failure>> =
         (1..plan.chains).into_par_iter().map(|number| from(number, Some(&first.target))).collect();
     let mut members = vec![Some(first)];
-    for other in others {
+    for other in members_after {
         members.push(Some(other?));
     }
     let groups: Vec<Vec<Member>> = grouped(plan.settings, &members)
@@ -133,7 +133,7 @@ pub fn explore(
     Ok(explored.into_iter().map(|(_, chain)| chain).collect())
 }
 
-/// Refuses a metric of another number of coordinates.
+/// Refuses a metric with another number of coordinates.
 fn fits(metric: &Metric, dim: usize) -> Result<(), Failure> {
     if metric.dim() == dim {
         return Ok(());
@@ -144,7 +144,7 @@ fn fits(metric: &Metric, dim: usize) -> Result<(), Failure> {
         .into())
 }
 
-/// Chains that move together: those of one structure, in lanes; the others each alone.
+/// Groups of chains that move together: chains of one structure, in lanes; every other chain alone.
 fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     let mut alike: Vec<(u128, Vec<usize>)> = Vec::new();
     for (k, member) in members.iter().enumerate() {
@@ -158,17 +158,17 @@ fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
     for (_, chains) in alike {
         let each = chains.len().div_ceil(rayon::current_num_threads());
         let alone = !lanes::suits(settings) || each < LEAST;
-        // In lanes, all chains of a thread: where one ascent has ended, the next one takes its lane.
+        // All chains of a thread in lanes: when an ascent has ended, the next one takes its lane.
         groups.extend(chains.chunks(if alone { 1 } else { each }).map(<[usize]>::to_vec));
     }
     groups
 }
 
-/// Possible runs without a finite gradient at most, before the last of them is the start and its fault is reported.
+/// Most possible runs without a finite gradient; the last becomes the start, and its fault is reported.
 const STARTS: u64 = 100;
 
-/// The density around a chain's first run, the first possible one of at most `tries` with a finite gradient, with the values
-/// that are known: that of the first chain, where the run is on its path.
+/// The density around a chain's first run: the first possible run of at most `tries` that has the known values and a finite
+/// gradient. If the run is on the path of the first chain, the density is that of the first chain.
 pub(super) fn start(
     task: &Task,
     model: &Model,
@@ -181,15 +181,15 @@ pub(super) fn start(
     let mut last: Option<(Member, HashMap<u128, Value>)> = None;
     loop {
         attempt += 1;
-        let (state, taken) = match State::tried_after(task, streams, tried, tries.max(1), known) {
-            Ok((state, _, taken)) => (state, taken),
+        let (state, runs) = match State::tried_after(task, streams, tried, tries.max(1), known) {
+            Ok((state, _, runs)) => (state, runs),
             // No further run is possible.
             Err(failure) => return last.map(|(member, _)| member).ok_or(failure),
         };
-        tried = taken;
+        tried = runs;
         let choices = state.choices(&task.program).collect();
         drop(state);
-        // Nothing is drawn anew.
+        // The run is that of the last attempt, so no choice is drawn anew.
         if let Some((member, _)) = last.take_if(|(_, before)| *before == choices) {
             return Ok(member);
         }
@@ -270,7 +270,7 @@ fn in_lanes<const L: usize>(
         drop(chains);
         return Err(no_slope(&group[at].target, &group[at].start));
     }
-    // Groups of equal size, so that no small group is left.
+    // Groups of equal size, so that no small group remains.
     let even = chains.len().div_ceil(chains.len().div_ceil(L));
     let mut chains = chains.into_iter().peekable();
     let mut draws = Vec::with_capacity(chains.len());
@@ -298,7 +298,7 @@ fn explored(
     let mut numbers = Vec::new();
     let mut slope = vec![0.0; target.dim()];
     for (draw, x) in draws.rows().enumerate() {
-        // The path of the point gives the values for its coordinates.
+        // The path of the point gives the values at its coordinates.
         let on_path = target.gradient(x, &mut slope).is_ok();
         debug_assert!(on_path, "draw {draw} is a point of the density");
         numbers.extend(target.recorded().numbers(x));
@@ -307,7 +307,7 @@ fn explored(
     Ok(Explored { fixed, numbers, fault, draws, recorded })
 }
 
-/// The fixed choices of a recorded run by name.
+/// The fixed choices of a recorded run, with names.
 fn fixed(task: &Task, recorded: &Recorded, start: &[f64]) -> Result<Vec<Choice>, Failure> {
     if recorded.fixed.is_empty() {
         return Ok(vec![]);
@@ -317,7 +317,7 @@ fn fixed(task: &Task, recorded: &Recorded, start: &[f64]) -> Result<Vec<Choice>,
     Ok(trace.choices.into_iter().filter(is_fixed).collect())
 }
 
-/// Why a chain could not start.
+/// The reason why a chain could not start.
 pub(super) fn no_slope(target: &Live, start: &[f64]) -> Failure {
     match reason(target, start) {
         Some(fault) => Failure::Run(fault),

@@ -1,7 +1,7 @@
-//! Methods that are neither chains of kept runs nor populations.
+//! Methods other than chains of kept runs and populations.
 //!
 //! * [`annealed`]: annealed importance sampling, by chains at rising powers of the score;
-//! * [`explore`]: chains of a task that follow its slope, each from its own possible run;
+//! * [`explore`]: chains of a task that follow its slope, each from a possible run;
 //! * [`normals`]: normals near a task's distribution.
 
 pub mod annealed;

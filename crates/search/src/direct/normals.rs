@@ -1,7 +1,7 @@
-//! Normals near a task's distribution, over the coordinates of its continuous choices, with draws from them.
+//! Normal approximations of a task's distribution, over the coordinates of its continuous choices, with draws from them.
 //!
-//! The task must have one structure: the same continuous choices in each run, and no discrete ones. What is found to have
-//! another is refused.
+//! The task must have one structure: equal continuous choices in each run, and no discrete choices. A task whose structure
+//! proves to change is refused.
 
 use super::explore::{Member, start};
 use super::rows;
@@ -31,23 +31,23 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Plan<'a> {
     /// The family of an ascent; none for the normals of paths.
     pub family: Option<Family>,
-    /// Where an ascent starts.
+    /// The start of an ascent.
     pub start: Start,
     /// Draws of each result.
     pub draws: usize,
-    /// Steps of an ascent at most.
+    /// Most steps of an ascent.
     pub steps: u32,
-    /// Draws of each of its steps.
+    /// Draws of each step.
     pub samples: usize,
-    /// A round that gains less ends it, nats.
+    /// Least gain of a round, nats; with less, the ascent ends.
     pub tolerance: f64,
-    /// How many paths.
+    /// The number of paths.
     pub paths: usize,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
     /// Most forward runs for the start of each path.
     pub tries: u64,
-    /// Values of choices at the start, where they are known.
+    /// Known values of choices at the start.
     pub known: Option<&'a HashMap<u128, Value>>,
 }
 
@@ -59,35 +59,35 @@ pub struct Approximated {
     pub recorded: Arc<Recorded>,
     /// The draws of positive density by rows, in coordinates, `(n, dim)`.
     pub x: Vec<f64>,
-    /// The values of their choices by rows, `(n, sum of widths)`.
+    /// The values of the draws' choices by rows, `(n, sum of widths)`.
     pub numbers: Vec<f64>,
-    /// Their log densities over coordinates, nats.
+    /// The draws' log densities over coordinates, nats.
     pub log_density: Vec<f64>,
-    /// Their log densities under the normal, nats: on the circle, where a coordinate is an angle.
+    /// The draws' log densities under the normal, nats; if a coordinate is an angle, on the circle.
     pub log_own: Vec<f64>,
-    /// Their log densities under equal shares of all normals, nats: what their weights are taken with.
+    /// The draws' log densities under equal shares of all normals, nats, for the weights.
     pub log_proposal: Vec<f64>,
-    /// Their standard normal numbers by rows, `(n, dim)`.
+    /// The standard normal numbers of the draws by rows, `(n, dim)`.
     pub z: Vec<f64>,
-    /// The slopes of their log weights, `log_density - log_own`, by those numbers, `(n, dim)`.
+    /// The slopes of the log weights, `log_density - log_own`, by the standard normal numbers, `(n, dim)`.
     pub slopes: Vec<f64>,
-    /// The bound of the path's normal from which an ascent started, by other draws, and its standard error, nats.
+    /// The bound of the path's normal at the start of an ascent, by other draws, and its standard error, nats.
     pub path_bound: Option<(f64, f64)>,
     /// Draws of density zero, or without a finite density.
     pub impossible: usize,
     /// The estimates of the bound at each step, nats.
     pub bounds: Vec<f64>,
-    /// The step whose normal this is, of a path.
+    /// The step of a path whose normal this is.
     pub best: Option<usize>,
-    /// Whether an ascent ended by its tolerance; true of a path.
+    /// Whether an ascent ended by its tolerance; true for a path.
     pub converged: bool,
-    /// Where an ascent broke off.
+    /// The point where an ascent broke off.
     pub broke: Option<Broke>,
-    /// The fault there.
+    /// The fault at this point.
     pub fault: Option<Box<RunFault>>,
-    /// Whether it was stopped before its end.
+    /// Whether the search was stopped before its end.
     pub interrupted: bool,
-    /// Gradients taken.
+    /// The number of gradients.
     pub gradients: u64,
 }
 
@@ -97,13 +97,13 @@ impl Approximated {
         &self.recorded.choices
     }
 
-    /// How many numbers the choices of a draw have.
+    /// The number of numbers in the choices of a draw.
     pub fn width(&self) -> usize {
         rows::width(&self.recorded)
     }
 
-    /// Of each draw, by running it: the log density of its choices without Jacobians, and its factors and observations,
-    /// nats.
+    /// The log density of the choices of each draw without Jacobians, and its factors and observations, nats, by running
+    /// the program.
     ///
     /// # Errors
     /// A fault of the program.
@@ -112,19 +112,19 @@ impl Approximated {
     }
 }
 
-/// A path, with what it was followed in.
-struct Followed {
+/// A path, with the member that followed it.
+struct MemberPath {
     member: Member,
     path: Path,
     gradients: u64,
 }
 
-/// Approximates a task's distribution: by one normal that an ascent of the bound found, or by that of each path. `watch`
-/// is called regularly with the steps of all; when it returns false, they end with the best so far.
+/// Approximates a task's distribution by the normal of an ascent of the bound, or by a normal for each path. `watch`
+/// is called regularly with the number of steps of all; when it returns false, they end with the best so far.
 ///
 /// # Errors
-/// Discrete choices, a structure that changes, sketches, no possible start, an operation without a derivative on which the
-/// score depends, a start without a finite gradient, a fault of the program.
+/// Discrete choices, a structure that changes, sketches, no possible start, an operation without a derivative that the
+/// score depends on, a start without a finite gradient, a fault of the program.
 pub fn approximate(
     task: &Task,
     plan: &Plan<'_>,
@@ -140,10 +140,10 @@ pub fn approximate(
     let first = run(0, None)?;
     let is_run = plan.family.is_some() && plan.start == Start::Run;
     let count = if is_run { 1 } else { plan.paths.max(1) };
-    let others: Vec<Result<Member, Failure>> =
+    let members_after: Vec<Result<Member, Failure>> =
         (1..count).into_par_iter().map(|number| run(number, Some(&first.target))).collect();
     let mut members = vec![first];
-    for other in others {
+    for other in members_after {
         members.push(other?);
     }
     if is_run {
@@ -151,46 +151,46 @@ pub fn approximate(
         let normal = Normal::diagonal(member.start.clone(), vec![NARROW; member.start.len()]);
         return Ok(vec![climbed(plan, member, &normal, 0, &look)?]);
     }
-    let followed: Vec<Result<Followed, Failure>> =
+    let paths: Vec<Result<MemberPath, Failure>> =
         members.into_par_iter().map(|member| follow(plan, member, &look)).collect();
-    let mut followed = followed.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut paths = paths.into_iter().collect::<Result<Vec<_>, _>>()?;
     if plan.family.is_none() {
-        let ends = followed.into_par_iter().map(|one| {
-            let Followed { member, path, gradients } = one;
+        let ends = paths.into_par_iter().map(|member_path| {
+            let MemberPath { member, path, gradients } = member_path;
             let (best, angles) = (Some(path.best), angles(&member.recorded));
             let normal = path.normal.in_order(&angles).unwrap_or(path.normal);
-            let found = Found { normal, bounds: path.bounds, best, converged: true, broke: None };
-            drawn(plan, member, found, path.interrupted, gradients)
+            let fit = Fit { normal, bounds: path.bounds, best, converged: true, broke: None };
+            drawn(plan, member, fit, path.interrupted, gradients)
         });
         let mut all = ends.collect::<Vec<_>>().into_iter().collect::<Result<Vec<_>, _>>()?;
         weigh_together(&mut all);
         return Ok(all);
     }
-    let height = |one: &Followed| one.path.bounds[one.path.best];
-    let best = (0..followed.len())
-        .fold(0, |best, k| if height(&followed[k]) > height(&followed[best]) { k } else { best });
-    let gradients = followed.iter().map(|one| one.gradients).sum();
-    let Followed { member, path, .. } = followed.swap_remove(best);
+    let height = |member_path: &MemberPath| member_path.path.bounds[member_path.path.best];
+    let best =
+        (0..paths.len()).fold(0, |best, k| if height(&paths[k]) > height(&paths[best]) { k } else { best });
+    let gradients = paths.iter().map(|member_path| member_path.gradients).sum();
+    let MemberPath { member, path, .. } = paths.swap_remove(best);
     Ok(vec![climbed(plan, member, &path.normal, gradients, &look)?])
 }
 
-/// The coordinates that are angles: with them the density repeats every turn.
+/// The first coordinates of choices that are angles, by which the density repeats every turn.
 fn angles(recorded: &Recorded) -> Vec<usize> {
     let angle = |choice: &&Continuous| choice.transform == Transform::Circle;
     recorded.choices.iter().filter(angle).map(|choice| choice.first).collect()
 }
 
-/// Gives the draws of several normals their densities under all of them together.
+/// Computes the densities of the draws of several normals under all of these normals together.
 fn weigh_together(all: &mut [Approximated]) {
     if all.len() < 2 {
         return;
     }
     let angles = angles(&all[0].recorded);
-    let normals: Vec<&Normal> = all.iter().map(|one| &one.normal).collect();
+    let normals: Vec<&Normal> = all.iter().map(|approximated| &approximated.normal).collect();
     let dim = normals[0].dim();
-    let together = |one: &Approximated| -> Vec<f64> {
-        let mut logs = Vec::with_capacity(one.log_own.len());
-        for some in one.x.chunks(LANES * dim.max(1)) {
+    let together = |normal: &Approximated| -> Vec<f64> {
+        let mut logs = Vec::with_capacity(normal.log_own.len());
+        for some in normal.x.chunks(LANES * dim.max(1)) {
             let count = some.len() / dim.max(1);
             // Empty lanes repeat the first draw.
             let entry = |k: usize, l: usize| some[if l < count { l * dim } else { 0 } + k];
@@ -200,13 +200,13 @@ fn weigh_together(all: &mut [Approximated]) {
         logs
     };
     let logs: Vec<Vec<f64>> = all.par_iter().map(together).collect();
-    all.iter_mut().zip(logs).for_each(|(one, logs)| one.log_proposal = logs);
+    all.iter_mut().zip(logs).for_each(|(approximated, logs)| approximated.log_proposal = logs);
 }
 
-/// Draws by which a fit is compared with the normal of its path.
+/// Number of draws for comparing a fit with the normal of its path.
 const COMPARED: usize = 256;
 
-/// The bound of a normal, and its standard error, nats; `None` where a draw has no finite density.
+/// The bound of a normal, and its standard error, nats; `None` if a draw has no finite density.
 fn bound<P: Potential, W: niwaki_continuous::hamiltonian::lanes::Wide<LANES>>(
     batch: &mut Batch<'_, P, W>,
     normal: &Normal,
@@ -218,8 +218,8 @@ fn bound<P: Potential, W: niwaki_continuous::hamiltonian::lanes::Wide<LANES>>(
     for count in counts(COMPARED) {
         normal.draw(&mut stream, &mut z, &mut x);
         let values = batch.evaluate(&x, &mut g, count).map_err(|_| elsewhere())?;
-        let own = normal.log_density_around(&z, &batch.angles);
-        ratios.extend(values.iter().zip(own).take(count).map(|(p, q)| p - q));
+        let log_normal = normal.log_density_around(&z, &batch.angles);
+        ratios.extend(values.iter().zip(log_normal).take(count).map(|(p, q)| p - q));
     }
     let count = ratios.len() as f64;
     let mean = ratios.iter().sum::<f64>() / count;
@@ -227,10 +227,10 @@ fn bound<P: Potential, W: niwaki_continuous::hamiltonian::lanes::Wide<LANES>>(
     Ok(mean.is_finite().then_some((mean, (variance / count).sqrt())))
 }
 
-/// The deviations of the normal around a run, in coordinates.
+/// The deviations of the first normal around a run, in coordinates.
 const NARROW: f64 = 0.1;
 
-/// Refuses discrete choices, and a structure that is not the first one.
+/// Refuses discrete choices, and a structure other than the first.
 fn one_structure(recorded: &Recorded, first: Option<&Recorded>) -> Result<(), Failure> {
     if !recorded.fixed.is_empty() {
         return Err(unsuited("makes discrete choices").into());
@@ -246,12 +246,12 @@ fn elsewhere() -> Failure {
     unsuited("does not make the same choices in every run").into()
 }
 
-fn unsuited(why: &str) -> Fault {
-    Fault::new("no-normal-fits", why)
+fn unsuited(reason_text: &str) -> Fault {
+    Fault::new("no-normal-fits", reason_text)
 }
 
-fn no_path(why: &NoPath, live: &Live, start: &[f64]) -> Failure {
-    match why {
+fn no_path(failure: &NoPath, live: &Live, start: &[f64]) -> Failure {
+    match failure {
         NoPath::Elsewhere => elsewhere(),
         NoPath::Start(_) => super::explore::no_slope(live, start),
     }
@@ -262,14 +262,14 @@ fn follow(
     plan: &Plan<'_>,
     mut member: Member,
     look: &(dyn Fn(u32) -> bool + Sync),
-) -> Result<Followed, Failure> {
+) -> Result<MemberPath, Failure> {
     let mut wide = Wide::<LANES>::new(&member.recorded.density);
     let mut batch = Batch::new(&mut member.target, &mut wide).around(angles(&member.recorded));
-    let found = pathfinder(&mut batch, &member.start, plan.seed, member.number as u64, &|step| look(step));
+    let path = pathfinder(&mut batch, &member.start, plan.seed, member.number as u64, &|step| look(step));
     let gradients = batch.gradients;
-    match found {
-        Ok(path) => Ok(Followed { member, path, gradients }),
-        Err(why) => Err(no_path(&why, &member.target, &member.start)),
+    match path {
+        Ok(path) => Ok(MemberPath { member, path, gradients }),
+        Err(failure) => Err(no_path(&failure, &member.target, &member.start)),
     }
 }
 
@@ -292,22 +292,22 @@ fn climbed(
         }
         Start::Run => None,
     };
-    let fit = ascend(&mut batch, from, &settings, plan.seed, member.number as u64, &|step| look(step));
+    let ascent = ascend(&mut batch, from, &settings, plan.seed, member.number as u64, &|step| look(step));
     let gradients = gradients + batch.gradients;
-    let fit = fit.map_err(|_| elsewhere())?;
-    let found = Found {
-        normal: fit.normal,
-        bounds: fit.bounds,
+    let ascent = ascent.map_err(|_| elsewhere())?;
+    let fit = Fit {
+        normal: ascent.normal,
+        bounds: ascent.bounds,
         best: None,
-        converged: fit.converged,
-        broke: fit.broke,
+        converged: ascent.converged,
+        broke: ascent.broke,
     };
-    let fitted = drawn(plan, member, found, fit.interrupted, gradients)?;
-    Ok(Approximated { path_bound, ..fitted })
+    let approximated = drawn(plan, member, fit, ascent.interrupted, gradients)?;
+    Ok(Approximated { path_bound, ..approximated })
 }
 
-/// A normal, and how it was found.
-struct Found {
+/// A normal, and the report of its search.
+struct Fit {
     normal: Normal,
     bounds: Vec<f64>,
     best: Option<usize>,
@@ -319,12 +319,12 @@ struct Found {
 fn drawn(
     plan: &Plan<'_>,
     member: Member,
-    found: Found,
+    fit: Fit,
     interrupted: bool,
     gradients: u64,
 ) -> Result<Approximated, Failure> {
     let Member { number, mut target, recorded, .. } = member;
-    let Found { normal, bounds, best, converged, broke } = found;
+    let Fit { normal, bounds, best, converged, broke } = fit;
     let dim = normal.dim();
     let mut stream = Stream::new(plan.seed, number as u64, Purpose::Draw as u128, 0);
     let none: Vec<Row> = vec![[0.0; LANES]; dim];
@@ -355,17 +355,17 @@ fn drawn(
     };
     for count in counts(plan.draws) {
         result.normal.draw(&mut stream, &mut z, &mut x);
-        let own = result.normal.log_density_around(&z, &angles);
+        let log_normal = result.normal.log_density_around(&z, &angles);
         let mut is_sound = [false; LANES];
         for l in 0..count {
             at.iter_mut().zip(&x).for_each(|(at, row)| *at = row[l]);
-            // One by one: the path of the point gives the values for its coordinates.
+            // One draw at a time, since the path of the point gives the values at its coordinates.
             match evaluate(&mut target, &at, &mut slope) {
                 Ok(value) => {
                     is_sound[l] = true;
                     g.iter_mut().zip(&slope).for_each(|(row, slope)| row[l] = *slope);
                     result.log_density.push(value);
-                    result.log_own.push(own[l]);
+                    result.log_own.push(log_normal[l]);
                     result.numbers.extend(target.recorded().numbers(&at));
                     result.x.extend_from_slice(&at);
                 }
@@ -375,7 +375,7 @@ fn drawn(
                 Err(_) => result.impossible += 1,
             }
         }
-        // By `z`, log p has the slope S^T g, and log q minus that which the turns leave of z.
+        // The slope by `z` is S^T g for log p; for log q it is minus the part of z that the turns leave.
         let mut slopes = z.clone();
         turns.slopes(&mut slopes);
         result.normal.pull(&g, &mut w);

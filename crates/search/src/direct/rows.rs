@@ -1,16 +1,16 @@
-//! Draws as rows of numbers: those of the continuous choices of a recording, one after the other.
+//! Draws as rows: the numbers of a recording's continuous choices, in order.
 
 use niwaki_grad::{Continuous, Recorded};
 use niwaki_run::replay::{Missing, Source, replay};
 use niwaki_run::{Failure, Task};
 use rayon::prelude::*;
 
-/// How many numbers the continuous choices of a draw have.
+/// The number of numbers in the continuous choices of a draw.
 pub(super) fn width(recorded: &Recorded) -> usize {
     recorded.choices.iter().map(Continuous::width).sum()
 }
 
-/// Of each row, by running it: the log density of its choices without Jacobians, and its factors and observations, nats.
+/// The log density of the choices of each row without Jacobians, and its factors and observations, nats, by running the program.
 ///
 /// # Errors
 /// A fault of the program.

@@ -1,18 +1,18 @@
-//! A search for the best run that spends a given effort where it gains: a search, not a sampler, with no evidence and no
-//! weights.
+//! A search for the best run, which spends its effort on the steps that gain most. It is not a sampler: its result has no
+//! evidence and no weights.
 //!
-//! 1. *Begin* (`start`): populations of particles, until one has a possible run. What it costs is the unit of effort.
-//! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes one kind of step from the best run, and the kinds share the
-//!    rounds by what they gained lately: parts grown again by few or by many particles, single choices that move, a
+//! 1. *Begin* (`start`): populations of particles, until one has a possible run. Its cost is the unit of effort.
+//! 2. *Rounds* (`rounds`) of a fifth of that unit. Each makes steps of one kind from the best run, and the kinds share the
+//!    rounds by their latest gains. The kinds are: parts grown again by few or by many particles, moves of single choices, and a
 //!    new population.
-//! 3. *End* after the given number of rounds, when the time is over, or when nothing has been gained for long.
+//! 3. *End* after the given number of rounds, when the time is over, or when no round has gained for long.
 //!
 //! Work is counted, not timed: particle-steps of populations and of parts, proposals, and shapes that proposals place or remove.
-//! So a search with a number of rounds has the same bits on any machine; one with a time reports how many it made.
+//! So a search with a number of rounds has equal bits on any machine; a search with a time limit reports the number of its rounds.
 //!
-//! A search is stored between two rounds (`stored`): its first population is begun again after a kill.
+//! A search is stored between two rounds (`stored`); if it is killed earlier, its first population starts again.
 //!
-//! Several results that differ are the ends of several smaller searches, side by side.
+//! Several different results are the ends of several smaller searches, side by side.
 
 mod rounds;
 mod start;
@@ -38,15 +38,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use stored::Stored;
 
-/// Rounds where neither their number nor a time is given.
+/// Number of rounds without a limit of rounds or time.
 const USUAL_ROUNDS: u64 = 15;
-/// A gain below this, nats, counts as none.
+/// Least gain that counts, nats.
 const LEAST_GAIN: f64 = 0.01;
-/// Without a gain in so many rounds, or in half of all, a search ends.
+/// Number of rounds without a gain after which a search ends; after half of all rounds, if that is more.
 const PATIENCE: u64 = 20;
-/// The share of the particles that each of several searches for different results has.
+/// The share of the particles for each of several searches for different results.
 const SHARE: f64 = 0.6;
-/// How often further searches are made for results that are missing because others are like them.
+/// Most batches of searches; further ones are made while results are missing because some are alike.
 const BATCHES: usize = 3;
 
 /// The settings.
@@ -63,44 +63,47 @@ pub struct Improve {
     rounds: Option<u64>,
     /// Most seconds.
     seconds: Option<f64>,
-    /// How many results that differ.
+    /// The number of different results.
     diverse: Option<usize>,
-    /// What draws choices in place of the prior, as data.
+    /// The proposal that draws choices in place of the prior, as data.
     pub(crate) proposal: Option<Form>,
-    /// The same, for the search.
+    /// The proposal that draws choices in place of the prior.
     #[serde(skip)]
     drawn_by: Option<Arc<Proposal>>,
 }
 
-/// Where others see what the search has.
+/// The outputs of a search while it runs.
 #[derive(Clone, Copy, Default)]
-pub struct Seen<'a> {
-    /// Its best run so far.
+pub struct Outputs<'a> {
+    /// The display of the best run so far.
     pub shown: Option<&'a Shown>,
-    /// What it needs to go on after it was killed.
+    /// The store of the state from which a killed search resumes.
     pub checkpoint: Option<&'a Checkpoint>,
 }
 
-/// How a search for the best went; of several, the one with the best run.
+/// The report of a search for the best; of several searches, that of the best.
 #[derive(Default)]
 pub struct Improved {
-    /// The populations that were tried until one lived.
+    /// The populations up to the first that survived.
     pub attempts: Vec<Attempt>,
-    /// That population, and each round.
+    /// The first surviving population, and each round.
     pub rounds: Vec<Round>,
-    /// Searches.
+    /// The number of searches.
     pub searches: usize,
-    /// Whether it was stopped.
+    /// Whether the search was stopped.
     pub interrupted: bool,
-    /// Particles of the first population that lived which became impossible.
+    /// Particles of the first surviving population that became impossible.
     pub lost: Lost,
 }
 
 impl Improve {
     fn check(&self) -> Result<(), Fault> {
-        let wrong = |what: String, help: &str| Err(Fault::new("bad-setting", what).with_help(help));
+        let wrong = |message: String, help: &str| Err(Fault::new("bad-setting", message).with_help(help));
         if self.particles == 0 || self.regrow < 2 {
-            return wrong("`improve` needs particles, and two to grow a part again".into(), "use more");
+            return wrong(
+                "`particles` is 0, or `regrow` is below 2".into(),
+                "use at least one particle, and two to grow a part again",
+            );
         }
         if !(self.power > 0.0 && self.power.is_finite()) {
             return wrong(format!("the power is {}", self.power), "use a positive number");
@@ -111,8 +114,8 @@ impl Improve {
         Ok(())
     }
 
-    /// Searches for the best run, or for several that differ, best first. Populations, and parts that are grown again,
-    /// draw their choices from the `proposal`, where there is one. `watch` is called with the number of rounds and the best log score, after the best run
+    /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
+    /// grown again draw their choices from it. `watch` is called with the number of rounds and the best log score, after the best run
     /// is `shown`; when it returns false, the search ends with its best so far. Each search is a part of the `checkpoint`.
     ///
     /// # Errors
@@ -122,56 +125,56 @@ impl Improve {
         task: &Task,
         seed: u64,
         proposal: Option<Arc<Proposal>>,
-        seen: Seen<'_>,
+        outputs: Outputs<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         self.check()?;
-        let own = Improve { drawn_by: proposal, ..self.clone() };
-        match own.diverse {
-            None => own.one(task, seed, 0, seen, watch).map(|(best, info)| (vec![best], info)),
-            Some(wanted) => own.several(task, seed, wanted, seen, watch),
+        let improve = Improve { drawn_by: proposal, ..self.clone() };
+        match improve.diverse {
+            None => improve.single(task, seed, 0, outputs, watch).map(|(best, info)| (vec![best], info)),
+            Some(count) => improve.several(task, seed, count, outputs, watch),
         }
     }
 
-    /// Results that differ, of searches with a share of the particles.
+    /// Different results, from searches with a share of the particles.
     fn several(
         &self,
         task: &Task,
         seed: u64,
-        wanted: usize,
-        seen: Seen<'_>,
+        count: usize,
+        outputs: Outputs<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
         let particles = (SHARE * self.particles as f64).ceil() as usize;
-        let own = Improve { particles, diverse: None, ..self.clone() };
-        let task = &task.shared_by(wanted);
-        let (mut found, mut failed, mut searches, mut chosen) = (vec![], None, 0, vec![]);
+        let smaller = Improve { particles, diverse: None, ..self.clone() };
+        let task = &task.shared_by(count);
+        let (mut ends, mut failed, mut searches, mut chosen) = (vec![], None, 0, vec![]);
         for _ in 0..BATCHES {
-            let missing = wanted - chosen.len();
+            let missing = count - chosen.len();
             let seeds = searches..searches + missing;
             let (results, is_stopped) = side_by_side(missing, watch, |number, watch| {
                 let part = (seeds.start + number) as u64;
-                own.one(task, part_seed(seed, part, 2), part, seen, watch)
+                smaller.single(task, part_seed(seed, part, 2), part, outputs, watch)
             });
             searches = seeds.end;
             for result in results {
                 match result {
-                    Ok(one) => found.push(one),
+                    Ok(end) => ends.push(end),
                     Err(failure) if failure.is_impossible() => failed = failed.or(Some(failure)),
                     Err(failure) => return Err(failure),
                 }
             }
-            found.sort_by(|a, b| b.0.log_score.total_cmp(&a.0.log_score));
-            let ranked: Vec<usize> = (0..found.len()).collect();
-            chosen = Choices::of(found.iter().map(|(run, _)| &run.log)).choose(&ranked, wanted);
-            if chosen.len() >= wanted || is_stopped {
+            ends.sort_by(|a, b| b.0.log_score.total_cmp(&a.0.log_score));
+            let ranked: Vec<usize> = (0..ends.len()).collect();
+            chosen = Choices::of(ends.iter().map(|(run, _)| &run.log)).choose(&ranked, count);
+            if chosen.len() >= count || is_stopped {
                 break;
             }
         }
         let mut runs = vec![];
         let mut info = None;
-        for (number, (run, own)) in found.into_iter().enumerate() {
-            let info = info.get_or_insert(own);
+        for (number, (run, report)) in ends.into_iter().enumerate() {
+            let info = info.get_or_insert(report);
             info.searches = searches;
             if chosen.contains(&number) {
                 runs.push(run);
@@ -183,19 +186,19 @@ impl Improve {
         }
     }
 
-    /// One search, which is a part of the checkpoint.
-    fn one(
+    /// Makes a single search, which is a part of the checkpoint.
+    fn single(
         &self,
         task: &Task,
         seed: u64,
         part: u64,
-        seen: Seen<'_>,
+        outputs: Outputs<'_>,
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<(Run, Improved), Failure> {
-        // Counted apart, so that a part is stored with its own count.
-        let own = task.uncounted();
-        let result = self.counted(&own, seed, part, seen, watch);
-        task.invalid.add(own.invalid.counts());
+        // The count of invalid runs is separate, so that a part is stored with its own count.
+        let uncounted = task.uncounted();
+        let result = self.counted(&uncounted, seed, part, outputs, watch);
+        task.invalid.add(uncounted.invalid.counts());
         result
     }
 
@@ -204,19 +207,20 @@ impl Improve {
         task: &Task,
         seed: u64,
         part: u64,
-        seen: Seen<'_>,
+        outputs: Outputs<'_>,
         watch: &mut dyn FnMut(Progress) -> bool,
     ) -> Result<(Run, Improved), Failure> {
         let began = Instant::now();
-        let left: Option<Stored<Run>> = seen.checkpoint.map_or(Ok(None), |own| own.left(part))?;
-        let before = left.as_ref().map_or(Duration::ZERO, |left| left.time);
+        let stored: Option<Stored<Run>> =
+            outputs.checkpoint.map_or(Ok(None), |checkpoint| checkpoint.left(part))?;
+        let before = stored.as_ref().map_or(Duration::ZERO, |stored| stored.time);
         let time = self.seconds.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::ZERO));
         let elapsed = || before + began.elapsed();
         let is_late = || time.is_some_and(|time| elapsed() >= time);
         let most = self.rounds.unwrap_or(if time.is_some() { u64::MAX } else { USUAL_ROUNDS });
         let round = |kind, work, parts, best| Round { kind, work, parts, best, time: elapsed() };
-        let (mut search, mut info, mut number, mut idle) = match left {
-            Some(left) => left.search(self, task, seed)?,
+        let (mut search, mut info, mut number, mut idle) = match stored {
+            Some(stored) => stored.search(self, task, seed)?,
             None => {
                 let mut info = Improved { searches: 1, ..Improved::default() };
                 let mut first = self.start(task, seed, &mut info.attempts, watch, &|| !is_late())?;
@@ -232,31 +236,31 @@ impl Improve {
         };
         let invalid = || task.invalid.counts();
         while number < most && idle < PATIENCE.max(number / 2) && !info.interrupted && !is_late() {
-            if let Some(checkpoint) = seen.checkpoint {
+            if let Some(checkpoint) = outputs.checkpoint {
                 checkpoint
                     .at_border(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
             }
             let before = search.best.log_score;
-            seen.shown.inspect(|shown| search.best.show(shown));
-            let mut go_on = |best: f64| {
+            outputs.shown.inspect(|shown| search.best.show(shown));
+            let mut may_continue = |best: f64| {
                 info.interrupted |= !watch(Progress { barriers: number as usize, ended: 1, best });
                 !info.interrupted
             };
-            let (kind, work, parts) = search.round(number, &mut go_on)?;
+            let (kind, work, parts) = search.round(number, &mut may_continue)?;
             number += 1;
             let gain = search.best.log_score - before;
             idle = if gain < LEAST_GAIN { idle + 1 } else { 0 };
             info.rounds.push(round(kind, work, parts, search.best.log_score));
         }
-        // A round that was stopped is done again.
-        if let Some(checkpoint) = seen.checkpoint.filter(|_| !info.interrupted) {
+        // A round that was stopped is made again after a resume.
+        if let Some(checkpoint) = outputs.checkpoint.filter(|_| !info.interrupted) {
             checkpoint.store(part, || Stored::of(&search, &info, (number, idle), elapsed(), invalid()));
         }
         Ok((search.best, info))
     }
 }
 
-/// The seed of a population, by its number; of the first, the seed itself.
+/// The seed of a population by its number; the first has the seed of the search.
 fn population_seed(seed: u64, number: u64) -> u64 {
     if number == 0 { seed } else { part_seed(seed, number, 1) }
 }

@@ -1,4 +1,4 @@
-//! The rounds of a search: each goes on from the best run by one kind of step, and the kinds share them by what they gained.
+//! The rounds of a search. Each makes steps of one kind from the best run, and the kinds share the rounds by their gains.
 
 use super::{Improve, population_seed};
 use niwaki_chain::kernel::Kernel;
@@ -22,15 +22,15 @@ use serde_json::json;
 use std::collections::HashMap;
 use std::time::Duration;
 
-/// Rounds that together cost as much as the first population.
+/// Number of rounds that together cost as much as the first population.
 const PER_POPULATION: u64 = 5;
-/// How much of what a kind of step gained is forgotten with each of its rounds.
+/// The share of a kind's gain that is forgotten with each of its rounds.
 const FORGOTTEN: f64 = 0.5;
-/// The share of the rounds that the kind gets which has worked least so far.
+/// The share of the rounds for the kind with the least work so far.
 const EVEN: f64 = 0.25;
-/// How often a discrete choice of a part is turned when it is grown again.
+/// The probability that a discrete choice of a part turns when the part is grown again.
 const TURN: f64 = 0.7;
-/// How many times as many particles grow a part again in rounds of "regrow more".
+/// Factor of the number of particles that grow a part again in rounds of "regrow more".
 const MORE: usize = 5;
 
 /// A kind of step.
@@ -40,16 +40,16 @@ pub enum Kind {
     Population,
     /// Parts grown again by few particles.
     Regrow,
-    /// Parts grown again by five times as many.
+    /// Parts grown again by five times as many particles.
     RegrowMore,
-    /// Single choices, and calls drawn anew.
+    /// Moves of single choices, and calls drawn anew.
     Move,
 }
 
 impl Kind {
     const ALL: [Kind; 4] = [Kind::Regrow, Kind::Move, Kind::RegrowMore, Kind::Population];
 
-    /// Its name in reports.
+    /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Kind::Population => "population",
@@ -60,23 +60,23 @@ impl Kind {
     }
 }
 
-/// What one round did.
+/// The report of a round.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Round {
-    /// Its kind of step.
+    /// The kind of step.
     pub kind: Kind,
-    /// Its work.
+    /// The work of the round.
     pub work: u64,
-    /// The parts that were grown again and kept.
+    /// The number of parts that were grown again and kept.
     pub parts: u64,
-    /// Best log score after it, nats.
+    /// Best log score after the round, nats.
     #[serde(with = "bits")]
     pub best: f64,
-    /// Since the search began, by the clock.
+    /// Time since the search began.
     pub time: Duration,
 }
 
-/// A search as data; its small steps' spreads are found again.
+/// A search as data; the spreads for small steps are computed again.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Stored<R> {
     best: R,
@@ -90,27 +90,27 @@ pub(super) struct Stored<R> {
 /// The search while it runs.
 pub(super) struct Search<'a> {
     task: &'a Task,
-    own: &'a Improve,
+    improve: &'a Improve,
     seed: u64,
     /// The work of a round.
     slice: u64,
-    /// Of the choices, for small steps; empty before the first round of moves.
+    /// The spreads of choices, for small steps; empty before the first round of moves.
     spreads: HashMap<u128, f64>,
     pub best: Run,
-    /// Where chains go on; absent only while one runs, and after a search that was stopped at once.
+    /// The state from which chains continue; absent only while a chain runs, and if the search was stopped at once.
     state: Option<State>,
-    /// Populations so far.
+    /// Number of populations so far.
     populations: u64,
-    /// What the kinds gained lately, nats for the work of a round.
+    /// Latest gain of each kind, nats for the work of a round.
     gains: [Option<f64>; Kind::ALL.len()],
-    /// What they worked so far.
+    /// Work of each kind so far.
     spent: [u64; Kind::ALL.len()],
 }
 
 impl<'a> Search<'a> {
-    /// A search from the best of a first population, which was the `populations`-th, and cost `unit` for the declared size.
+    /// A search from the best run of a first population, the `populations`-th, whose cost for the declared size is `unit`.
     pub fn begin(
-        own: &'a Improve,
+        improve: &'a Improve,
         task: &'a Task,
         seed: u64,
         unit: u64,
@@ -127,13 +127,13 @@ impl<'a> Search<'a> {
         let slice = (unit / PER_POPULATION).max(1);
         let spreads = HashMap::new();
         let (mut gains, mut spent) = ([None; Kind::ALL.len()], [0; Kind::ALL.len()]);
-        // The first population has shown what populations gain.
+        // The first population has shown the gain of populations.
         let population = Kind::ALL.len() - 1;
         (gains[population], spent[population]) = (Some(0.0), unit);
-        Ok(Search { task, own, seed, slice, spreads, best, state, populations, gains, spent })
+        Ok(Search { task, improve, seed, slice, spreads, best, state, populations, gains, spent })
     }
 
-    /// As data, between two rounds; `None` where the search was stopped before its first.
+    /// The search as data, between two rounds; `None` if it was stopped before its first round.
     pub fn stored(&self) -> Option<Stored<&Run>> {
         Some(Stored {
             best: &self.best,
@@ -145,12 +145,12 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The search of its data.
+    /// The search from its data.
     ///
     /// # Errors
-    /// As for [`StoredState::state`].
+    /// See [`StoredState::state`].
     pub fn restored(
-        own: &'a Improve,
+        improve: &'a Improve,
         task: &'a Task,
         seed: u64,
         stored: Stored<Run>,
@@ -159,30 +159,41 @@ impl<'a> Search<'a> {
         let state = Some(state.state(task)?);
         let best = with_value(task, best)?;
         let gains = gains.map(|gain| gain.map(f64::from_bits));
-        Ok(Search { task, own, seed, slice, spreads: HashMap::new(), best, state, populations, gains, spent })
+        Ok(Search {
+            task,
+            improve,
+            seed,
+            slice,
+            spreads: HashMap::new(),
+            best,
+            state,
+            populations,
+            gains,
+            spent,
+        })
     }
 
-    /// One round of about the same work as any; returns its kind, what it cost, and how many parts were grown again and kept. `go_on`
-    /// is called with the best log score, and ends the round where it returns false.
+    /// Makes a round; all rounds have about equal work. Returns its kind, its work, and how many parts were grown again and kept.
+    /// `may_continue` is called with the best log score, and ends the round when it returns false.
     pub fn round(
         &mut self,
         number: u64,
-        go_on: &mut dyn FnMut(f64) -> bool,
+        may_continue: &mut dyn FnMut(f64) -> bool,
     ) -> std::result::Result<(Kind, u64, u64), Failure> {
-        let which = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
-        let (kind, before) = (Kind::ALL[which], self.best.log_score);
+        let index = self.pick(&mut Reserved::Improve.stream(self.seed, u128::from(number), 0));
+        let (kind, before) = (Kind::ALL[index], self.best.log_score);
         let (work, parts) = match kind {
-            Kind::Population => (self.population(go_on)?, 0),
-            _ => self.go_on(kind, number, go_on)?,
+            Kind::Population => (self.population(may_continue)?, 0),
+            _ => self.step(kind, number, may_continue)?,
         };
         let rate = (self.best.log_score - before).max(0.0) * self.slice as f64 / work.max(1) as f64;
         let mixed = |old: f64| FORGOTTEN * old + (1.0 - FORGOTTEN) * rate;
-        self.gains[which] = Some(self.gains[which].map_or(rate, mixed));
-        self.spent[which] += work;
+        self.gains[index] = Some(self.gains[index].map_or(rate, mixed));
+        self.spent[index] += work;
         Ok((kind, work, parts))
     }
 
-    /// Which kind of step is next: each once, and then by what they gained lately.
+    /// The index of the next kind of step: first each kind once, then by their latest gains.
     fn pick(&self, rng: &mut Stream) -> usize {
         if let Some(new) = self.gains.iter().position(Option::is_none) {
             return new;
@@ -190,21 +201,21 @@ impl<'a> Search<'a> {
         let gains: Vec<f64> = self.gains.iter().copied().flatten().collect();
         let u = rng.uniform();
         if gains.iter().all(|gain| *gain <= 0.0) || u < EVEN {
-            let least = (0..gains.len()).min_by_key(|which| self.spent[*which]);
+            let least = (0..gains.len()).min_by_key(|index| self.spent[*index]);
             return least.unwrap_or(0);
         }
         index(&gains, (u - EVEN) / (1.0 - EVEN))
     }
 
-    /// Another population. Returns its work.
-    fn population(&mut self, go_on: &mut dyn FnMut(f64) -> bool) -> std::result::Result<u64, Failure> {
+    /// Makes another population. Returns its work.
+    fn population(&mut self, may_continue: &mut dyn FnMut(f64) -> bool) -> std::result::Result<u64, Failure> {
         let (so_far, number) = (self.best.log_score, self.populations);
         self.populations += 1;
         let seed = population_seed(self.seed, number);
-        let (particles, power) = (self.own.particles, self.own.power);
-        let proposal = self.own.drawn_by.clone();
+        let (particles, power) = (self.improve.particles, self.improve.power);
+        let proposal = self.improve.drawn_by.clone();
         let settings = Settings { particles, seed, power, proposal, ..Settings::default() };
-        match smc(self.task, &settings, &mut |_| go_on(so_far)) {
+        match smc(self.task, &settings, &mut |_| may_continue(so_far)) {
             Ok(result) => {
                 let work = result.steps;
                 if !result.interrupted {
@@ -220,12 +231,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Steps of a chain from the present run. Returns their work and how many parts were grown again and kept.
-    fn go_on(
+    /// Makes steps of a chain from the present run. Returns their work and how many parts were grown again and kept.
+    fn step(
         &mut self,
         kind: Kind,
         number: u64,
-        go_on: &mut dyn FnMut(f64) -> bool,
+        may_continue: &mut dyn FnMut(f64) -> bool,
     ) -> std::result::Result<(u64, u64), Failure> {
         let settings = ChainSettings { seed: self.seed, thin: 0, ..ChainSettings::default() };
         let plan = Plan::new(&self.kernel(kind)?)?;
@@ -234,11 +245,11 @@ impl<'a> Search<'a> {
         }
         let Some(state) = self.state.take() else { return Ok((self.slice, 0)) };
         let mut chain: Chain = Chain::at(self.task, &settings, number, plan, state, &self.spreads)?;
-        chain.restrict(self.own.power, None);
+        chain.restrict(self.improve.power, None);
         let (so_far, before) = (self.best.log_score, chain.work());
         if !chain.state.trace.is_empty() {
             let steps = if kind == Kind::Move { 32 } else { 1 };
-            while chain.work() < before + self.slice && go_on(so_far.max(chain.best.score())) {
+            while chain.work() < before + self.slice && may_continue(so_far.max(chain.best.score())) {
                 chain.advance(self.task, steps, &mut |_, _| true)?;
             }
         }
@@ -258,17 +269,17 @@ impl<'a> Search<'a> {
         let regrow = |particles| {
             let settings = json!({"particles": particles, "turn": TURN, "pick": "size", "best": true});
             let plain = leaf("regrow", settings)?;
-            Ok(match &self.own.drawn_by {
+            Ok(match &self.improve.drawn_by {
                 None => plain,
                 Some(proposal) => plain.drawn_by(proposal.clone()),
             })
         };
         let drift = |step| leaf("drift", json!({"step": step, "target": 0.44}));
-        // Calls of memoised functions are shared by the parts of a run, so no part can be grown again.
+        // The parts of a run share calls of memoised functions, so no part can be grown again.
         let shared = self.task.program.memoises();
         match kind {
-            Kind::Regrow if !shared => regrow(self.own.regrow),
-            Kind::RegrowMore if !shared => regrow(MORE * self.own.regrow),
+            Kind::Regrow if !shared => regrow(self.improve.regrow),
+            Kind::RegrowMore if !shared => regrow(MORE * self.improve.regrow),
             _ => Ok(Kernel::Mixture(vec![
                 (4.0, Kernel::PRIOR),
                 (4.0, drift(0.3)?),
@@ -279,23 +290,23 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A run that was read, with the value that the program returns.
+/// A run from stored data, with the value that the program returns.
 fn with_value(task: &Task, run: Run) -> std::result::Result<Run, Failure> {
     let known = by_address(&run.log.entries());
     let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
     Ok(Run { value: state.trace.result(), is_bare: false, ..run })
 }
 
-/// The best run of a population, and a chain's state there.
+/// The best run of a population, and a chain's state at this run.
 fn best_of(task: &Task, result: Result) -> std::result::Result<(Run, State), Failure> {
-    let best = most(result, |one| one.has_ended).ok_or_else(Failure::no_start)?;
+    let best = most(result, |run| run.has_ended).ok_or_else(Failure::no_start)?;
     let known = by_address(&best.log.entries());
     let (state, _) = State::start(task, Streams::new(0, 0), 1, Some(&known))?;
     Ok((state.run(&task.program, 0), state))
 }
 
-/// The particle with the best score among those that are possible and pass.
+/// The run with the best score among the possible particles that pass.
 fn most(result: Result, passes: impl Fn(&Run) -> bool) -> Option<Run> {
-    let possible = result.particles.into_iter().filter(|one| one.cause.is_none() && passes(one));
+    let possible = result.particles.into_iter().filter(|run| run.cause.is_none() && passes(run));
     possible.max_by(|a, b| a.log_score.total_cmp(&b.log_score))
 }

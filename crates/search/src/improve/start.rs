@@ -1,9 +1,9 @@
-//! The first run of a search: a population, and where all of its particles die, populations of other forms.
+//! The first run of a search: a population, and if all of its particles die, populations of other forms.
 //!
-//! Particles die where the score of the moment leads them to a place from which every continuation breaks a constraint.
-//! What helps depends on the model, so each form is less greedy than those before it or larger: weights that are tempered at
+//! Particles die if their present score leads them to a place from which every continuation breaks a constraint.
+//! The remedy depends on the model, so each form is less greedy than those before it, or larger: weights that are tempered at
 //! each resampling, a power that rises from zero, a power that is low throughout, futures in the order in which they
-//! are created. Rounds of the search then follow the declared power again.
+//! are created. Rounds of the search then use the declared power again.
 
 use super::{Improve, population_seed};
 use niwaki_particles::{Anneal, Progress, Result, Settings, smc};
@@ -14,11 +14,11 @@ use niwaki_run::{Failure, Task};
 
 /// A form of population.
 struct Form {
-    /// What it is called in reports.
+    /// The name in reports.
     name: &'static str,
-    /// Times as many particles.
+    /// Factor of the number of particles.
     times: usize,
-    /// The share of the declared power.
+    /// Factor of the declared power.
     power: f64,
     resampling: Resampling,
     anneal: Anneal,
@@ -44,23 +44,23 @@ const FORMS: [Form; 6] = [
     Form { name: "depth-first order", times: 6, power: 1.0 / 16.0, order: Order::DepthFirst, ..USUAL },
 ];
 
-/// The form of a name, as reports have it.
+/// The name of a form in reports, as a static text.
 pub(super) fn name_of(form: &str) -> &'static str {
-    FORMS.iter().find(|own| own.name == form).map_or(USUAL.name, |own| own.name)
+    FORMS.iter().find(|known| known.name == form).map_or(USUAL.name, |known| known.name)
 }
 
 impl Improve {
-    /// A population that lived; `attempts` receives each that was tried. `goes_on` is asked before another one is.
+    /// A surviving population; `attempts` receives each population that was tried. `may_continue` decides before each further one.
     ///
     /// # Errors
-    /// That of the first population, where all died.
+    /// The failure of the first population, if all died.
     pub(super) fn start(
         &self,
         task: &Task,
         seed: u64,
         attempts: &mut Vec<Attempt>,
         watch: &mut dyn FnMut(Progress) -> bool,
-        goes_on: &dyn Fn() -> bool,
+        may_continue: &dyn Fn() -> bool,
     ) -> std::result::Result<Result, Failure> {
         let mut first = None;
         for (number, form) in FORMS.iter().enumerate() {
@@ -89,7 +89,7 @@ impl Improve {
             };
             attempts.push(attempt(Some(barrier)));
             first.get_or_insert(failure);
-            if !goes_on() {
+            if !may_continue() {
                 break;
             }
         }

@@ -1,4 +1,4 @@
-//! A search as data, between two rounds.
+//! A search between two rounds, as data.
 
 use super::rounds;
 use super::rounds::{Round, Search};
@@ -12,7 +12,7 @@ use niwaki_vm::machine::invalid::Counts;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// The search, its report so far, and the numbers of its rounds: all, and those since it last gained.
+/// A search, its report so far, the number of its rounds, and the number of rounds since its last gain.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Stored<R> {
     search: rounds::Stored<R>,
@@ -20,14 +20,14 @@ pub(super) struct Stored<R> {
     rounds: Vec<Round>,
     number: u64,
     idle: u64,
-    /// Since the search began, without pauses between processes.
+    /// Time since the search began, without pauses between processes.
     pub time: Duration,
     invalid: Counts,
     lost: Lost,
 }
 
 impl<'r> Stored<&'r Run> {
-    /// Of a search; `None` where it was stopped before its first round.
+    /// A search as data; `None` if it was stopped before its first round.
     pub fn of(
         search: &'r Search<'_>,
         info: &Improved,
@@ -35,7 +35,10 @@ impl<'r> Stored<&'r Run> {
         time: Duration,
         invalid: Counts,
     ) -> Option<Stored<&'r Run>> {
-        let attempts = info.attempts.iter().map(|one| (one.form.to_string(), one.particles, one.died_at));
+        let attempts = info
+            .attempts
+            .iter()
+            .map(|attempt| (attempt.form.to_string(), attempt.particles, attempt.died_at));
         let (attempts, rounds) = (attempts.collect(), info.rounds.clone());
         let lost = info.lost.clone();
         Some(Stored { search: search.stored()?, attempts, rounds, number, idle, time, invalid, lost })
@@ -43,13 +46,13 @@ impl<'r> Stored<&'r Run> {
 }
 
 impl Stored<Run> {
-    /// The search, its report, and the numbers of its rounds.
+    /// The search, its report, and the two numbers of rounds.
     ///
     /// # Errors
-    /// As for [`Search::restored`].
+    /// See [`Search::restored`].
     pub fn search<'a>(
         self,
-        own: &'a Improve,
+        improve: &'a Improve,
         task: &'a Task,
         seed: u64,
     ) -> Result<(Search<'a>, Improved, u64, u64), Failure> {
@@ -61,7 +64,7 @@ impl Stored<Run> {
         let attempts = attempts.collect();
         let info =
             Improved { attempts, rounds: self.rounds, searches: 1, interrupted: false, lost: self.lost };
-        let search = Search::restored(own, task, seed, self.search)?;
+        let search = Search::restored(improve, task, seed, self.search)?;
         task.invalid.add(self.invalid);
         Ok((search, info, self.number, self.idle))
     }

@@ -292,7 +292,7 @@ pub fn climb(
     let with = Training { every: steps.div_ceil(LOOKS).max(1), steps, ..making.training(0) };
     let (mut history, mut lost, mut now) = (Vec::new(), Vec::new(), Tally::default());
     if let Some(left) = checkpoint.map_or(Ok(None), |own| own.left::<Left>(0))? {
-        history = state.go_on(&left.stored).map_err(|_| unfit("it is of a network of another size"))?;
+        history = state.resume(&left.stored).map_err(|_| unfit("it is of a network of another size"))?;
         (lost, now) = (left.lost, left.now);
     }
     let mut diverged = None;

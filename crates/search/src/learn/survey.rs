@@ -100,7 +100,7 @@ impl Survey {
         let met = &mut self.sites[number].1;
         met.visits += 1;
         met.parameters = met.parameters.min(dist.numbers(&mut [0.0; MOST_NUMBERS]));
-        met.head = met.head.and_then(|head| head.also(dist, components));
+        met.head = met.head.and_then(|head| head.widen(dist, components));
     }
 
     /// Choices of a program that were not met, by function and label.

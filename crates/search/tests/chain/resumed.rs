@@ -12,8 +12,8 @@ use niwaki_chain::many::Chains;
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_run::Task;
 use niwaki_run::checkpoint::Checkpoint;
-use niwaki_search::improve::Seen;
-use niwaki_search::method::{Given, Info, Method};
+use niwaki_search::improve::Outputs;
+use niwaki_search::method::{Info, Inputs, Method};
 use std::collections::HashMap;
 
 const STEPS: u64 = 240;
@@ -108,9 +108,9 @@ fn improved(task: &Task, left: HashMap<u64, String>, looks: u64) -> (Option<Stri
                    "seconds": null, "diverse": null, "proposal": null}"#;
     let method = Method::read(text).expect("a method");
     let checkpoint = Checkpoint::of(left);
-    let seen = Seen { checkpoint: Some(&checkpoint), ..Seen::default() };
+    let outputs = Outputs { checkpoint: Some(&checkpoint), ..Outputs::default() };
     let mut looked = 0;
-    let found = method.search(&task, &Given { seed: 3, seen, ..Given::default() }, &mut |_, _, _| {
+    let found = method.search(&task, &Inputs { seed: 3, outputs, ..Inputs::default() }, &mut |_, _, _| {
         checkpoint.ask();
         looked += 1;
         looked <= looks

@@ -20,7 +20,7 @@ use niwaki_run::rejection::rejection;
 use niwaki_run::replay::by_address;
 use niwaki_run::resampling::Resampling;
 use niwaki_run::select::Selection;
-use niwaki_search::method::{Given, Method};
+use niwaki_search::method::{Inputs, Method};
 use niwaki_vm::value::repr;
 use serde_json::json;
 use std::sync::Arc;
@@ -213,8 +213,8 @@ fn a_guided_search_finds_the_best() {
             r#"{{"method": "improve", "particles": 8, "regrow": 3, "power": 16.0, "rounds": 30, "seconds": null,
                 "diverse": null, "proposal": {proposal}}}"#
         );
-        let given = Given { seed: 4, attached: &attached, ..Given::default() };
-        let found = Method::read(&text).expect("a method").search(&task, &given, &mut |_, _, _| true);
+        let inputs = Inputs { seed: 4, attached: &attached, ..Inputs::default() };
+        let found = Method::read(&text).expect("a method").search(&task, &inputs, &mut |_, _, _| true);
         found.expect("a search").runs.swap_remove(0)
     };
     let guided = search(r#"{"name": "guided", "function": 0}"#);

@@ -98,7 +98,7 @@ fn a_ladder_makes_weights_equal() {
 fn a_ladder_rises_to_one() {
     assert_eq!(Powers::Rungs(2).ladder().expect("a ladder"), [1.0 / 16.0, 1.0]);
     for bad in [vec![], vec![0.0, 1.0], vec![0.5, 0.4, 1.0], vec![0.5], vec![0.5, 2.0], vec![f64::NAN, 1.0]] {
-        assert!(Powers::Own(bad).ladder().is_err());
+        assert!(Powers::List(bad).ladder().is_err());
     }
     assert!(Powers::Rungs(0).ladder().is_err());
 }

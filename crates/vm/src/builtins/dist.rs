@@ -108,7 +108,7 @@ fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
     for (weight, dist) in weights.iter().zip(dists) {
         match dist {
             Dist::Mixture(inner) => {
-                let inner_weights = inner.weights.given();
+                let inner_weights = inner.weights.unscaled();
                 let total = inner_weights.iter().fold(S::from_f64(0.0), |total, w| total + *w);
                 flat_weights.extend(inner_weights.iter().map(|w| *weight * *w / total));
                 flat.extend(inner.components.iter().cloned());
