@@ -158,7 +158,9 @@ impl Known {
     fn find(&self, constant: u16, args: &[Value]) -> Option<(Value, u64)> {
         let known = self.0.try_lock().ok()?;
         let matches = |(c, stored, ..): &&Answered| {
-            *c == constant && stored.len() == args.len() && stored.iter().zip(args).all(|(a, b)| identical(a, b))
+            *c == constant
+                && stored.len() == args.len()
+                && stored.iter().zip(args).all(|(a, b)| identical(a, b))
         };
         known.iter().find(matches).map(|(_, _, answer, steps)| (answer.clone(), *steps))
     }

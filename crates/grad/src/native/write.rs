@@ -190,7 +190,10 @@ impl<'a> Writer<'a> {
     }
 
     /// The steps and their memory, with the address of one more function.
-    pub(super) fn finish(self, other: Option<FuncId>) -> CompileResult<(Vec<Step>, Memory, Option<*const u8>)> {
+    pub(super) fn finish(
+        self,
+        other: Option<FuncId>,
+    ) -> CompileResult<(Vec<Step>, Memory, Option<*const u8>)> {
         let Writer { module, plan, .. } = self;
         let code = Memory::finish(module)?;
         let steps = plan.into_iter().map(|step| match step {
