@@ -41,8 +41,8 @@ class ModelReference:
     def asked(self, options: Mapping[str, Any]) -> list[Ask]:
         """What is asked by options (`niwaki.targets.asks`), or is usual where they match nothing."""
         if self.entry is None:
-            return asks.asked(options, name=self.reference)
-        return asks.asked(options, self.entry.asks, self.entry.window, self.reference)
+            return asks.sketches_of(options, name=self.reference)
+        return asks.sketches_of(options, self.entry.asks, self.entry.window, self.reference)
 
     @property
     def style(self) -> str | None:

@@ -22,7 +22,7 @@ def find(job: FindDifference, send: Any) -> Answer:
     header = Difference(job.id, job.key)
     found = cells(one.search.score, one.scene)
     if found is not None:
-        marks = marked(found.wanted, found.made)
+        marks = marked(found.target, found.scene)
         header.low, header.high = tuple(found.low.tolist()), tuple(found.high.tolist())
         header.size = marks.shape[0], marks.shape[1], marks.shape[2]
         # x runs fastest.
