@@ -81,7 +81,7 @@ fn said(spec: &dyn SketchSpec, sketch: &dyn Sketch, place: &Place) -> String {
     }
     sketch.image(&mut image);
     let window: Vec<u32> = window.iter().map(|x| x.to_bits()).collect();
-    assert!(!sketch.log_score().is_nan(), "{}: {measures:?}", sketch.name());
+    assert!(!sketch.log_score().is_nan(), "{}: {measures:?}", spec.name());
     format!("{:?} {measures:?} {window:?} {image:?}", sketch.log_score().to_bits())
 }
 
@@ -108,13 +108,13 @@ fn alone(u: &mut Unstructured<'_>, spec: &dyn SketchSpec) {
             }
             5 | 6 if !stand.is_empty() => {
                 let gone = stand.swap_remove(below(u, stand.len()));
-                assert!(sketch.remove(&gone), "{}: it was there", sketch.name());
+                assert!(sketch.remove(&gone), "{}: it was there", spec.name());
             }
             7 => {
                 let Some(primitive) = primitive(u) else { continue };
                 let there = stand.iter().position(|other| *other == primitive);
                 let removed = sketch.remove(&primitive);
-                assert_eq!(removed, there.is_some(), "{}: {primitive:?}", sketch.name());
+                assert_eq!(removed, there.is_some(), "{}: {primitive:?}", spec.name());
                 there.map(|at| stand.swap_remove(at));
             }
             8 if copies.len() < COPIES => copies.push((sketch.fork(), stand.clone())),

@@ -27,6 +27,7 @@ __all__ = [
     "Program",
     "Run",
     "SHAPES",
+    "SKETCHES",
     "Shape",
     "Site",
     "Sketch",
@@ -73,6 +74,7 @@ FAR: float
 FAMILIES: dict[str, tuple[str, str, list[tuple[str, str, str | None, str]], str, str, str]]
 #: The words for shapes: what each makes, and its parameters in order (name, type, default or None, what it is).
 SHAPES: dict[str, tuple[str, list[tuple[str, str, str | None, str]]]]
+SKETCHES: dict[str, tuple[str, str] | None]
 
 _Triple = Sequence[float]
 _Rows = Sequence[Sequence[float]]

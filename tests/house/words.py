@@ -1,7 +1,7 @@
-"""Writes what follows from the engine's tables of solids and of families; a test compares it.
+"""Writes what follows from the engine's tables of solids, families and sketches, and from the options; a test compares.
 
-`make words`: the words for shapes, the classes of distributions and the words that draw from them in
-Python, with their docstrings; what the manual has of them; and their names in the package's stub.
+`make words`: the words for shapes, the classes of distributions and the words that draw from them in Python, with their
+docstrings; their names and those of sketches in the package's stub; and the manual's tables of these and of options.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from itertools import groupby
 from pathlib import Path
 
 from niwaki import _engine
+from niwaki.targets.asks import OPTIONS, flag
 
 ROOT = Path(__file__).parents[2]
 WORDS = "python/niwaki/words/shapes.py"
@@ -20,6 +21,7 @@ CLASSES = "python/niwaki/words/distributions.py"
 DRAWS = "python/niwaki/words/draws.py"
 STUB = "python/niwaki/__init__.pyi"
 GUIDE = "docs/guide/language.md"
+COMMANDS = "docs/guide/command-line.md"
 
 Row = tuple[str, str, str | None, str]
 
@@ -43,13 +45,14 @@ from niwaki.words.vectors import VecLike
 
 def texts() -> dict[str, str]:
     """Every file that follows from the engine, by its place: what it should hold."""
-    stub, guide = ((ROOT / name).read_text(encoding="utf-8") for name in (STUB, GUIDE))
+    stub, guide, commands = ((ROOT / name).read_text(encoding="utf-8") for name in (STUB, GUIDE, COMMANDS))
     return {
         WORDS: _words(),
         CLASSES: _classes(),
         DRAWS: _draws(),
         STUB: _stub(stub),
         GUIDE: _guide(guide),
+        COMMANDS: _replaced(commands, COMMANDS, "target or constraint", _options()),
     }
 
 
@@ -218,12 +221,17 @@ def _draws() -> str:
 
 
 def _stub(stub: str) -> str:
-    """The stub with a line for each word."""
+    """The stub with a line for each word and each sketch."""
     lines = stub.split("\n")
-    present = [line for line in lines if line.startswith("from .words import ")]
-    start, end = lines.index(present[0]), lines.index(present[-1]) + 1
-    words = {f"from .words import {name} as {name}" for name in [*_engine.SHAPES, *_words_that_draw()]}
-    return "\n".join([*lines[:start], *sorted({*present, *words}), *lines[end:]])
+    for module, names in {
+        "words": [*_engine.SHAPES, *_words_that_draw()],
+        "targets.sketches": _engine.SKETCHES,
+    }.items():
+        present = [line for line in lines if line.startswith(f"from .{module} import ")]
+        start, end = lines.index(present[0]), lines.index(present[-1]) + 1
+        imports = {f"from .{module} import {name} as {name}" for name in names}
+        lines[start:end] = sorted({*present, *imports})
+    return "\n".join(lines)
 
 
 def _guide(guide: str) -> str:
@@ -231,14 +239,26 @@ def _guide(guide: str) -> str:
     block = re.search(r"(?s)(## Shapes\n\n```text\n).*?(\n```)", guide)
     assert block is not None, f"{GUIDE} has no block of signatures below `## Shapes`"
     guide = guide[: block.end(1)] + "\n".join(_signatures()) + guide[block.start(2) :]
-    table = re.search(r"(?m)^\| draws \|.*\n(\|.*\n)+", guide)
-    assert table is not None, f"{GUIDE} has no table of draws"
-    return guide[: table.start()] + "".join(_rows()) + guide[table.end() :]
+    return _replaced(guide, GUIDE, "draws", _rows())
+
+
+def _replaced(text: str, file: str, heading: str, rows: Iterator[str]) -> str:
+    """A page with other rows in the table that has a column of this heading."""
+    table = re.search(rf"(?m)^(\|(?:.*\|)? {heading} \|.*\n\|[ |-]*\n)(\|.*\n)+", text)
+    assert table is not None, f"{file} has no table with a column `{heading}`"
+    return text[: table.end(1)] + "".join(rows) + text[table.end() :]
+
+
+def _options() -> Iterator[str]:
+    """Rows of options: the flag with its value, and its help."""
+    for name, option in OPTIONS.items():
+        about = re.sub(r"--[a-z-]+", r"`\g<0>`", option.help)
+        value = option.metavar.replace("|", r"\|")
+        yield f"| `{flag(name)} {value}` | {about} |\n"
 
 
 def _rows() -> Iterator[str]:
-    """The manual's table of families."""
-    yield from ("| draws | parameters | gives | ranges |\n", "| --- | --- | --- | --- |\n")
+    """Rows of families."""
     for word, family in _words_that_draw().items():
         name, _, rows, _, gives, limits = _engine.FAMILIES[family]
         own = "" if word == family else f" (`{name}`)"

@@ -7,8 +7,8 @@ use crate::values::Classes;
 use crate::views::{PyDrawing, PyPicture};
 use niwaki_geom::solids::WORDS;
 use niwaki_geom::{
-    Ellipse, GeomError, Primitive, Shape, SketchForm, SketchSpec, Sketches, Solid, Stroke, Target, TriMesh,
-    Vec3,
+    Ellipse, GeomError, Inputs, Primitive, SKETCHES, Shape, SketchForm, SketchSpec, Sketches, Solid, Stroke,
+    Target, TriMesh, Vec3,
 };
 use niwaki_math::Parameter;
 use niwaki_vm::builtins::{builtin, builtin_id, placed_mesh};
@@ -308,11 +308,11 @@ impl PySketchSpec {
         let form: Result<SketchForm, _> = serde_json::from_str(form);
         form.map_err(|error| GeomError::new("bad-setting", format!("no sketch can be read: {error}")))
             .and_then(|form| {
-                form.spec(
-                    target.map(|own| own.0.clone()),
-                    picture.map(|own| own.0.clone()),
-                    drawing.map(|own| own.0.clone()),
-                )
+                form.spec(Inputs {
+                    target: target.map(|handle| handle.0.clone()),
+                    picture: picture.map(|handle| handle.0.clone()),
+                    drawing: drawing.map(|handle| handle.0.clone()),
+                })
             })
             .map(PySketchSpec)
             .map_err(|e| value_error(py, &e))
@@ -402,6 +402,11 @@ pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         words.set_item(word.name, (word.doc, parameters))?;
     }
     module.add("SHAPES", words)?;
+    let sketches = PyDict::new(module.py());
+    for (name, forbids) in SKETCHES {
+        sketches.set_item(name, forbids.map(|texts| (texts.part, texts.cure)))?;
+    }
+    module.add("SKETCHES", sketches)?;
     module.add_class::<PyTarget>()?;
     module.add_class::<PySketchSpec>()?;
     module.add_class::<PySketch>()

@@ -1,20 +1,19 @@
-//! Which triangle does a ray meet first?  A tree of boxes over triangles, four to a node.
+//! The first triangle on a ray, by a tree of boxes over triangles with four children to a node.
 //!
-//! Built top-down by the binned surface-area heuristic (Wald 2007) as a tree of two, whose nodes are then merged; the
-//! boxes of a node, and the triangles of a leaf, are tested four at once (Dammertz, Hanika & Keller 2008), triangles by
-//! the test of Möller & Trumbore 1997. On meshes of the gallery rays take half of the time that they
-//! take with the `obvhs` crate (0.4). The tree and the answers depend on the triangles only, never on threads.
+//! The binned surface-area heuristic (Wald 2007) builds a binary tree top-down, whose nodes are then merged. The boxes of a
+//! node, and the triangles of a leaf, are tested four at once (Dammertz, Hanika & Keller 2008), triangles by the test of
+//! Möller & Trumbore 1997. On meshes of the gallery, rays take half of the time of the `obvhs` crate (0.4). The tree and the answers depend on the triangles only, never on threads.
 
 use super::v3::{V3, most, v3};
 use wide::f32x4;
 
-/// Boxes of a node and triangles of a leaf, at most.
+/// The most boxes of a node, and triangles of a leaf.
 const LANES: usize = 4;
 /// Bins for each axis; more than this no longer makes better trees.
 const BINS: usize = 16;
 /// Below this depth the build halves instead of using the heuristic, so that `STACK` can never overflow.
 const DEPTH: usize = 48;
-/// Children that can wait during a visit: all but one of each node on the way down. Merging halves the depth at least.
+/// The most children that wait during a visit: all but one of each node on the way down. Merging halves the depth at least.
 const STACK: usize = (LANES - 1) * (DEPTH + 36);
 /// Marks the number of a leaf among the children of a node.
 const LEAF: u32 = 1 << 31;
@@ -22,7 +21,7 @@ const LEAF: u32 = 1 << 31;
 /// Four vectors.
 type Vectors = [f32x4; 3];
 
-/// The triangles of a leaf, each as its first corner and two edges. A missing one has no area, so that nothing meets it.
+/// The triangles of a leaf, each as its first corner and two edges. A missing triangle has no area, so that no ray meets it.
 #[derive(Clone, Copy, Debug)]
 struct Leaf {
     corner: Vectors,
@@ -37,16 +36,16 @@ struct Node {
     lo: Vectors,
     hi: Vectors,
     children: [u32; LANES],
-    /// A bit for each child that there is.
-    there: u32,
+    /// A bit for each child that exists.
+    present: u32,
 }
 
-/// Where a ray met a surface.
+/// The meeting point of a ray and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Distance along the ray, in lengths of its direction.
     pub t: f32,
-    /// Number of the triangle as it was given to `Bvh::new`.
+    /// Number of the triangle in `Bvh::new`.
     pub triangle: u32,
     /// Weight of the triangle's second corner.
     pub u: f32,
@@ -80,7 +79,7 @@ impl Bounds {
     }
 }
 
-/// One triangle during the build.
+/// A triangle during the build.
 struct Item {
     bounds: Bounds,
     centre: V3,
@@ -155,7 +154,7 @@ impl Bvh {
         (nearest.triangle != u32::MAX).then_some(nearest)
     }
 
-    /// Is anything nearer than `reach`?
+    /// True if a triangle is nearer than `reach`.
     pub fn blocked(&self, origin: V3, direction: V3, reach: f32) -> bool {
         let ray = Ray::new(origin, direction);
         self.visit(&ray, reach, |leaf, _| {
@@ -225,7 +224,7 @@ impl Bvh {
             lo: lanes(|k| boxes[k].lo),
             hi: lanes(|k| boxes[k].hi),
             children: [0; LANES],
-            there: (1 << groups.len()) - 1,
+            present: (1 << groups.len()) - 1,
         });
         for (k, (_, items, depth)) in groups.into_iter().enumerate() {
             self.nodes[here].children[k] = if items.len() > LANES {
@@ -257,7 +256,7 @@ fn lanes(of: impl Fn(usize) -> V3) -> Vectors {
     [four.map(|v| v.x).into(), four.map(|v| v.y).into(), four.map(|v| v.z).into()]
 }
 
-/// Which boxes the ray enters before `limit`, as bits, and where.
+/// The boxes that the ray enters before `limit`, as bits, and the distances.
 #[inline(always)]
 fn entry(node: &Node, ray: &Ray, limit: f32) -> (u32, f32x4) {
     let mut near = f32x4::ZERO;
@@ -269,10 +268,10 @@ fn entry(node: &Node, ray: &Ray, limit: f32) -> (u32, f32x4) {
         far = far.fast_min(a.fast_max(b));
     }
     let met = near.simd_le(far) & near.simd_le(f32x4::splat(limit));
-    (met.to_bitmask() & node.there, near)
+    (met.to_bitmask() & node.present, near)
 }
 
-/// Which triangles the ray meets, from either side, as bits; distances and barycentric weights.
+/// The triangles that the ray meets, from either side, as bits; distances and barycentric weights.
 #[inline(always)]
 fn meet(leaf: &Leaf, ray: &Ray) -> (u32, f32x4, f32x4, f32x4) {
     let p = cross(&ray.direction, &leaf.edge2);
@@ -376,8 +375,8 @@ mod tests {
         (*seed >> 8) as f32 / (1 << 24) as f32
     }
 
-    /// One triangle by itself.
-    fn alone([a, b, c]: [V3; 3], origin: V3, direction: V3) -> Option<(f32, f32, f32)> {
+    /// The meeting point of a ray and a triangle.
+    fn meeting([a, b, c]: [V3; 3], origin: V3, direction: V3) -> Option<(f32, f32, f32)> {
         let (edge1, edge2) = (b - a, c - a);
         let p = direction.cross(edge2);
         let inverse = 1.0 / edge1.dot(p);
@@ -431,7 +430,7 @@ mod tests {
                 .iter()
                 .zip(0..)
                 .filter_map(|(&triangle, name)| {
-                    alone(triangle, origin, direction).map(|(t, u, v)| Hit { t, triangle: name, u, v })
+                    meeting(triangle, origin, direction).map(|(t, u, v)| Hit { t, triangle: name, u, v })
                 })
                 .min_by(|a, b| a.t.total_cmp(&b.t));
             assert_eq!(tree.hit(origin, direction, f32::INFINITY), plain);

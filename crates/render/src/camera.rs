@@ -1,4 +1,4 @@
-//! A camera, and the three-quarter view that shows a whole box.
+//! Cameras, and the three-quarter view of a whole box.
 //!
 //! Right-handed, y up; lengths in scene units, angles in degrees.
 
@@ -7,7 +7,7 @@ use super::v3::{V3, v3};
 /// A perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Its position.
+    /// The position of the camera.
     pub eye: [f32; 3],
     /// The point at the centre of the picture.
     pub target: [f32; 3],

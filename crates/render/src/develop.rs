@@ -46,7 +46,7 @@ pub fn develop(stage: &Stage, plate: &Plate, shot: &Shot) -> Vec<u8> {
         let bare = backdrop(shot.backdrop, below, V3::splat(1.0)).bytes();
         line.chunks_exact_mut(4).for_each(|out| out.copy_from_slice(&bare));
         let row = &plate.rows[y];
-        for (k, pixel) in row.pixels.iter().enumerate().filter(|(_, pixel)| pixel.met()) {
+        for (k, pixel) in row.pixels.iter().enumerate().filter(|(_, pixel)| pixel.is_hit()) {
             let column = row.first + k;
             let shade = shade(stage, pixel, floor_light[y][k]);
             let mut layer = backdrop(shot.backdrop, below, shade);
@@ -55,9 +55,9 @@ pub fn develop(stage: &Stage, plate: &Plate, shot: &Shot) -> Vec<u8> {
                 layer = layer.under(tone::film(scene_light(stage, pixel, body_light[y][k])), share);
             }
             if pixel.shell.count > 0.0 {
-                let seen = pixel.shell.seen / pixel.samples;
+                let visible = pixel.shell.visible / pixel.samples;
                 layer = layer.under(ghost, pixel.shell.opacity / pixel.samples);
-                layer = layer.under(ghost * 0.5, 0.85 * outline(plate, pixel, column, y) * seen);
+                layer = layer.under(ghost * 0.5, 0.85 * outline(plate, pixel, column, y) * visible);
             }
             line[4 * column..4 * column + 4].copy_from_slice(&layer.bytes());
         }
@@ -69,8 +69,8 @@ pub fn develop(stage: &Stage, plate: &Plate, shot: &Shot) -> Vec<u8> {
 fn scene_light(stage: &Stage, pixel: &Pixel, (blocked, sun): (V3, f32)) -> V3 {
     let body = &pixel.body;
     let full = stage.light.open_sky(pixel.body_grain.normal).luminance();
-    let seen = 1.0 - (blocked.luminance() / full).clamp(0.0, 1.0);
-    let light = body.sunlit * sun + body.open - body.paint.tint(blocked) + body.shine * (seen * seen);
+    let visible = 1.0 - (blocked.luminance() / full).clamp(0.0, 1.0);
+    let light = body.sunlit * sun + body.open - body.paint.tint(blocked) + body.shine * (visible * visible);
     light.max(V3::ZERO) / body.count
 }
 
@@ -84,10 +84,10 @@ fn shade(stage: &Stage, pixel: &Pixel, (blocked, sun): (V3, f32)) -> V3 {
     let light = sunny * sun + (open - blocked).max(V3::ZERO);
     let whole = sunny + open;
     let ratio = v3(light.x / whole.x, light.y / whole.y, light.z / whole.z);
-    // Shadows are a little lighter than physics has them: they look better on a page.
+    // Shadows are a little lighter than physically correct, because they look better on a page.
     let ratio = ratio * (1.0 - DEEPEST) + V3::splat(DEEPEST);
-    let covered = pixel.fade;
-    V3::splat(1.0).lerp(ratio, covered)
+    let fade = pixel.fade;
+    V3::splat(1.0).lerp(ratio, fade)
 }
 
 fn backdrop(backdrop: Backdrop, below: f32, shade: V3) -> Layer {
@@ -100,13 +100,12 @@ fn backdrop(backdrop: Backdrop, below: f32, shade: V3) -> Layer {
     }
 }
 
-/// How much of an edge of the ghost runs through a pixel, in `[0, 1]`: its silhouette, its creases, and where one
-/// of its sheets ends before another.
+/// The strength of the ghost's edges in a pixel, in `[0, 1]`: silhouette, creases, and ends of a sheet before another.
 fn outline(plate: &Plate, pixel: &Pixel, column: usize, row: usize) -> f32 {
-    let here = &pixel.shell;
-    let normal = here.normal.unit();
-    let depth = here.depth / here.count;
-    let mut edge = 1.0 - here.count / pixel.samples;
+    let shell = &pixel.shell;
+    let normal = shell.normal.unit();
+    let depth = shell.depth / shell.count;
+    let mut edge = 1.0 - shell.count / pixel.samples;
     let around = [
         (column.checked_sub(1), Some(row)),
         (Some(column + 1), Some(row)),
@@ -117,14 +116,14 @@ fn outline(plate: &Plate, pixel: &Pixel, column: usize, row: usize) -> f32 {
         if column >= plate.width || row >= plate.rows.len() {
             continue;
         }
-        let Some(there) = plate.get(column, row).filter(|there| there.shell.count > 0.0) else {
+        let Some(neighbour) = plate.get(column, row).filter(|neighbour| neighbour.shell.count > 0.0) else {
             edge = 1.0;
             continue;
         };
-        edge = edge.max(1.0 - there.shell.count / there.samples);
-        let there = &there.shell;
-        let crease = ((0.94 - normal.dot(there.normal.unit())) / 0.10).clamp(0.0, 1.0);
-        let step = ((depth - there.depth / there.count).abs() / 0.03 - 1.0).clamp(0.0, 1.0);
+        edge = edge.max(1.0 - neighbour.shell.count / neighbour.samples);
+        let neighbour = &neighbour.shell;
+        let crease = ((0.94 - normal.dot(neighbour.normal.unit())) / 0.10).clamp(0.0, 1.0);
+        let step = ((depth - neighbour.depth / neighbour.count).abs() / 0.03 - 1.0).clamp(0.0, 1.0);
         edge = edge.max(crease * 0.7).max(step);
     }
     edge

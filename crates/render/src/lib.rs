@@ -1,11 +1,17 @@
 //! Pictures: triangle meshes to RGBA bytes, by casting rays.
 //!
-//! In four steps: **trace** (`trace.rs`: each pixel keeps sums over its samples, in `pixel.rs`: paint, light, what blocks the
-//! light; `plate.rs`: which pixels take all samples), **smooth** (`smooth.rs`), **develop** (`develop.rs`: light through
-//! a filmic curve, the backdrop with its shadow, the ghost over it), bytes. The same bits come out on any number of threads: a pixel depends on its
-//! coordinates only. Deliberately absent: images on surfaces, transparency of parts, more than one bounce.
+//! A picture has four steps:
 //!
-//! - `shot.rs`    what to draw, and how
+//! 1. **trace** (`trace.rs`): each pixel keeps sums over its samples (`pixel.rs`), and pixels where the picture changes take
+//!    more samples (`plate.rs`);
+//! 2. **smooth** (`smooth.rs`): a filter removes the noise of sampled light;
+//! 3. **develop** (`develop.rs`): light goes through a filmic curve, over the backdrop with its shadow, below the ghost;
+//! 4. **bytes** (`tone.rs`).
+//!
+//! A pixel depends on its coordinates only, so the bits do not depend on the number of threads. Deliberately absent: images
+//! on surfaces, transparency of parts, more than one bounce.
+//!
+//! - `shot.rs`    surfaces and settings of a picture
 //! - `camera.rs`  cameras, and the view that frames a box
 //! - `bvh.rs`     the nearest triangle
 //! - `light.rs`   sun, sky, directions to sample
@@ -29,21 +35,21 @@ mod v3;
 pub use camera::{Camera, View};
 pub use shot::{Backdrop, Shot, Surface};
 
-/// Why a picture cannot be drawn.
+/// An error of a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RenderError {
     /// Width, height or samples is zero, or more than `LARGEST`.
     Size {
-        /// Which setting.
+        /// The name of the setting.
         name: &'static str,
         /// Its value.
-        found: usize,
+        value: usize,
     },
     /// A vertex or normal is not finite, or a face has a vertex that does not exist.
     BadMesh {
-        /// Which surface, in the order given; `None` is the ghost.
+        /// The number of the surface; `None` is the ghost.
         surface: Option<usize>,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// The camera is at its target, or a number in it is not finite.
@@ -53,8 +59,8 @@ pub enum RenderError {
 impl std::fmt::Display for RenderError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            RenderError::Size { name, found } => {
-                write!(f, "{name} is {found}; it must be from 1 to {LARGEST}")
+            RenderError::Size { name, value } => {
+                write!(f, "{name} is {value}; it must be from 1 to {LARGEST}")
             }
             RenderError::BadMesh { surface: Some(k), reason } => write!(f, "mesh {k}: {reason}"),
             RenderError::BadMesh { surface: None, reason } => write!(f, "the ghost: {reason}"),
@@ -85,9 +91,9 @@ pub const LARGEST: usize = 16_384;
 /// assert_eq!(render(&[triangle], None, &shot).unwrap().len(), 32 * 24 * 4);
 /// ```
 pub fn render(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Result<Vec<u8>, RenderError> {
-    for (name, found) in [("width", shot.width), ("height", shot.height), ("samples", shot.samples)] {
-        if found == 0 || found > LARGEST {
-            return Err(RenderError::Size { name, found });
+    for (name, value) in [("width", shot.width), ("height", shot.height), ("samples", shot.samples)] {
+        if value == 0 || value > LARGEST {
+            return Err(RenderError::Size { name, value });
         }
     }
     for (k, surface) in surfaces.iter().enumerate() {

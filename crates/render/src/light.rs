@@ -1,8 +1,8 @@
 //! The studio: one soft sun from behind the camera, on its left, and a sky that is a gradient.
 //!
 //! Radiance is in units in which white paint under an irradiance of 1 has brightness 1. The sky is linear in the
-//! height of its direction, so that its cosine-weighted mean about a normal is known exactly and only what *blocks*
-//! it has to be sampled: open ground has no noise.
+//! height of its direction, so that its cosine-weighted mean about a normal is known exactly. Only *blocked* light is
+//! sampled: open ground has no noise.
 
 use super::v3::{V3, v3};
 
@@ -53,7 +53,7 @@ impl Light {
 }
 
 /// Directions to sample: for each pixel of a tile, `count` points that fill the unit disc evenly; and the tile's
-/// pixels together fill it `TILE * TILE` times more densely, which is what smoothing over a tile averages.
+/// pixels together fill it `TILE * TILE` times more densely: smoothing over a tile averages these points.
 #[derive(Debug)]
 pub struct Directions {
     disc: Vec<[f32; 2]>,
@@ -79,7 +79,7 @@ impl Directions {
         Directions { disc, pixel, turns }
     }
 
-    /// Where in the pixel sample `s` lies, each coordinate in `[0, 1)`.
+    /// The place of sample `s` in the pixel, each coordinate in `[0, 1)`.
     pub fn in_pixel(&self, s: usize) -> [f32; 2] {
         self.pixel[s]
     }
@@ -104,8 +104,8 @@ impl Directions {
     }
 }
 
-/// Shirley & Chiu 1997: the square onto the disc, areas kept. In `f64` and rounded once, so that the last bit of
-/// a machine's sine does not matter.
+/// The square mapped onto the disc with equal areas (Shirley & Chiu 1997). Numbers are `f64` and rounded once, so that the
+/// last bit of a machine's sine does not matter.
 fn concentric([u, v]: [f64; 2]) -> [f32; 2] {
     let (a, b) = (2.0 * u - 1.0, 2.0 * v - 1.0);
     if a == 0.0 && b == 0.0 {

@@ -1,4 +1,4 @@
-//! What a pixel keeps of its samples: sums, and after the last sample means.
+//! The sums of a pixel over its samples, and after the last sample the means.
 
 use super::v3::V3;
 
@@ -17,7 +17,7 @@ pub struct Grain {
     pub blocked: V3,
     /// Samples behind `blocked`.
     pub sky_weight: f32,
-    /// Share of the sun that is seen.
+    /// Share of the sun that is visible.
     pub sun: f32,
     /// Samples behind `sun`.
     pub sun_weight: f32,
@@ -38,18 +38,18 @@ pub struct Body {
     pub shine: V3,
     /// Brightness of the darkest sample in unblocked light.
     pub darkest: f32,
-    /// Brightness of the brightest.
+    /// Brightness of the brightest sample in unblocked light.
     pub brightest: f32,
 }
 
-/// Sums over the samples that met the ghost, whatever is in front.
+/// Sums over the samples that met the ghost, also behind parts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shell {
     /// Samples.
     pub count: f32,
     /// Samples with nothing in front.
-    pub seen: f32,
-    /// Opacity of the glass where it is seen.
+    pub visible: f32,
+    /// Opacity of the glass where it is visible.
     pub opacity: f32,
     /// Normals.
     pub normal: V3,
@@ -70,15 +70,15 @@ pub struct Pixel {
     pub floor: f32,
     /// Light on the floor.
     pub floor_grain: Grain,
-    /// How much of the floor's shadow to show: 1 below the scene, 0 far away.
+    /// Weight of the floor's shadow: 1 below the scene, 0 far away.
     pub fade: f32,
     /// The ghost.
     pub shell: Shell,
 }
 
 impl Pixel {
-    /// Did any sample meet a part, the shadow's floor or the ghost?
-    pub fn met(&self) -> bool {
+    /// True if any sample met a part, the shadow's floor or the ghost.
+    pub fn is_hit(&self) -> bool {
         self.body.count > 0.0 || self.floor_grain.count > 0.0 || self.shell.count > 0.0
     }
 
@@ -90,14 +90,14 @@ impl Pixel {
     }
 }
 
-/// Sums to means, with weights that are shares of the pixel: one with more samples counts no more than its neighbour,
-/// or the darker side of a shadow's edge, where samples disagree, would win.
+/// Turns sums into means. Weights are shares of the pixel, so that a pixel with more samples counts no more than its
+/// neighbour. Otherwise the darker side of a shadow's edge, where samples disagree, would count more.
 fn finish(grain: &mut Grain, samples: f32) {
     if grain.count > 0.0 {
-        let n = grain.count;
+        let count = grain.count;
         grain.normal = grain.normal.unit();
-        grain.point = grain.point / n;
-        grain.footprint /= n;
+        grain.point = grain.point / count;
+        grain.footprint /= count;
         grain.blocked = grain.blocked / grain.sky_weight.max(1.0);
     }
     grain.sun = if grain.sun_weight > 0.0 { grain.sun / grain.sun_weight } else { 1.0 };

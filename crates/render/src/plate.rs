@@ -1,8 +1,8 @@
-//! The traced picture, and which of its pixels need all their samples.
+//! The traced picture, and the pixels that take all samples.
 //!
 //! Every pixel takes a few samples first. The rest goes to the pixels where the picture changes: at edges, on
 //! bumps, in the penumbra of a shadow, along the ghost's outline. A row keeps the pixels from the first to the last
-//! that met anything, since most of a page is backdrop.
+//! that a part, a shadow or the ghost is in, because most of a page is backdrop.
 
 use super::light::TILE;
 use super::pixel::Pixel;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 /// Share of the samples that every pixel takes, as a divisor.
 const SHARE: usize = 4;
-/// Samples that every pixel takes at least, when the picture has as many.
+/// The fewest samples of a pixel, if the picture has as many.
 const FEWEST: usize = 4;
 /// Relative difference of brightness that counts as a change.
 const CONTRAST: f32 = 0.05;
@@ -19,16 +19,16 @@ const CONTRAST: f32 = 0.05;
 /// A row of a plate: the pixels `first..first + pixels.len()`.
 #[derive(Clone, Debug, Default)]
 pub struct Row {
-    /// Column of the first kept pixel.
+    /// Column of the first pixel.
     pub first: usize,
-    /// The kept pixels, which include every pixel that met anything.
+    /// The pixels, which include every hit pixel.
     pub pixels: Vec<Pixel>,
 }
 
-/// All rows of a picture, from the top.
+/// A traced picture.
 #[derive(Clone, Debug)]
 pub struct Plate {
-    /// One for each row of pixels.
+    /// The rows of pixels, from the top.
     pub rows: Vec<Row>,
     /// Pixels across.
     pub width: usize,
@@ -49,7 +49,7 @@ impl Plate {
         plate
     }
 
-    /// The pixel at a place, unless nothing is there.
+    /// The pixel at a place; `None` for backdrop.
     pub fn get(&self, column: usize, row: usize) -> Option<&Pixel> {
         let row = self.rows.get(row)?;
         row.pixels.get(column.checked_sub(row.first)?)
@@ -59,26 +59,26 @@ impl Plate {
     fn refined(&self, stage: &Stage, edges: &ShadowEdges, row: usize, few: usize) -> Row {
         // An edge can run through a pixel whose first samples missed it: look one pixel beyond the neighbours.
         let near = &self.rows[row.saturating_sub(1)..(row + 2).min(self.rows.len())];
-        let kept = || near.iter().filter(|r| !r.pixels.is_empty());
-        let Some(first) = kept().map(|r| r.first.saturating_sub(1)).min() else { return Row::default() };
-        let last = kept().map(|r| r.first + r.pixels.len() + 1).max().unwrap_or(first).min(stage.width);
+        let hit_rows = || near.iter().filter(|r| !r.pixels.is_empty());
+        let Some(first) = hit_rows().map(|r| r.first.saturating_sub(1)).min() else { return Row::default() };
+        let last = hit_rows().map(|r| r.first + r.pixels.len() + 1).max().unwrap_or(first).min(stage.width);
         let empty = Pixel::default();
         let at = |column: Option<usize>, row: Option<usize>| {
             column.zip(row).and_then(|(column, row)| self.get(column, row)).unwrap_or(&empty)
         };
         let pixels = (first..last)
             .map(|column| {
-                let here = at(Some(column), Some(row));
+                let center = at(Some(column), Some(row));
                 let around = [
                     at(column.checked_sub(1), Some(row)),
                     at(Some(column + 1), Some(row)),
                     at(Some(column), row.checked_sub(1)),
                     at(Some(column), Some(row + 1)),
                 ];
-                let mut pixel = *here;
-                if mixed(here, few)
+                let mut pixel = *center;
+                if is_mixed(center, few)
                     || edges.near(column, row)
-                    || around.iter().any(|there| differ(here, there))
+                    || around.iter().any(|neighbour| differ(center, neighbour))
                 {
                     stage.cast(&mut pixel, column, row, few..stage.samples);
                 } else if pixel.samples == 0.0 {
@@ -98,15 +98,15 @@ impl Row {
         for (column, pixel) in line.iter_mut().enumerate() {
             stage.cast(pixel, column, row, 0..few);
         }
-        let Some(first) = line.iter().position(Pixel::met) else { return Row::default() };
-        let last = line.iter().rposition(Pixel::met).unwrap_or(first);
+        let Some(first) = line.iter().position(Pixel::is_hit) else { return Row::default() };
+        let last = line.iter().rposition(Pixel::is_hit).unwrap_or(first);
         Row { first, pixels: line[first..=last].to_vec() }
     }
 }
 
-/// The tiles of pixels through which the edge of a shadow runs. Their pixels share one set of directions
-/// (`light::Directions`), so all of them take all samples or none does, and so do the tiles beside them, which are
-/// smoothed together with them.
+/// The tiles of pixels through which the edge of a shadow runs. The pixels of a tile share one set of directions
+/// (`light::Directions`), so all of them take all samples or none does. The neighbouring tiles, which are smoothed together
+/// with it, follow.
 struct ShadowEdges {
     tiles: Vec<bool>,
     across: usize,
@@ -134,7 +134,7 @@ impl ShadowEdges {
         ShadowEdges { tiles, across }
     }
 
-    /// Does an edge run through the pixel's tile or one beside it?
+    /// True if an edge runs through the pixel's tile or a neighbouring tile.
     fn near(&self, column: usize, row: usize) -> bool {
         let (x, y) = (column / TILE, row / TILE);
         let columns = x.saturating_sub(1)..(x + 2).min(self.across);
@@ -143,28 +143,25 @@ impl ShadowEdges {
     }
 }
 
-/// Do the samples of a pixel disagree?
-fn mixed(pixel: &Pixel, few: usize) -> bool {
+/// True if the samples of a pixel disagree.
+fn is_mixed(pixel: &Pixel, few: usize) -> bool {
     let all = few as f32;
     let part = |count: f32| count > 0.0 && count < all;
     let (body, shell) = (&pixel.body, &pixel.shell);
     part(body.count)
         || part(shell.count)
-        || part(shell.seen)
+        || part(shell.visible)
         || (body.count > 0.0 && contrast(body.darkest, body.brightest))
 }
 
-/// Does the picture change between two pixels that each took the same samples?
-fn differ(here: &Pixel, there: &Pixel) -> bool {
-    here.body.count != there.body.count
-        || here.shell.count != there.shell.count
-        || here.shell.seen != there.shell.seen
-        || (here.body.count > 0.0
-            && there.body.count > 0.0
-            && contrast(
-                here.body.darkest.min(there.body.darkest),
-                here.body.brightest.max(there.body.brightest),
-            ))
+/// True if the picture changes between two pixels with the same samples.
+fn differ(a: &Pixel, b: &Pixel) -> bool {
+    a.body.count != b.body.count
+        || a.shell.count != b.shell.count
+        || a.shell.visible != b.shell.visible
+        || (a.body.count > 0.0
+            && b.body.count > 0.0
+            && contrast(a.body.darkest.min(b.body.darkest), a.body.brightest.max(b.body.brightest)))
 }
 
 fn contrast(dark: f32, bright: f32) -> bool {
@@ -173,7 +170,7 @@ fn contrast(dark: f32, bright: f32) -> bool {
 
 #[cfg(test)]
 mod tests {
-    //! Claim: a picture in which most pixels take a quarter of the samples is as good as one in which all take all.
+    //! Claim: a picture in which most pixels take a quarter of the samples is as good as a picture with all samples.
     use crate::{Shot, Surface, render};
 
     /// A grey post on a red slab, both turned.

@@ -1,4 +1,4 @@
-//! What to draw, and how: surfaces, the backdrop, the settings of a picture.
+//! The content and settings of a picture: surfaces, backdrop, camera.
 
 use super::camera::Camera;
 use super::v3::V3;
@@ -10,15 +10,15 @@ pub struct Surface {
     pub vertices: Vec<[f32; 3]>,
     /// Triangles as indices of corners.
     pub faces: Vec<[u32; 3]>,
-    /// One for each vertex (smooth), one for each face (flat), or none (the faces' own).
+    /// Normals: one for each vertex (smooth), one for each face (flat), or none (those of the faces).
     pub normals: Vec<[f32; 3]>,
     /// Paint, sRGB in `[0, 1]`.
     pub color: [f32; 3],
-    /// From 0 (chalk) to 1 (lacquer).
+    /// Gloss, from 0 (chalk) to 1 (lacquer).
     pub gloss: f32,
-    /// From 0 (paint) to 1 (metal), which has no colour of its own but tints what it mirrors.
+    /// Metalness, from 0 (paint) to 1 (metal). Metal tints its reflections and has no other colour.
     pub metal: f32,
-    /// How rough it looks, from 0 (smooth) to 1 (foliage): bumps in the shading only.
+    /// Roughness, from 0 (smooth) to 1 (foliage): bumps in the shading only.
     pub rough: f32,
     /// Size of those bumps, scene units.
     pub pitch: f32,
@@ -27,25 +27,25 @@ pub struct Surface {
 /// The background of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Backdrop {
-    /// Nothing: the shadow and the scene lie over zero alpha.
+    /// A transparent page: the shadow and the scene lie over zero alpha.
     Clear,
     /// A seamless studio roll, from `top` to `bottom` of the picture; sRGB in `[0, 1]`.
     Roll {
         /// Colour at the picture's upper edge.
         top: [f32; 3],
-        /// Colour at its lower edge.
+        /// Colour at the picture's lower edge.
         bottom: [f32; 3],
     },
 }
 
-/// How to draw.
+/// The settings of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shot {
     /// Pixels across.
     pub width: usize,
     /// Pixels down.
     pub height: usize,
-    /// Rays for each pixel where the picture changes, a quarter of them elsewhere; also shadow rays and sky rays.
+    /// Rays for each pixel where the picture changes, and a quarter of them elsewhere. Shadow rays and sky rays are as many.
     pub samples: usize,
     /// The camera; `None` frames the scene and its ghost.
     pub camera: Option<Camera>,

@@ -1,7 +1,7 @@
-//! Removes the noise of sampled light and keeps edges.
+//! A filter that removes the noise of sampled light and keeps edges.
 //!
-//! Each pixel of a tile sampled its own directions (`light::Directions`); the mean over a neighbourhood on the same
-//! surface therefore sees all of them. A neighbour counts when its normal agrees and it lies in the pixel's tangent
+//! The pixels of a tile sample different directions (`light::Directions`). The mean over a neighbourhood on the same
+//! surface therefore has all of them. A neighbour counts when its normal agrees and it lies in the pixel's tangent
 //! plane (a cross-bilateral filter: Eisemann & Durand 2004, Petschnigg et al. 2004).
 
 use super::light::TILE;
@@ -39,7 +39,7 @@ impl Sums {
         self.sun_weight += other.sun_weight * share;
     }
 
-    /// `(blocked, sun)`; what the pixel has itself where nothing was sampled.
+    /// `(blocked, sun)`, or the values of the pixel itself without samples.
     fn mean(&self, here: &Grain) -> (V3, f32) {
         (
             if self.sky_weight > 0.0 { self.blocked / self.sky_weight } else { here.blocked },
@@ -48,7 +48,7 @@ impl Sums {
     }
 }
 
-/// For every pixel of a plate the smoothed `(blocked, sun)` of the light that `of` picks: along the rows, then along
+/// The smoothed `(blocked, sun)` of every pixel of a plate, for the light that `of` picks: along the rows, then along
 /// the columns. The two passes are the whole neighbourhood on a plane, and nearly so where a surface bends.
 pub fn smooth(plate: &Plate, of: impl Fn(&Pixel) -> &Grain + Sync) -> Vec<Vec<(V3, f32)>> {
     let along: Vec<Vec<Sums>> = plate
@@ -58,14 +58,17 @@ pub fn smooth(plate: &Plate, of: impl Fn(&Pixel) -> &Grain + Sync) -> Vec<Vec<(V
             let grains = &row.pixels;
             (0..grains.len())
                 .map(|k| {
-                    let here = of(&grains[k]);
+                    let center = of(&grains[k]);
                     let mut sums = Sums::default();
-                    if here.count > 0.0 {
+                    if center.count > 0.0 {
                         let lowest = k.saturating_sub(REACH);
-                        for (j, there) in grains.iter().enumerate().take(k + REACH + 1).skip(lowest) {
-                            let there = of(there);
-                            if there.count > 0.0 {
-                                sums.add(&Sums::of(there), tent(k.abs_diff(j)) * likeness(here, there));
+                        for (j, neighbour) in grains.iter().enumerate().take(k + REACH + 1).skip(lowest) {
+                            let neighbour = of(neighbour);
+                            if neighbour.count > 0.0 {
+                                sums.add(
+                                    &Sums::of(neighbour),
+                                    tent(k.abs_diff(j)) * likeness(center, neighbour),
+                                );
                             }
                         }
                     }
@@ -82,34 +85,37 @@ pub fn smooth(plate: &Plate, of: impl Fn(&Pixel) -> &Grain + Sync) -> Vec<Vec<(V
             let near = y.saturating_sub(REACH)..(y + REACH + 1).min(plate.rows.len());
             (0..row.pixels.len())
                 .map(|k| {
-                    let here = of(&row.pixels[k]);
+                    let center = of(&row.pixels[k]);
                     let mut sums = Sums::default();
-                    if here.count > 0.0 {
+                    if center.count > 0.0 {
                         for other in near.clone() {
                             let Some(j) = (row.first + k).checked_sub(plate.rows[other].first) else {
                                 continue;
                             };
-                            let Some(there) = plate.rows[other].pixels.get(j).map(&of) else { continue };
-                            if there.count > 0.0 {
-                                sums.add(&along[other][j], tent(y.abs_diff(other)) * likeness(here, there));
+                            let Some(neighbour) = plate.rows[other].pixels.get(j).map(&of) else { continue };
+                            if neighbour.count > 0.0 {
+                                sums.add(
+                                    &along[other][j],
+                                    tent(y.abs_diff(other)) * likeness(center, neighbour),
+                                );
                             }
                         }
                     }
-                    sums.mean(here)
+                    sums.mean(center)
                 })
                 .collect()
         })
         .collect()
 }
 
-/// How much two pixels are of one surface, in `[0, 1]`: their normals agree, and one lies in the other's plane.
-fn likeness(here: &Grain, there: &Grain) -> f32 {
-    let agree = here.normal.dot(there.normal).max(0.0).powi(16);
-    let off = here.normal.dot(there.point - here.point) / (2.0 * here.footprint);
+/// The likeness of two pixels, in `[0, 1]`: their normals agree, and each lies in the plane of the other.
+fn likeness(a: &Grain, b: &Grain) -> f32 {
+    let agree = a.normal.dot(b.normal).max(0.0).powi(16);
+    let off = a.normal.dot(b.point - a.point) / (2.0 * a.footprint);
     agree / (1.0 + off * off * off * off)
 }
 
-/// Two boxes as wide as a tile, convolved: on a plane, what repeats from tile to tile cancels exactly.
+/// Two boxes as wide as a tile, convolved: on a plane, a pattern that repeats from tile to tile cancels exactly.
 fn tent(d: usize) -> f32 {
     (TILE - d) as f32
 }

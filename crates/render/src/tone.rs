@@ -9,13 +9,13 @@ const WHITE: f32 = 2.9;
 const TOE: f32 = 0.35;
 
 /// A filmic curve: the shoulder of Reinhard et al. 2002, eq. 4, then a gentle S in the square root, where the eye sees
-/// steps as equal. Linear in, linear out, in `[0, 1]`.
+/// steps as equal. Input and output are linear; the output is in `[0, 1]`.
 pub fn film(light: V3) -> V3 {
     let curve = |x: f32| {
         let x = x.max(0.0);
         let root = (x * (1.0 + x / (WHITE * WHITE)) / (1.0 + x)).min(1.0).sqrt();
-        let bent = root * root * (3.0 - 2.0 * root);
-        let root = root + TOE * (bent - root);
+        let curved = root * root * (3.0 - 2.0 * root);
+        let root = root + TOE * (curved - root);
         root * root
     };
     v3(curve(light.x), curve(light.y), curve(light.z))
@@ -31,7 +31,7 @@ fn decode(c: f32) -> f32 {
     (if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }) as f32
 }
 
-/// Linear in `[0, 1]` to the nearest byte of sRGB: as many as there are steps below it.
+/// Linear in `[0, 1]` to the nearest byte of sRGB: the number of steps below it.
 pub fn byte(c: f32) -> u8 {
     static STEPS: LazyLock<[f32; 255]> =
         LazyLock::new(|| std::array::from_fn(|k| decode((k as f32 + 0.5) / 255.0)));

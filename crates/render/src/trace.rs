@@ -1,14 +1,14 @@
 //! The first step of a picture: rays through pixels, and sums over what they hit.
 //!
-//! A pixel keeps the factors of colours, summed over its samples, and not colours, because the sampled light is
-//! smoothed before it is multiplied by the paint:
+//! A pixel keeps sums of the factors of colours. It keeps no colours, because sampled light is smoothed before it is
+//! multiplied by the paint:
 //!
 //! ```text
-//! scene light = sun * sunlit + open - blocked * paint + shine * seen
+//! scene light = sun * sunlit + open - blocked * paint + shine * visible
 //! ```
 //!
-//! with `sun` (the share of the sun that is seen) and `blocked` (sky light that is blocked) taken after
-//! smoothing, and `seen` the share of the sky that is left.
+//! with `sun` (the visible share of the sun) and `blocked` (blocked sky light) after smoothing, and `visible` the visible
+//! share of the sky.
 
 use super::bump;
 use super::bvh::Bvh;
@@ -23,7 +23,7 @@ use std::ops::Range;
 /// Share of the paint's colour that a blocking part sends back: one bounce, roughly.
 const BOUNCE: f32 = 0.42;
 
-/// Share of a metal's paint that is not seen: a little is left, for what its rough grains scatter.
+/// Share of a metal's paint that is not visible: the rest stands for light that its rough grains scatter.
 const METAL: f32 = 0.8;
 
 /// A surface's look.
@@ -49,7 +49,7 @@ pub struct Stage {
     floor: f32,
     middle: V3,
     radius: f32,
-    /// Samples of a pixel at most.
+    /// The most samples of a pixel.
     pub(super) samples: usize,
     /// Pixels across.
     pub(super) width: usize,
@@ -57,7 +57,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Builds the trees; nothing when the camera is unusable.
+    /// Builds the trees; `None` for an unusable camera.
     pub fn new(surfaces: &[Surface], ghost: Option<&Surface>, shot: &Shot) -> Option<Stage> {
         let parts: Vec<[V3; 3]> = surfaces.iter().flat_map(corners).collect();
         let shell: Vec<[V3; 3]> = ghost.into_iter().flat_map(corners).collect();
@@ -126,7 +126,7 @@ impl Stage {
         let hit = self.tree.hit(eye, direction, f32::INFINITY);
         let fall = (self.floor - eye.y) / direction.y;
         let floor = if fall > 0.0 && fall.is_finite() { fall } else { f32::INFINITY };
-        // The depth that hides the ghost: that of parts, not that of the invisible floor.
+        // Parts hide the ghost; the invisible floor does not.
         let mut front = f32::INFINITY;
         match hit {
             // A camera below the floor looks through it.
@@ -165,7 +165,7 @@ impl Stage {
             shell.normal = shell.normal + normal;
             shell.depth += hit.t / self.radius;
             if hit.t < front {
-                shell.seen += 1.0;
+                shell.visible += 1.0;
                 // Thinner over parts, whose colours should come through.
                 let thin = if front.is_finite() { 0.5 } else { 1.0 };
                 shell.opacity += thin * (0.055 + 0.42 * (1.0 - facing).powi(3));

@@ -179,8 +179,8 @@ pub fn log_density(dist: &Dist, value: &Value) -> Result<f64, Fault> {
 pub fn score_of(sketches: &Sketches) -> Result<Total, Fault> {
     let total = sketches.total();
     if total.value().is_nan() {
-        let guilty = sketches.iter().find(|sketch| sketch.log_score().is_nan());
-        let name = guilty.map_or("a sketch", |sketch| sketch.name());
+        let guilty = sketches.iter().find(|(_, sketch)| sketch.log_score().is_nan());
+        let name = guilty.map_or("a sketch", |(name, _)| name);
         return Err(Fault::new("non-finite-score", format!("the sketch `{name}` scores nan"))
             .with_help("look for shapes whose measures are not numbers"));
     }

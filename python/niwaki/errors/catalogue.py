@@ -9,6 +9,7 @@ import ast
 import sys
 from pathlib import Path
 
+from niwaki import _engine
 from niwaki.errors.kinds import fill
 from niwaki.errors.messages import ADVICE, CHAINS, FAULTS, FILES, INPUTS, LANGUAGE, SETTINGS, Message
 
@@ -35,7 +36,7 @@ def page(message: Message, time: str) -> str:
     title, why, cure = (text.format_map(_Shown()) for text in (message.title, message.why, message.help))
     parts = [f"# {message.code}", f"{_sentence(title)} {time}"]
     if message.about:
-        parts += ["## Why", message.about]
+        parts += ["## Why", message.about.replace("{constraints}", _constraints())]
     elif message.why not in ("", "{reason}"):
         parts += ["## Why", _sentence(why)]
     if message.example:
@@ -45,6 +46,12 @@ def page(message: Message, time: str) -> str:
     if message.cure:
         parts.append(_block(message.cure))
     return "\n\n".join(parts) + "\n"
+
+
+def _constraints() -> str:
+    """Rows of a table: the sketches that forbid scenes."""
+    texts = ((name, *both) for name, both in _engine.SKETCHES.items() if both is not None)
+    return "".join(f"| `{name}` | a part {part} | {cure} |\n" for name, part, cure in texts)
 
 
 def _block(text: str) -> str:

@@ -5,15 +5,9 @@ from __future__ import annotations
 import re
 from typing import Any, NamedTuple
 
+from niwaki import _engine
 from niwaki.errors.kinds import place
 from niwaki.errors.source import Span
-
-#: The effect of a part that breaks a constraint alone, by the name of the constraint.
-BREAKS = {
-    "floor": "reaches below the floor",
-    "avoid": "reaches into the obstacle",
-    "no_self_intersection": "runs into another part",
-}
 
 
 class Emitted(NamedTuple):
@@ -83,7 +77,8 @@ class Blame(NamedTuple):
     def does(self) -> str:
         """The part's effect, in words: `runs into `road` (line 21)`."""
         if self.other is None:
-            return BREAKS.get(self.constraint, f"breaks {self.constraint}")
+            part, _ = _engine.SKETCHES.get(self.constraint) or (f"breaks {self.constraint}", "")
+            return part
         if self.other[2:] == self.part[2:]:
             return "runs into another part of this line"
         return f"runs into {self.other}"

@@ -186,16 +186,8 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
     return InputError(fault.code, detail=fault.message)
 
 
+#: Advice for a constraint without any of its own.
 LOOSEN = "loosen the constraint, so that more runs meet it"
-
-#: Help where a constraint forbids every run, by the name of the constraint.
-CURES = {
-    "floor": "move the floor below the model's first part, or start the model above it",
-    "avoid": "start the model beside the obstacle, or make the obstacle smaller",
-    "no_self_intersection": "put parts that belong together into one `emit`, or leave a gap between them",
-}
-
-
 #: Share of the runs that one place forbids, from which more particles do not help.
 NEARLY_ALL = 0.9
 
@@ -203,7 +195,7 @@ NEARLY_ALL = 0.9
 def _cure(fault: Any) -> str:
     """Return the help: more particles only if runs become impossible late and in many places."""
     cause = fault.causes[0][0] if fault.causes else ""
-    first = CURES.get(cause, LOOSEN)
+    _, first = _engine.SKETCHES.get(cause) or ("", LOOSEN)
     often = max((runs for *_, runs in fault.blame), default=0)
     hopeless = fault.barrier <= 1 or (fault.looked_at and often >= NEARLY_ALL * fault.looked_at)
     return (

@@ -37,7 +37,7 @@ _NUMBERS = {
 def kind(name: str) -> Any:
     """Return the type of an option on the command line."""
     plain = _TYPES.get(OPTIONS[name].kind, str)
-    return plain if OPTIONS[name].usual is not None else plain | None
+    return plain if OPTIONS[name].default is not None else plain | None
 
 
 def flags(*names: str) -> Flags:
@@ -47,7 +47,7 @@ def flags(*names: str) -> Flags:
             inspect.Parameter(
                 name,
                 inspect.Parameter.KEYWORD_ONLY,
-                default=OPTIONS[name].usual,
+                default=OPTIONS[name].default,
                 annotation=Annotated[
                     kind(name),
                     typer.Option(flag(name), metavar=OPTIONS[name].metavar, help=OPTIONS[name].help),

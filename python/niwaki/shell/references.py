@@ -41,8 +41,8 @@ class ModelReference:
     def asked(self, options: Mapping[str, Any]) -> list[Ask]:
         """Return the terms of the score for options (`niwaki.targets.asks`); without a match, the gallery's."""
         if self.entry is None:
-            return asks.asked(options, name=self.name)
-        return asks.asked(options, self.entry.asks, self.entry.window, self.name)
+            return asks.sketches_of(options, name=self.name)
+        return asks.sketches_of(options, self.entry.asks, self.entry.window, self.name)
 
     @property
     def style(self) -> str | None:

@@ -1,25 +1,25 @@
-"""What a scene should be like.
+"""Targets of scenes: meshes, images and drawings, and the sketches that score them.
 
-target     meshes: the volume to fill, and surfaces that shadows fall on
+target     meshes: volumes to fill, and receivers of shadows
 reading    meshes from files
-obj        the triangles of OBJ files
-stl        those of STL files
-ply        those of PLY files
-gltf       those of glTF files
-polygons   polygons as triangles
-pieces     what these readers share
-memory     whether there is enough memory for a mesh
+obj        triangles of OBJ files
+stl        triangles of STL files
+ply        triangles of PLY files
+gltf       triangles of glTF files
+polygons   triangulation of polygons
+pieces     the error and the joined meshes of these readers
+memory     a check of free memory before a mesh is read
 drawing    drawings to grow into, with the point where a model starts
-drawings   drawings of our own, by name
-camera     the camera that sees an image
-images     which pixels of an image should be on
-pixels     the pixels of image files
+drawings   built-in drawings, by name
+camera     cameras of images
+images     masks and greys of images
+pixels     pixels of image files
 sketches   scores of a scene, as values that multiply
-asks       what a person can ask by name, and the sketches that this stands for
-fit        how a scene fits what it should be, in shares that cannot flatter
-views      a scene as the sketch of an image or a shadow sees it, as a picture
-outline    the outline of a room, from a file
-examples   targets and images of our own, made by code
+asks       options of the command line, batches and the studio, and their sketches
+fit        coverage and surplus of a scene
+views      pictures of a scene beside its image, shadow or drawing
+outline    outlines of rooms, from files
+examples   built-in targets and images, made by code
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-"""Cameras as values: the view of an image to match, written in Python or in a JSON file.
+"""Cameras as values: the views of images to match, written in Python or in a JSON file.
 
 camera = Camera.perspective((31, 2, 33), look_at=(-3, 5, 0))
 camera = Camera.load("cam.json")      # {"kind": "perspective", "position": [31, 2, 33], "look_at": [-3, 5, 0]}
@@ -35,24 +35,24 @@ FARTHEST = 1e100
 
 @dataclass(frozen=True)
 class Camera:
-    """Where a picture is seen from. Right-handed, lengths in scene units.
+    """A camera in right-handed coordinates. Lengths are in scene units.
 
     Parameters
     ----------
     kind
         "perspective" or "orthographic".
     position
-        Its position. An orthographic camera sees what is in front of the plane across its view through here.
+        Its position. An orthographic camera sees everything in front of the plane through this point, across its view.
     look_at
-        What is in the middle of the picture.
+        The point in the middle of the picture.
     up
         The approximate direction of up in the picture.
     fov_degrees
         Perspective: vertical field of view.
     near
-        Perspective: what is nearer along the view is not seen.
+        Perspective: the distance along the view from which it sees.
     height
-        Orthographic: of what the picture shows.
+        Orthographic: the height of the picture, scene units.
 
     Examples
     --------
@@ -103,7 +103,7 @@ class Camera:
         fov_degrees: float = 45.0,
         near: float = 0.1,
     ) -> Camera:
-        """Make a camera whose rays leave its place."""
+        """Make a camera whose rays start at its position."""
         return cls("perspective", position, look_at, up, fov_degrees, near)  # type: ignore[arg-type]
 
     @classmethod
@@ -129,25 +129,25 @@ class Camera:
         InputError
             `bad-camera`: a name is missing or unknown, or a value makes no camera.
         """
-        what = "a camera in JSON"
-        return cls.from_dict(json_of(text_of(path, "camera", what), path, what), name=str(path))
+        content = "a camera in JSON"
+        return cls.from_dict(json_of(text_of(path, "camera", content), path, content), name=str(path))
 
     @classmethod
     def from_dict(cls, data: Any, name: str = "") -> Camera:
-        """Make a camera from what its JSON holds; `name` is the file's, for messages."""
+        """Make a camera from the content of its JSON; `name` is the file's, for messages."""
         if not isinstance(data, Mapping):
             raise InputError(
                 "bad-camera", reason=f"found {type(data).__name__}, expected names and values", detail=name
             )
         kind = data.get("kind", "perspective")
         _check_kind(kind, name)
-        own = KINDS[kind]
-        known = ("kind", "position", "look_at", "up", *own)
+        settings = KINDS[kind]
+        known = ("kind", "position", "look_at", "up", *settings)
         if unknown := [key for key in data if key not in known]:
             reason = f"there is no `{unknown[0]!s:.40}` in it; {kind} cameras have {', '.join(known)}"
             raise InputError("bad-camera", reason=reason, detail=name)
-        needed = ["position", "look_at", *(key for key, usual in own.items() if usual is None)]
-        if missing := [key for key in needed if key not in data]:
+        required = ["position", "look_at", *(key for key, default in settings.items() if default is None)]
+        if missing := [key for key in required if key not in data]:
             raise InputError("bad-camera", reason=f"`{missing[0]}` is missing", detail=name)
         try:
             return cls(**{**data, "kind": kind})
@@ -156,16 +156,16 @@ class Camera:
             raise
 
     @classmethod
-    def of(cls, given: Camera | str | PathLike[str] | Mapping[str, Any]) -> Camera:
-        """Take a camera as it is, from a file or from names and values."""
-        if isinstance(given, Camera):
-            return given
-        if isinstance(given, (str, PathLike)):
-            return cls.load(given)
-        return cls.from_dict(given)
+    def of(cls, camera: Camera | str | PathLike[str] | Mapping[str, Any]) -> Camera:
+        """Return a camera as it is, or make one from a file or from names and values."""
+        if isinstance(camera, Camera):
+            return camera
+        if isinstance(camera, (str, PathLike)):
+            return cls.load(camera)
+        return cls.from_dict(camera)
 
     def to_dict(self) -> dict[str, Any]:
-        """Names and values, as the JSON file has them."""
+        """Return names and values, as in the JSON file."""
         names = ("position", "look_at", "up", *KINDS[self.kind])
         values = {name: getattr(self, name) for name in names}
         return {"kind": self.kind} | {k: list(v) if isinstance(v, tuple) else v for k, v in values.items()}
@@ -175,7 +175,7 @@ class Camera:
         return write_whole(Path(path), (json.dumps(self.to_dict(), indent=2) + "\n").encode())
 
     def lens(self) -> tuple[Triple, Triple, Triple, bool, float, float]:
-        """What the engine takes: position, look_at, up, perspective?, radians or height, near."""
+        """Return the engine's arguments: position, look_at, up, perspective?, radians or height, near."""
         perspective = self.kind == "perspective"
         number = radians(self.fov_degrees) if perspective else self.height
         return (self.position, self.look_at, self.up, perspective, number, self.near)

@@ -17,18 +17,18 @@ if TYPE_CHECKING:
 
 Point = tuple[float, float]
 
-#: How far inside of the ink a start is, as a share of the image's longer side.
+#: The distance of a start from the edge of the ink, as a share of the image's longer side.
 DEEP = 0.035
 
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """A drawing, and where to start.
+    """A drawing with the start of a model.
 
     Attributes
     ----------
     name : str
-        For captions and messages.
+        Its name in captions and messages.
     greys : (rows, columns) uint8
         255 where there is no ink.
     start : (x, y)
@@ -44,22 +44,22 @@ class Drawing:
 
     @classmethod
     def load(cls, image: Image, pixels: int | None = 50) -> Drawing:
-        """A drawing from a file, a Pillow image or an array; it starts at the lowest point that lies well in the ink.
+        """Read a drawing from a file, a Pillow image or an array. It starts at the lowest point well inside of the ink.
 
         Parameters
         ----------
         image
             Dark ink on white or transparent paper.
         pixels
-            Of the longer side: a larger image is made smaller. As it is when None.
+            Pixels of the longer side: a larger image is made smaller. None keeps its size.
         """
         greys = targets.images.ink(image, pixels)
         return cls(targets.images.name_of(image), greys, lowest(greys < 255))
 
     def window(self, window: Window) -> Window:
-        """The part of the plane that the drawing fills: `window`, wider or higher so that pixels are square.
+        """Return the part of the plane that the drawing fills: `window`, wider or higher so that pixels are square.
 
-        It grows to both sides, and upwards.
+        The window grows to both sides, and upwards.
         """
         (left, low), (right, high) = check_window(window)
         rows, columns = self.greys.shape
@@ -70,38 +70,38 @@ class Drawing:
         return (left, low), (right, low + wide * rows / columns)
 
     def place(self, window: Window) -> tuple[float, float, Point]:
-        """The start in the plane, and the direction: the arguments of a model that follows a drawing."""
+        """Return the start in the plane and the direction: the arguments of a model that follows a drawing."""
         (left, low), (right, high) = self.window(window)
         x, y = self.start
         return left + x * (right - left), low + y * (high - low), self.ahead
 
     def score(self, window: Window, **settings: Any) -> Score:
-        """How well a scene draws it; `settings` are those of `match_drawing`."""
+        """Score scenes by how well they draw it; `settings` are arguments of `match_drawing`."""
         return match_drawing(self.greys, self.window(window), **settings)
 
     def mirrored(self) -> Drawing:
-        """The same, with left and right exchanged."""
+        """Return the drawing with left and right exchanged."""
         (x, y), (u, v) = self.start, self.ahead
         greys = np.ascontiguousarray(self.greys[:, ::-1])
         return replace(self, name=f"{self.name}, mirrored", greys=greys, start=(1.0 - x, y), ahead=(-u, v))
 
 
 def lowest(filled: NDArray[np.bool_], deep: float = DEEP) -> Point:
-    """The lowest pixel that has ink all around it, as shares of the image from its lower left corner.
+    """Find the lowest pixel with ink all around it, as shares of the image from its lower left corner.
 
     Parameters
     ----------
     filled
         (rows, columns): where there is ink.
     deep
-        How far around, as a share of the longer side; less where no ink is that thick.
+        Radius of the ink around it, as a share of the longer side; smaller where no ink is that thick.
     """
     rows, columns = filled.shape
     inside, radius = filled, deep * max(rows, columns)
     while radius >= 0.5:
-        found = eroded(filled, radius)
-        if found.any():
-            inside = found
+        core = eroded(filled, radius)
+        if core.any():
+            inside = core
             break
         radius *= 0.7
     row = int(np.flatnonzero(inside.any(axis=1))[-1])
@@ -113,15 +113,15 @@ def lowest(filled: NDArray[np.bool_], deep: float = DEEP) -> Point:
 
 
 def eroded(filled: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
-    """The pixels whose whole neighbourhood of that radius is filled."""
+    """Return the pixels whose whole neighbourhood of that radius is filled."""
     reach = int(radius)
     rows, columns = filled.shape
     around = np.zeros((rows + 2 * reach, columns + 2 * reach), dtype=bool)
     around[reach : reach + rows, reach : reach + columns] = filled
-    kept = filled.copy()
+    mask = filled.copy()
     for down in range(-reach, reach + 1):
         for across in range(-reach, reach + 1):
             if hypot(down, across) <= radius:
                 top, left = reach + down, reach + across
-                kept &= around[top : top + rows, left : left + columns]
-    return kept
+                mask &= around[top : top + rows, left : left + columns]
+    return mask

@@ -1,10 +1,10 @@
-"""How a scene fits what it should be, in two shares that neither an empty nor a huge scene can win.
+"""The fit of a scene to its target, in two shares. No empty or huge scene is good in both.
 
-    covered   of what is wanted, the share that the scene fills
-    outside   of the scene, the share that is where nothing is wanted
+    covered   share of the target that the scene fills
+    outside   share of the scene that is outside of the target
 
-Volumes are compared cell by cell, pictures and drawings pixel by pixel. The share of cells that agree, which the score
-looks at, is high for an empty scene: most cells around a thin target are empty in both.
+Volumes are compared cell by cell, pictures and drawings pixel by pixel. The score counts the cells that agree. This
+share is high for an empty scene, because most cells around a thin target are empty in both.
 """
 
 from __future__ import annotations
@@ -23,30 +23,30 @@ if TYPE_CHECKING:
     from niwaki.draw.scene import Scene
     from niwaki.targets.sketches import Score, SketchCall
 
-#: Cells of the grid that measures a scene beyond its target; a larger scene has larger cells.
-MOST = 2_000_000
+#: The largest number of cells of a grid that measures a scene beyond its target; a larger scene has larger cells.
+MAX_CELLS = 2_000_000
 
 
 @dataclass(frozen=True)
 class Fit:
-    """How a scene fits a target.
+    """The fit of a scene to a target.
 
     Attributes
     ----------
     covered : float
-        Of the target, the share that the scene fills.
+        Share of the target that the scene fills.
     outside : float
-        Of the scene, the share outside of the target; 0 of an empty scene.
+        Share of the scene outside of the target; 0 for an empty scene.
     """
 
     covered: float
     outside: float
 
     @classmethod
-    def of_masks(cls, wanted: NDArray[np.bool_], made: NDArray[np.bool_]) -> Fit:
-        """The fit of pixels."""
-        both, filled = int((wanted & made).sum()), int(made.sum())
-        return cls(both / max(int(wanted.sum()), 1), (filled - both) / max(filled, 1))
+    def of_masks(cls, target: NDArray[np.bool_], scene: NDArray[np.bool_]) -> Fit:
+        """Compare pixels of a target and of a scene."""
+        both, filled = int((target & scene).sum()), int(scene.sum())
+        return cls(both / max(int(target.sum()), 1), (filled - both) / max(filled, 1))
 
     def __str__(self) -> str:
         # Rounded to the worse side: only all is 100 %, and only nothing is 0 %.
@@ -55,7 +55,7 @@ class Fit:
 
 
 def fit(score: Score, scene: Scene) -> Fit | None:
-    """How a scene fits what a score wants first: its volume, else its image, shadow or drawing; None without one."""
+    """Compare a scene with the first target of a score: its volume, else its image, shadow or drawing, else None."""
     for call in score.asks:
         if call.function == "match_volume" and call.grid is not None:
             return _of_volume(call, call.grid, scene)
@@ -69,7 +69,7 @@ def _of_volume(call: SketchCall, grid: _engine.Target, scene: Scene) -> Fit:
     cells = prod(grid.dims)
     cell = float(np.prod(high - low)) / cells
     measures = _measured(call.spec, scene)
-    # Cells that differ are wanted and empty, or filled and not wanted.
+    # Cells differ if the target fills them and the scene does not, or the other way round.
     differ = round((1.0 - measures["similarity"]) * cells)
     inside = 0.5 * (grid.filled + measures["filled"] - differ)
     filled = measures["filled"] * cell
@@ -80,11 +80,11 @@ def _of_volume(call: SketchCall, grid: _engine.Target, scene: Scene) -> Fit:
 
 
 def _volume(scene: Scene, voxel: float) -> float:
-    """The volume of a scene, parts that overlap counted once: in cells of a box around it, cubic scene units."""
+    """Measure the volume of a scene in cells of a box around it, cubic scene units. Overlapping parts count once."""
     low, high = scene.bounds
     extent = np.maximum(high - low, voxel)
     block = _engine.shape("box", ((low + high) / 2.0).tolist(), extent.tolist())
-    size = max(voxel, float((extent.prod() / MOST) ** (1.0 / 3.0)))
+    size = max(voxel, float((extent.prod() / MAX_CELLS) ** (1.0 / 3.0)))
     grid = _engine.Target(block.vertices(), block.faces(), size)
     spec = _engine.SketchSpec(json.dumps({"match_volume": {"sigma": 1.0}}), grid)
     domain_low, domain_high = np.asarray(grid.domain)
@@ -99,12 +99,12 @@ def _measured(spec: _engine.SketchSpec, scene: Scene) -> dict[str, float]:
 
 
 def cells(score: Score, scene: Scene) -> Cells | None:
-    """Which cells of its target a scene fills, as its first `match_volume` counts them; None without one."""
+    """Return the cells of a scene and its target, as the first `match_volume` counts them, or None without it."""
     for call in score.asks:
         if call.function == "match_volume" and call.grid is not None:
             low, high = np.asarray(call.grid.domain)
-            made = call.grid.mask([shape for part in scene for shape in part.shapes])
-            return Cells(low, high, call.grid.cells(), made)
+            filled = call.grid.mask([shape for part in scene for shape in part.shapes])
+            return Cells(low, high, call.grid.cells(), filled)
     return None
 
 
@@ -116,11 +116,11 @@ class Cells:
     ----------
     low, high : (3,) float64
         Corners of the grid, scene units.
-    wanted, made : bool
-        Which of them the target fills, and the scene.
+    target, scene : bool
+        Masks of the cells that the target fills, and the scene.
     """
 
     low: NDArray[np.float64]
     high: NDArray[np.float64]
-    wanted: NDArray[np.bool_]
-    made: NDArray[np.bool_]
+    target: NDArray[np.bool_]
+    scene: NDArray[np.bool_]

@@ -1,9 +1,9 @@
-"""The triangles of glTF 2.0 files, .glb and .gltf, each mesh as its nodes place it.
+"""Triangles of glTF 2.0 files, .glb and .gltf. Nodes place the meshes.
 
-Only shapes are read, as the file shows them at rest: positions, moved by weights and bones; indices, nodes and
-instances. Materials, images and animations are not opened. Every count and every place is held against the bytes that
-are there before anything is allocated. trimesh keeps no such limits, and passes over fans, instances, sparse
-accessors, targets, bones and required extensions.
+Only shapes are read, in the pose at rest: positions, moved by weights and bones; indices, nodes and instances.
+Materials, images and animations are not opened. Every count and every place is compared with the length of the file
+before memory is allocated. trimesh has no such limits, and ignores fans, instances, sparse accessors, targets, bones
+and required extensions.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126:
 _INDICES = (5121, 5123, 5125)
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _HUGE = 1 << 40
-#: Sets of four joints that a vertex may have.
+#: The largest number of sets of four joints of a vertex.
 _SETS = 4
 _INSTANCES = "EXT_mesh_gpu_instancing"
-#: Extensions that a file may require: those that are read, and those that change how surfaces look.
+#: Extensions that a file may require: those that this reader knows, and those that only change the look of surfaces.
 _KNOWN = (_INSTANCES, "KHR_mesh_quantization")
 _LOOKS = ("KHR_lights_", "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_")
 
 
 def parsed(data: bytes, suffix: str, beside: Callable[[str], bytes]) -> list[Arrays]:
-    """Vertices and faces of each mesh that a file places, in the order of its nodes.
+    """Parse the bytes of a file into vertices and faces of its placed meshes, in the order of its nodes.
 
     Parameters
     ----------
@@ -48,14 +48,14 @@ def parsed(data: bytes, suffix: str, beside: Callable[[str], bytes]) -> list[Arr
     suffix
         ".glb" or ".gltf".
     beside
-        Gives the bytes of a file that this one names.
+        Returns the bytes of a file that this file names.
 
     Raises
     ------
     Unreadable
-        It is no glTF 2.0, or uses what is not read.
+        The file is no glTF 2.0, or uses something that is not supported.
     FileError
-        It holds more than is read.
+        The file is beyond a limit.
     """
     text, chunk = _chunks(data) if suffix == ".glb" else (data, b"")
     try:
@@ -70,7 +70,7 @@ def parsed(data: bytes, suffix: str, beside: Callable[[str], bytes]) -> list[Arr
 
 
 class _File:
-    """A file taken apart."""
+    """The tables and buffers of a file."""
 
     def __init__(self, tree: dict[str, Any], chunk: bytes, beside: Callable[[str], bytes]) -> None:
         self.nodes, self.meshes, self.skins = (_tables(tree, name) for name in ("nodes", "meshes", "skins"))
@@ -78,16 +78,17 @@ class _File:
         self.accessors, self.views = _tables(tree, "accessors"), _tables(tree, "bufferViews")
         check("nodes", len(self.nodes), None)
         self.buffers = [
-            _buffer(one, chunk if k == 0 else b"", beside) for k, one in enumerate(_tables(tree, "buffers"))
+            _buffer(table, chunk if k == 0 else b"", beside)
+            for k, table in enumerate(_tables(tree, "buffers"))
         ]
 
     def placed(self) -> list[Arrays]:
-        """Every mesh of every node."""
-        found: list[Arrays] = []
-        allowed = 4 * sum(map(len, self.buffers)) + limit("copies")
+        """Return every mesh of every node."""
+        meshes: list[Arrays] = []
+        budget = 4 * sum(map(len, self.buffers)) + limit("copies")
         numbers = 0
         matrices = dict(self.walk())
-        read: dict[str, list[_Part]] = {}
+        parts_of: dict[str, list[_Part]] = {}
         for number, matrix in matrices.items():
             node = self.nodes[number]
             if "mesh" not in node:
@@ -95,51 +96,55 @@ class _File:
             mesh = _index(node["mesh"], self.meshes, "mesh")
             weights = node.get("weights", self.meshes[mesh].get("weights", []))
             key = f"{mesh} {weights}"
-            if key not in read:
-                read[key] = list(self.primitives(mesh, _list(weights, "`weights`")))
+            if key not in parts_of:
+                parts_of[key] = list(self.primitives(mesh, _list(weights, "`weights`")))
             if "skin" in node:
                 skin = self.skins[_index(node["skin"], self.skins, "skin")]
-                parts, places = [part.bent(self.bones(skin, matrices)) for part in read[key]], [np.eye(4)]
+                parts, places = [part.bent(self.bones(skin, matrices)) for part in parts_of[key]], [np.eye(4)]
             else:
-                parts, places = read[key], [matrix @ one for one in self.instances(node)]
+                parts, places = parts_of[key], [matrix @ instance for instance in self.instances(node)]
             for place in places:
                 for part in parts:
                     numbers += len(part.vertices) + part.faces.size
-                    if numbers > allowed:
+                    if numbers > budget:
                         raise beyond("copies", f"its {len(self.nodes):,} nodes place more", None)
-                    if len(found) == limit("nodes"):
-                        raise beyond("nodes", f"it places more than {len(found):,} meshes", None)
-                    found.append(part.placed(place))
-        return found
+                    if len(meshes) == limit("nodes"):
+                        raise beyond("nodes", f"it places more than {len(meshes):,} meshes", None)
+                    meshes.append(part.placed(place))
+        return meshes
 
     def walk(self) -> Iterator[tuple[int, NDArray[np.float64]]]:
-        """The number and the place of each node, parents before their children, in order."""
+        """Yield the number and the matrix of each node in order, parents before their children."""
         if self.scenes:
             roots = _list(self.scenes[_index(self.scene, self.scenes, "scene")].get("nodes", []), "`nodes`")
         else:
-            children = [one for node in self.nodes for one in _list(node.get("children", []), "`children`")]
-            below = {one for one in children if isinstance(one, int)}
+            children = [
+                child for node in self.nodes for child in _list(node.get("children", []), "`children`")
+            ]
+            below = {child for child in children if isinstance(child, int)}
             roots = [number for number in range(len(self.nodes)) if number not in below]
-        waiting = [(root, np.eye(4)) for root in reversed(roots)]
-        seen: set[int] = set()
-        while waiting:
-            given, above = waiting.pop()
-            number = _index(given, self.nodes, "node")
-            if number in seen:
+        stack = [(root, np.eye(4)) for root in reversed(roots)]
+        visited: set[int] = set()
+        while stack:
+            entry, above = stack.pop()
+            number = _index(entry, self.nodes, "node")
+            if number in visited:
                 raise Unreadable(f"node {number} has two parents, or is below itself")
-            seen.add(number)
+            visited.add(number)
             node = self.nodes[number]
             with np.errstate(all="ignore"):
                 matrix = above @ _matrix(node)
-            waiting += [(child, matrix) for child in reversed(_list(node.get("children", []), "`children`"))]
+            stack += [(child, matrix) for child in reversed(_list(node.get("children", []), "`children`"))]
             yield number, matrix
 
     def instances(self, node: dict[str, Any]) -> NDArray[np.float64]:
-        """Where a node has its mesh, below its own place, (n, 4, 4): once, or at each of its instances."""
-        given = _table(node.get("extensions", {}), "`extensions`").get(_INSTANCES)
-        if given is None:
+        """Return the matrices of a mesh relative to its node, (n, 4, 4): the identity, or one for each instance."""
+        extension = _table(node.get("extensions", {}), "`extensions`").get(_INSTANCES)
+        if extension is None:
             return np.eye(4)[None]
-        places = _table(_table(given, f"`{_INSTANCES}`").get("attributes"), "`attributes` of its instances")
+        places = _table(
+            _table(extension, f"`{_INSTANCES}`").get("attributes"), "`attributes` of its instances"
+        )
         columns = {
             name: self.numbers(places[name], kind, _TYPES)
             for name, kind in (("TRANSLATION", "VEC3"), ("ROTATION", "VEC4"), ("SCALE", "VEC3"))
@@ -153,41 +158,41 @@ class _File:
         check("nodes", counts[0], None)
         rows = {name.lower(): column.tolist() for name, column in columns.items()}
         return np.array(
-            [_matrix(dict(zip(rows, one, strict=True))) for one in zip(*rows.values(), strict=True)]
+            [_matrix(dict(zip(rows, row, strict=True))) for row in zip(*rows.values(), strict=True)]
         ).reshape(-1, 4, 4)
 
     def bones(self, skin: dict[str, Any], matrices: dict[int, NDArray[np.float64]]) -> NDArray[np.float64]:
-        """What each joint of a skin does to a vertex at rest, (n, 4, 4)."""
-        joints = [_index(one, self.nodes, "node") for one in _list(skin.get("joints", []), "`joints`")]
-        if missing := [one for one in joints if one not in matrices]:
+        """Return the matrices by which the joints of a skin move a vertex at rest, (n, 4, 4)."""
+        joints = [_index(joint, self.nodes, "node") for joint in _list(skin.get("joints", []), "`joints`")]
+        if missing := [joint for joint in joints if joint not in matrices]:
             raise Unreadable(f"the joint {missing[0]} of a skin is in no scene")
-        found = np.array([matrices[one] for one in joints]).reshape(-1, 4, 4)
+        poses = np.array([matrices[joint] for joint in joints]).reshape(-1, 4, 4)
         if "inverseBindMatrices" not in skin:
-            return found
-        # Files have the columns of a matrix one after another.
+            return poses
+        # Files store matrices column by column.
         rest = self.numbers(skin["inverseBindMatrices"], "MAT4", _TYPES).reshape(-1, 4, 4).transpose(0, 2, 1)
-        if len(rest) < len(found):
-            raise Unreadable(f"a skin has {len(found)} joints and {len(rest)} matrices")
+        if len(rest) < len(poses):
+            raise Unreadable(f"a skin has {len(poses)} joints and {len(rest)} matrices")
         with np.errstate(all="ignore"):
-            return np.asarray(found @ rest[: len(found)])
+            return np.asarray(poses @ rest[: len(poses)])
 
     def primitives(self, mesh: int, weights: list[Any]) -> Iterator[_Part]:
-        """Each part of a mesh that has triangles."""
-        for one in _tables(self.meshes[mesh], "primitives"):
-            mode = one.get("mode", _TRIANGLES)
+        """Yield the parts of a mesh that have triangles."""
+        for primitive in _tables(self.meshes[mesh], "primitives"):
+            mode = primitive.get("mode", _TRIANGLES)
             if mode not in (_TRIANGLES, _STRIP, _FAN):
                 continue
-            places = _table(one.get("attributes", {}), "`attributes`")
+            places = _table(primitive.get("attributes", {}), "`attributes`")
             if "POSITION" not in places:
                 continue
             vertices = self.numbers(places["POSITION"], "VEC3", _TYPES).astype(np.float64)
-            for weight, target in zip(weights, _tables(one, "targets"), strict=False):
+            for weight, target in zip(weights, _tables(primitive, "targets"), strict=False):
                 if weight and "POSITION" in target:
                     moved = self.numbers(target["POSITION"], "VEC3", _TYPES)
                     with np.errstate(all="ignore"):
                         vertices = vertices + _floats([weight], 1, "weights") * _as_many(moved, vertices)
-            if "indices" in one:
-                flat = self.numbers(one["indices"], "SCALAR", _INDICES).reshape(-1).astype(np.int64)
+            if "indices" in primitive:
+                flat = self.numbers(primitive["indices"], "SCALAR", _INDICES).reshape(-1).astype(np.int64)
             else:
                 flat = np.arange(len(vertices))
             part = _Part(vertices, _triangles(flat, mode))
@@ -201,45 +206,47 @@ class _File:
                     )
             yield part
 
-    def numbers(self, given: Any, kind: str, codes: Container[int]) -> NDArray[Any]:
-        """The numbers of an accessor of a kind, (count, columns)."""
-        accessor = self.accessors[_index(given, self.accessors, "accessor")]
+    def numbers(self, entry: Any, kind: str, codes: Container[int]) -> NDArray[Any]:
+        """Return the numbers of an accessor of a kind, (count, columns)."""
+        accessor = self.accessors[_index(entry, self.accessors, "accessor")]
         code = accessor.get("componentType")
         if accessor.get("type") != kind or not isinstance(code, int) or code not in codes:
             shown = f"{accessor.get('type')!s:.20} {code!s:.20}"
-            raise Unreadable(f"accessor {given} has type {shown}, expected {kind}")
+            raise Unreadable(f"accessor {entry} has type {shown}, expected {kind}")
         shape = _whole(accessor.get("count"), "count"), _COLUMNS[kind]
         dtype = np.dtype(_TYPES[code])
         if "bufferView" in accessor:
-            found = self.rows(accessor, shape, dtype, f"accessor {given}")
+            numbers = self.rows(accessor, shape, dtype, f"accessor {entry}")
         elif "sparse" in accessor:
             check("copies", shape[0], None)
-            found = np.zeros(shape, dtype)
+            numbers = np.zeros(shape, dtype)
         else:
             raise Unreadable("its meshes are compressed (Draco); export them without compression")
         if "sparse" in accessor:
-            found = found.copy()
-            given = _table(accessor["sparse"], "`sparse`")
-            count = _whole(given.get("count"), "count")
-            where, what = (_table(given.get(name), f"`{name}` of `sparse`") for name in ("indices", "values"))
-            if where.get("componentType") not in _INDICES:
+            numbers = numbers.copy()
+            sparse = _table(accessor["sparse"], "`sparse`")
+            count = _whole(sparse.get("count"), "count")
+            indices, values = (
+                _table(sparse.get(name), f"`{name}` of `sparse`") for name in ("indices", "values")
+            )
+            if indices.get("componentType") not in _INDICES:
                 raise Unreadable(
-                    f"the indices of a sparse accessor have type {where.get('componentType')!s:.20}"
+                    f"the indices of a sparse accessor have type {indices.get('componentType')!s:.20}"
                 )
             rows = self.rows(
-                where, (count, 1), np.dtype(_TYPES[where["componentType"]]), "a sparse accessor"
+                indices, (count, 1), np.dtype(_TYPES[indices["componentType"]]), "a sparse accessor"
             )[:, 0]
-            if count and rows.max() >= len(found):
-                raise Unreadable(f"a sparse accessor names row {rows.max():,} of {len(found):,}")
-            found[rows] = self.rows(what, (count, shape[1]), dtype, "a sparse accessor")
+            if count and rows.max() >= len(numbers):
+                raise Unreadable(f"a sparse accessor names row {rows.max():,} of {len(numbers):,}")
+            numbers[rows] = self.rows(values, (count, shape[1]), dtype, "a sparse accessor")
         if dtype.kind != "f" and accessor.get("normalized") is True:
-            return np.asarray(np.maximum(found / np.iinfo(dtype).max, -1.0))
-        return found
+            return np.asarray(np.maximum(numbers / np.iinfo(dtype).max, -1.0))
+        return numbers
 
     def rows(
         self, table: dict[str, Any], shape: tuple[int, int], dtype: np.dtype[Any], name: str
     ) -> NDArray[Any]:
-        """Rows of a view that a table names."""
+        """Return rows of the view that a table names."""
         view = self.views[_index(table.get("bufferView"), self.views, "bufferView")]
         if any("meshopt" in name for name in _table(view.get("extensions", {}), "`extensions`")):
             raise Unreadable("its meshes are compressed (meshopt); export them without compression")
@@ -263,7 +270,7 @@ class _File:
 
 @dataclass
 class _Part:
-    """A part of a mesh, and how much each joint of a skin moves its vertices, four joints in each set."""
+    """A part of a mesh, with the joints of a skin that move its vertices and their weights, four in each set."""
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]
@@ -271,7 +278,7 @@ class _Part:
     weights: list[NDArray[Any]] = field(default_factory=list)
 
     def bent(self, bones: NDArray[np.float64]) -> _Part:
-        """The part as its bones hold it."""
+        """Return the part in the pose of its bones."""
         if not self.joints:
             return self
         whole = np.zeros((len(self.vertices), 3, 4))
@@ -287,7 +294,7 @@ class _Part:
         return _Part(vertices, self.faces)
 
     def placed(self, matrix: NDArray[np.float64]) -> Arrays:
-        """Its vertices and faces at a place."""
+        """Return vertices and faces, moved by a matrix."""
         if np.array_equal(matrix, np.eye(4)):
             return self.vertices, self.faces
         with np.errstate(all="ignore"):
@@ -296,24 +303,24 @@ class _Part:
             return vertices, self.faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else self.faces
 
 
-def _as_many(found: NDArray[Any], vertices: NDArray[Any]) -> NDArray[Any]:
-    if len(found) != len(vertices):
-        raise Unreadable(f"a mesh has {len(vertices):,} vertices, and {len(found):,} rows about them")
-    return found
+def _as_many(rows: NDArray[Any], vertices: NDArray[Any]) -> NDArray[Any]:
+    if len(rows) != len(vertices):
+        raise Unreadable(f"a mesh has {len(vertices):,} vertices, and {len(rows):,} rows about them")
+    return rows
 
 
 def _check_required(tree: dict[str, Any]) -> None:
-    """Refuse what a file cannot be read without and we do not know."""
+    """Refuse a file that requires an unknown extension."""
     for name in _list(tree.get("extensionsRequired", []), "`extensionsRequired`"):
         if not isinstance(name, str) or not (name in _KNOWN or name.startswith(_LOOKS)):
-            reason = f"it cannot be read without the extension {name!a:.60}, which is not known here"
+            reason = f"it requires the extension {name!a:.60}, which is not supported"
             if "draco" in str(name) or "meshopt" in str(name):
                 reason = f"its meshes are compressed ({name!a:.60}); export them without compression"
             raise Unreadable(reason)
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes]:
-    """The JSON of a .glb file, and its first binary chunk."""
+    """Return the JSON of a .glb file, and its first binary chunk."""
     if len(data) < 20 or struct.unpack_from("<I", data)[0] != _MAGIC:
         raise Unreadable("it does not begin as a .glb file does")
     version, total = struct.unpack_from("<II", data, 4)
@@ -322,16 +329,16 @@ def _chunks(data: bytes) -> tuple[bytes, bytes]:
     if total > len(data):
         raise Unreadable(f"it should have {total:,} bytes and has {len(data):,}: it is cut short")
     at = 12
-    found: dict[int, bytes] = {}
+    chunks: dict[int, bytes] = {}
     while at + 8 <= total:
         length, kind = struct.unpack_from("<II", data, at)
         if at + 8 + length > total:
             raise Unreadable(f"a chunk of {length:,} bytes does not fit into the file")
-        found.setdefault(kind, data[at + 8 : at + 8 + length])
+        chunks.setdefault(kind, data[at + 8 : at + 8 + length])
         at += 8 + length
-    if _JSON not in found:
+    if _JSON not in chunks:
         raise Unreadable("it has no JSON chunk")
-    return found[_JSON], found.get(_BIN, b"")
+    return chunks[_JSON], chunks.get(_BIN, b"")
 
 
 def _buffer(table: dict[str, Any], chunk: bytes, beside: Callable[[str], bytes]) -> bytes:
@@ -350,12 +357,12 @@ def _buffer(table: dict[str, Any], chunk: bytes, beside: Callable[[str], bytes])
 
 
 def name_of(uri: str) -> str:
-    """The name of a file in or below the folder of the file that names it.
+    """Return the name of a file in or below the folder of the file that names it.
 
     Raises
     ------
     Unreadable
-        It is an address elsewhere.
+        The name is an address elsewhere.
     """
     try:
         name = unquote_to_bytes(uri).decode()
@@ -388,10 +395,10 @@ def _matrix(node: dict[str, Any]) -> NDArray[np.float64]:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-    found = np.eye(4)
-    found[:3, :3] = turn * _floats(node.get("scale", [1, 1, 1]), 3, "scale")
-    found[:3, 3] = _floats(node.get("translation", [0, 0, 0]), 3, "translation")
-    return found
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn * _floats(node.get("scale", [1, 1, 1]), 3, "scale")
+    matrix[:3, 3] = _floats(node.get("translation", [0, 0, 0]), 3, "translation")
+    return matrix
 
 
 def _triangles(flat: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
@@ -417,7 +424,7 @@ def _list(value: Any, name: str) -> list[Any]:
 
 
 def _tables(tree: dict[str, Any], name: str) -> list[dict[str, Any]]:
-    return [_table(one, f"an entry of `{name}`") for one in _list(tree.get(name, []), f"`{name}`")]
+    return [_table(entry, f"an entry of `{name}`") for entry in _list(tree.get(name, []), f"`{name}`")]
 
 
 def _index(value: Any, rows: list[Any], name: str) -> int:
@@ -434,6 +441,6 @@ def _whole(value: Any, name: str) -> int:
 
 def _floats(value: Any, count: int, name: str) -> NDArray[np.float64]:
     numbers = value if isinstance(value, list) else []
-    if len(numbers) != count or not all(isinstance(one, (int, float)) for one in numbers):
+    if len(numbers) != count or not all(isinstance(number, (int, float)) for number in numbers):
         raise Unreadable(f"a node's `{name}` is not {count} numbers")
     return np.array(numbers, dtype=np.float64)

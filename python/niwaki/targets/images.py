@@ -1,10 +1,9 @@
-"""Images to match: which pixels should be on, and how much each matters.
+"""Images to match: masks of the pixels that should be on, and their weights.
 
 A pixel of a silhouette is on when its red is at least half of the image's brightest: the noise of a JPEG is off, and so
-is a border that is less than half covered. Where an image has transparent pixels, they say which are on: those at least
-half as opaque as the most opaque one, if they have any red. A drawing is ink on paper instead: what is not white is
-ink. No image is flipped, but turned as its file says: the camera, or the reader of the page, should see it as a person
-does.
+is a border that is less than half covered. In an image with transparent pixels, a pixel is on when it is at least half
+as opaque as the most opaque pixel, and has some red. A drawing is ink on paper instead: all pixels but white are ink.
+Images are upright, as their files say, and never flipped.
 """
 
 from __future__ import annotations
@@ -28,18 +27,18 @@ if TYPE_CHECKING:
 else:
     Image = Any
 
-#: Names of files with images end in one of these; the content decides what is read.
+#: Suffixes of image files; the content decides the format.
 FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".bmp", ".gif", ".tif", ".tiff")
 
-#: Greys from here on are paper: scans and photographs of white are not quite white.
+#: The lowest grey of paper: scans and photographs of white are not quite white.
 PAPER = 250
 
-#: Pixels along a side of what a lossy compression looks at together; the mean of such a block survives it.
+#: Pixels along a side of a block of lossy compression; the mean of a block survives.
 BLOCK = 8
 
 
 def silhouette(image: Image) -> NDArray[np.bool_]:
-    """Tell which pixels should be on, (rows, columns).
+    """Return the mask of the pixels that should be on, (rows, columns).
 
     Raises
     ------
@@ -61,16 +60,16 @@ def silhouette(image: Image) -> NDArray[np.bool_]:
 def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
     """Read a drawing: greys, (rows, columns) uint8, 255 where there is no ink.
 
-    Transparent pixels are paper, and so are greys from `PAPER` on. Of truth values the true ones are ink. Compression
-    with a loss leaves ripples around ink: of a JPEG or a WebP, greys nearer to its lightest than to its darkest are
-    paper, unless it is made `BLOCK` times smaller, which levels them.
+    Transparent pixels are paper, and so are greys from `PAPER` on. In an array of booleans, True is ink. Lossy
+    compression leaves ripples around ink. So in a JPEG or a WebP, greys nearer to the lightest than to the darkest are
+    paper, unless the image is made `BLOCK` times smaller, which levels the ripples.
 
     Parameters
     ----------
     image
         A file, a Pillow image or an array.
     pixels
-        Of the longer side: a larger image is made smaller. As it is when left out.
+        Pixels of the longer side: a larger image is made smaller. None keeps its size.
 
     Raises
     ------
@@ -79,8 +78,8 @@ def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
     InputError
         `bad-image` for an array of another shape; `drawing-one-color` when there is no ink, or no paper.
     """
-    found = _pixels(image)
-    values, paper = found.channels, float(PAPER)
+    source = _pixels(image)
+    values, paper = source.channels, float(PAPER)
     if values.dtype == np.bool_:
         grey = np.where(values, 0.0, 255.0)
     else:
@@ -94,7 +93,7 @@ def ink(image: Image, pixels: int | None = None) -> NDArray[np.uint8]:
         # Means of areas: other filters ring, and their ripples on the paper would be ink.
         page = page.resize((columns, rows), Pil.Resampling.BOX)
     greys = np.array(page)
-    if found.is_lossy and longer < BLOCK * max(page.size):
+    if source.is_lossy and longer < BLOCK * max(page.size):
         paper = min(paper, (float(greys.min()) + float(greys.max())) / 2.0)
     greys[greys >= paper] = 255
     filled = int((greys < 255).sum())
@@ -126,12 +125,12 @@ def weights(image: Image, like: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def name_of(image: Image) -> str:
-    """What to call an image in a message."""
+    """Return the name of an image in messages."""
     return str(image) if isinstance(image, (str, PathLike)) else "the image"
 
 
 def _pixels(image: Image) -> files.Pixels:
-    """The pixels of a file or an image of Pillow; of an array, which may be one of truth values."""
+    """Return the pixels of a file, a Pillow image or an array, which may be of booleans."""
     if isinstance(image, (str, PathLike)):
         return files.load(image)
     if hasattr(image, "convert") and hasattr(image, "getbands"):
@@ -162,13 +161,13 @@ def _on(values: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def _upper_half(values: NDArray[Any]) -> NDArray[np.bool_]:
-    """Where a value is at least half of the largest, and above 0."""
-    found: NDArray[np.bool_] = (values > 0) & (values >= 0.5 * float(values.max()))
-    return found
+    """Return the mask of the values that are at least half of the largest, and above 0."""
+    mask: NDArray[np.bool_] = (values > 0) & (values >= 0.5 * float(values.max()))
+    return mask
 
 
 def _grey(values: NDArray[Any]) -> NDArray[np.float64]:
-    """Mean of red, green and blue, over black where the image is transparent."""
+    """Return the mean of red, green and blue, over black where the image is transparent."""
     numbers = values.astype(np.float64)
     if numbers.ndim == 2:
         return numbers

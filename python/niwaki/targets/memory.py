@@ -1,4 +1,4 @@
-"""Whether there is enough memory for a mesh, before it is read."""
+"""A check that there is enough memory for a mesh, before it is read."""
 
 from __future__ import annotations
 
@@ -11,14 +11,24 @@ BYTES_PER_TRIANGLE = 200
 BYTES_PER_BYTE = 20
 
 
-def check_memory(name: str, what: str, needed: int) -> None:
-    """Refuse a mesh that would not fit while it is read, checked and filled."""
+def check_memory(name: str, size: str, demand: int) -> None:
+    """Refuse a mesh that would not fit while it is read, checked and filled.
+
+    Parameters
+    ----------
+    name
+        The mesh, in the message.
+    size
+        Its size, in the message.
+    demand
+        Bytes of memory for it.
+    """
     free = free_memory()
-    if needed > free:
+    if demand > free:
         raise InputError(
             "mesh-too-large",
             name=name,
-            what=what,
-            needed=f"{needed / 1e9:.1f} GB",
+            what=size,
+            needed=f"{demand / 1e9:.1f} GB",
             free=f"{free / 1e9:.1f} GB",
         )

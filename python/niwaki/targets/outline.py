@@ -1,8 +1,8 @@
-"""Outlines from files: a polygon of the plane from JSON or SVG, for `polygon_contains` and its like.
+"""Outlines from files: a polygon of the plane from JSON or SVG, for `polygon_contains` and similar words.
 
 JSON: a list of points `[[x, y], ...]`, or an object with such a list under `polygon`. SVG: the first `<polygon>` or
-`<path>`, of straight lines only (`M L H V Z`, small letters too); the page's y points down and is turned, so that the
-plan stands upright. Units are taken as they are.
+`<path>`, of straight lines only (`M L H V Z`, small letters too); the page's y points down and is negated, so that the
+plan is upright. Units are those of the file.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def load_polygon(path: str | PathLike[str]) -> tuple[Vec, ...]:
     Raises
     ------
     FileError
-        The file is missing or of another format; its outline is open to doubt: fewer than three corners, curves,
+        The file is missing or of another format, or its outline is not usable: fewer than three corners, curves,
         numbers that are not finite, an outline that crosses itself.
     """
     place = Path(path)
@@ -68,22 +68,22 @@ def load_polygon(path: str | PathLike[str]) -> tuple[Vec, ...]:
 
 
 class _Unusable(Exception):
-    """Why a file holds no polygon."""
+    """A file without a usable polygon. The text is the reason."""
 
 
 def _from_json(text: str, path: str | PathLike[str]) -> list[Point]:
     try:
-        found = json_of(text, path)
+        content = json_of(text, path)
     except FileError as error:
         if error.code != "file-unreadable":
             raise
         raise _Unusable(f"it is no JSON: {error.values['reason']}") from error
-    if isinstance(found, dict):
-        found = found.get("polygon")
-    if not isinstance(found, list):
+    if isinstance(content, dict):
+        content = content.get("polygon")
+    if not isinstance(content, list):
         raise _Unusable("there is no list of points, nor an object with one under `polygon`")
     points: list[Point] = []
-    for number, point in enumerate(found):
+    for number, point in enumerate(content):
         numbers = isinstance(point, list) and len(point) == 2
         if not numbers or not all(is_number(part) for part in point):
             raise _Unusable(f"point number {number} is {json.dumps(point):.60}, expected two numbers")
@@ -120,10 +120,10 @@ def _number(word: str) -> float:
 
 
 def _path(commands: str) -> list[Point]:
-    """The corners of a path of one outline (SVG 1.1, 8.3)."""
+    """Return the corners of a path of one outline (SVG 1.1, 8.3)."""
     words = re.findall(r"[A-Za-z]|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", commands)
     points: list[Point] = []
-    x, y, command, at, closed = 0.0, 0.0, "", 0, False
+    x, y, command, at, is_closed = 0.0, 0.0, "", 0, False
     while at < len(words):
         if words[at].isalpha():
             command = words[at]
@@ -131,56 +131,56 @@ def _path(commands: str) -> list[Point]:
             if command.upper() not in "MLHVZ":
                 raise _Unusable(f"the path has a curve, `{command}`")
             if command in "Zz":
-                closed = True
+                is_closed = True
                 continue
             if command in "Mm" and points:
                 raise _Unusable("the path has more than one outline")
-        if closed or not command:
+        if is_closed or not command:
             raise _Unusable("the path has more than one outline")
-        wide, relative = 1 if command in "HhVv" else 2, command.islower()
-        numbers = [_number(word) for word in words[at : at + wide]]
-        if len(numbers) < wide:
+        count, is_relative = 1 if command in "HhVv" else 2, command.islower()
+        numbers = [_number(word) for word in words[at : at + count]]
+        if len(numbers) < count:
             raise _Unusable("the path ends in the middle of a point")
-        at += wide
+        at += count
         if command in "Hh":
-            x = numbers[0] + (x if relative else 0.0)
+            x = numbers[0] + (x if is_relative else 0.0)
         elif command in "Vv":
-            y = numbers[0] + (y if relative else 0.0)
+            y = numbers[0] + (y if is_relative else 0.0)
         else:
-            x, y = (numbers[0] + (x if relative else 0.0), numbers[1] + (y if relative else 0.0))
+            x, y = (numbers[0] + (x if is_relative else 0.0), numbers[1] + (y if is_relative else 0.0))
         points.append((x, y))
     return points
 
 
 def _checked(points: list[Point]) -> list[Point]:
-    """The corners counter-clockwise, without repeated points; refused where they make no simple polygon."""
+    """Return the corners counter-clockwise, without repeated points. Refuse corners that make no simple polygon."""
     if not all(math.isfinite(part) for point in points for part in point):
         raise _Unusable("a coordinate is not a finite number")
-    kept = [point for at, point in enumerate(points) if point != points[at - 1] or len(points) == 1]
-    if len(kept) < 3:
-        raise _Unusable(f"it has {len(kept)} corner{'s' * (len(kept) != 1)}, expected at least 3")
-    if max(abs(part) for point in kept for part in point) > FARTHEST:
+    corners = [point for at, point in enumerate(points) if point != points[at - 1] or len(points) == 1]
+    if len(corners) < 3:
+        raise _Unusable(f"it has {len(corners)} corner{'s' * (len(corners) != 1)}, expected at least 3")
+    if max(abs(part) for point in corners for part in point) > FARTHEST:
         raise _Unusable(f"a coordinate is more than {FARTHEST:g} from 0")
-    crossing = _crossing(np.array(kept))
+    crossing = _crossing(np.array(corners))
     if crossing is not None:
         raise _Unusable(f"its edges {crossing[0] + 1} and {crossing[1] + 1} cross")
-    if polygon_area(kept) == 0.0:
+    if polygon_area(corners) == 0.0:
         raise _Unusable("its corners lie on one line")
-    x, y = kept[0]
+    x, y = corners[0]
     turn = sum(
         (ax - x) * (by - y) - (ay - y) * (bx - x)
-        for (ax, ay), (bx, by) in zip(kept, [*kept[1:], kept[0]], strict=True)
+        for (ax, ay), (bx, by) in zip(corners, [*corners[1:], corners[0]], strict=True)
     )
-    return kept if turn > 0.0 else kept[::-1]
+    return corners if turn > 0.0 else corners[::-1]
 
 
 def _crossing(corners: NDArray[np.float64]) -> tuple[int, int] | None:
-    """The first two edges that have a point in common and are no neighbours."""
+    """Find the first two edges that have a point in common and are no neighbours."""
     starts, ends = corners, np.roll(corners, -1, axis=0)
     low, high = np.minimum(starts, ends), np.maximum(starts, ends)
     count = len(corners)
     for i in range(count - 2):
-        # Edge i and its neighbours meet: the one before the first is the last.
+        # Neighbours always meet. The last edge is a neighbour of the first.
         last = count - 1 if i == 0 else count
         boxes = (low[i + 2 : last] <= high[i]) & (low[i] <= high[i + 2 : last])
         near = np.flatnonzero(boxes.all(axis=1)) + i + 2
@@ -190,7 +190,7 @@ def _crossing(corners: NDArray[np.float64]) -> tuple[int, int] | None:
 
 
 def _cross(a: Points, b: Points, c: Points, d: Points) -> NDArray[np.bool_]:
-    """Whether an edge has a point in common with each of some others, whose boxes meet its own."""
+    """Return whether an edge meets each of several edges whose boxes meet its box."""
 
     def side(p: Points, q: Points, r: Points) -> NDArray[np.float64]:
         return np.asarray(
@@ -201,8 +201,8 @@ def _cross(a: Points, b: Points, c: Points, d: Points) -> NDArray[np.bool_]:
     def between(p: Points, q: Points, r: Points) -> NDArray[np.bool_]:
         return np.asarray(((np.minimum(p, q) <= r) & (r <= np.maximum(p, q))).all(axis=-1))
 
-    one, two, three, four = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
-    found = (one * two < 0.0) & (three * four < 0.0)
-    for value, p, q, r in ((one, a, b, c), (two, a, b, d), (three, c, d, a), (four, c, d, b)):
-        found |= (value == 0.0) & between(p, q, r)
-    return found
+    side_c, side_d, side_a, side_b = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+    crossing = (side_c * side_d < 0.0) & (side_a * side_b < 0.0)
+    for value, p, q, r in ((side_c, a, b, c), (side_d, a, b, d), (side_a, c, d, a), (side_b, c, d, b)):
+        crossing |= (value == 0.0) & between(p, q, r)
+    return crossing

@@ -1,4 +1,4 @@
-"""What the readers of meshes share: why a file is no mesh, and its objects as one mesh."""
+"""Common parts of the mesh readers: the error for a file that is no mesh, and objects joined into one mesh."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 class Unreadable(Exception):
-    """Why a file is no mesh that can be read."""
+    """A file that is no readable mesh. The text is the reason."""
 
 
 def joined(parts: list[Arrays]) -> Arrays:
-    """All parts as one; refused where a face names a vertex that its part does not have."""
+    """Join all parts into one mesh. Refuse a face that names a vertex outside of its part."""
     starts = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])
     for vertices, faces in parts:
         check_corners(faces, len(vertices))
@@ -25,6 +25,6 @@ def joined(parts: list[Arrays]) -> Arrays:
 
 def check_corners(corners: NDArray[np.int64], count: int) -> None:
     """Refuse a corner that is none of `count` vertices, numbered from 0."""
-    wrong = corners[(corners < 0) | (corners >= count)]
-    if len(wrong):
-        raise Unreadable(f"a face names vertex {wrong[0]}, and there are {count}, counted from 0")
+    outside = corners[(corners < 0) | (corners >= count)]
+    if len(outside):
+        raise Unreadable(f"a face names vertex {outside[0]}, and there are {count}, counted from 0")

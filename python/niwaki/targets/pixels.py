@@ -1,8 +1,8 @@
-"""The pixels of image files: PNG, JPEG, WebP, BMP, GIF and TIFF; of several images in a file, the first.
+"""Pixels of image files: PNG, JPEG, WebP, BMP, GIF and TIFF. In a file with several images, only the first is read.
 
-They stand as a person sees them: turned and mirrored as the file's orientation says (EXIF tag 274, or XMP). Only these
-formats are opened: some others that Pillow knows start other programs. The size is read before the pixels. TIFF files
-are read in a process of their own, because their reader takes its sizes from the file.
+Pixels are upright: turned and mirrored as the file's orientation says (EXIF tag 274, or XMP). Other formats are not
+opened, because some that Pillow knows start other programs. The size is read before the pixels. A separate process
+reads TIFF files, because their reader takes its sizes from the file.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ from niwaki.errors import FileError
 from niwaki.inputs import bytes_of, library, limit, read_apart
 from niwaki.inputs.limits import beyond
 
-#: Pillow's names of what is read.
+#: Pillow's names of the formats.
 KINDS = ("PNG", "JPEG", "WEBP", "BMP", "GIF", "TIFF")
 
 #: Formats whose compression leaves ripples around edges; WebP seldom keeps every pixel, and does not say so.
 LOSSY = ("JPEG", "MPO", "WEBP")
 
-# What ends a piece of a JPEG and begins a scan.
+# The marker of a JPEG that begins a scan.
 _SCAN = re.compile(rb"\xff\xda")
 
 # The tag of a TIFF that says whether 0 is black.
 _PHOTOMETRIC = 262
 
-# What turns the pixels of an orientation upright (TIFF 6.0, Orientation).
+# Transposes that turn the pixels of an orientation upright (TIFF 6.0, Orientation).
 _UPRIGHT = {
     2: Pil.Transpose.FLIP_LEFT_RIGHT,
     3: Pil.Transpose.ROTATE_180,
@@ -64,28 +64,28 @@ class Pixels:
 
 
 def load(path: str | PathLike[str]) -> Pixels:
-    """The pixels of an image's file.
+    """Read the pixels of an image file.
 
     Raises
     ------
     FileError
-        The file is missing, larger than is read, has too many pixels, or is no image.
+        The file is missing, larger than the limit, has too many pixels, or is no image.
     """
     return parsed(bytes_of(path, "image"), path)
 
 
 def parsed(data: bytes, place: str | PathLike[str] | None = None) -> Pixels:
-    """The pixels of the bytes of an image's file."""
+    """Parse the bytes of an image file."""
     if data[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
         memory = limit("memory") + 32 * limit("pixels") + len(data)
-        found = read_apart(_apart, data, place, "an image", memory)
-        return Pixels(found["channels"], bool(found["is_lossy"]))
+        arrays = read_apart(_apart, data, place, "an image", memory)
+        return Pixels(arrays["channels"], bool(arrays["is_lossy"]))
     return _decoded(data, place)
 
 
 def _apart(data: bytes) -> dict[str, NDArray[Any]]:
-    found = _decoded(data, None)
-    return {"channels": found.channels, "is_lossy": np.array(found.is_lossy)}
+    pixels = _decoded(data, None)
+    return {"channels": pixels.channels, "is_lossy": np.array(pixels.is_lossy)}
 
 
 def _decoded(data: bytes, place: str | PathLike[str] | None) -> Pixels:
@@ -96,31 +96,31 @@ def _decoded(data: bytes, place: str | PathLike[str] | None) -> Pixels:
         # Pillow warns of large images; our own limit is lower.
         warnings.simplefilter("ignore")
         try:
-            opened = Pil.open(io.BytesIO(data), formats=KINDS)
+            image = Pil.open(io.BytesIO(data), formats=KINDS)
         except Pil.DecompressionBombError:
             raise beyond("pixels", "it has more than 100 million pixels", place) from None
         except UnidentifiedImageError:
             reason = f"it is none of {', '.join(KINDS)}"
             raise FileError("file-unreadable", place, suffix="an image", reason=reason) from None
-        with opened:
-            columns, rows = opened.size
+        with image:
+            columns, rows = image.size
             _check_size(columns, rows, place)
-            return of_image(opened)
+            return of_image(image)
 
 
 def of_image(image: Pil.Image) -> Pixels:
-    """The pixels of an image of Pillow."""
+    """Return the pixels of a Pillow image."""
     is_lossy = image.format in LOSSY or "jpeg" in str(image.info.get("compression"))
     return Pixels(_channels(_upright(image)), is_lossy)
 
 
 def _upright(image: Pil.Image) -> Pil.Image:
-    # TIFF files are turned as they are loaded, and do not say so before.
+    # Pillow turns TIFF files itself while it loads them.
     image.load()
     try:
         orientation = image.getexif().get(ExifTags.Base.Orientation)
     except Exception:
-        # What else a camera noted may be damaged in any way; the pixels are there.
+        # Metadata of a camera may be damaged in any way; the pixels are good.
         return image
     method = _UPRIGHT.get(orientation) if isinstance(orientation, int) else None
     return image if method is None else image.transpose(method)
@@ -129,7 +129,7 @@ def _upright(image: Pil.Image) -> Pil.Image:
 def _channels(image: Pil.Image) -> NDArray[Any]:
     clear = image.info.get("transparency")
     if image.mode.startswith(("I", "F")):
-        # Sixteen bits and more: scaled by the brightest, as nothing says what is white.
+        # Sixteen bits and more are scaled by the brightest, because no field says which number is white.
         values = np.asarray(image, dtype=np.float64)
         if not np.isfinite(values).all():
             raise ValueError("a pixel is not a finite number")

@@ -1,7 +1,7 @@
-"""The triangles of PLY files, text and binary: places of vertices, and the polygons or strips over them.
+"""Triangles of PLY files, text and binary: coordinates of vertices, and the polygons or strips over them.
 
-What the head announces is held against the length of the file first. A binary file is read as bytes, a text as its
-numbers; in both, a place is counted in such units from the beginning.
+The counts in the head are compared with the length of the file first. A binary file is read as bytes, a text as its
+numbers; a place counts these units from the beginning.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from niwaki.inputs.texts import numbers_of
 from niwaki.targets import polygons
 from niwaki.targets.pieces import Arrays, Unreadable, check_corners
 
-#: Bytes of the longest head that is read.
+#: The longest head, bytes.
 _LONGEST = 1 << 16
 _TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
@@ -47,7 +47,7 @@ Places = NDArray[np.int64]
 
 @dataclass
 class _Property:
-    """A column of an element: numbers, or lists of them that begin with their lengths."""
+    """A column of an element: numbers, or lists of numbers that begin with their lengths."""
 
     name: str
     kind: str
@@ -69,40 +69,40 @@ def check_head(data: bytes) -> None:
     Raises
     ------
     Unreadable
-        It is, or it has no head.
+        The file is too short, or it has no head.
     """
     _head(data)
 
 
 def parsed(data: bytes) -> Arrays:
-    """Vertices and triangles of a file.
+    """Parse a file into vertices and triangles.
 
     Raises
     ------
     Unreadable
-        It is cut short, or a face names no vertex.
+        The file is cut short, or a face names no vertex.
     FileError
-        It has no faces, or a concave polygon of too many corners.
+        The file has no faces, or a concave polygon of too many corners.
     """
     order, elements, at = _head(data)
     body = _Bytes(data, order) if order else _Numbers(data[at:])
     at = at if order else 0
     vertices = np.empty((0, 3))
-    listed: tuple[str, Places, NDArray[np.int64]] | None = None
+    polygon_table: tuple[str, Places, NDArray[np.int64]] | None = None
     for element in elements:
         table = _Table(body, element, at)
         at = table.end
         if element.name == "vertex":
             vertices = np.stack([table.numbers(axis) for axis in "xyz"], axis=1)
         elif element.name in ("face", "tristrips") and element.count:
-            lists = [one.name for one in element.properties if one.length]
-            known = [one for one in _INDICES if one in lists] or lists
-            if len(known) != 1 or listed:
+            lists = [column.name for column in element.properties if column.length]
+            known = [column for column in _INDICES if column in lists] or lists
+            if len(known) != 1 or polygon_table:
                 raise Unreadable("it has no single table of faces with a list `vertex_indices`")
-            listed = (element.name, *table.lists(known[0]))
-    if listed is None:
+            polygon_table = (element.name, *table.lists(known[0]))
+    if polygon_table is None:
         raise FileError("target-empty", None, reason="the file holds points or curves only")
-    name, counts, corners = listed
+    name, counts, corners = polygon_table
     if name == "face":
         return vertices, polygons.triangles(vertices, corners, counts)
     # A strip ends at -1, or where its list does.
@@ -118,25 +118,25 @@ class _Body:
         self.end = end
 
     def size(self, kind: str) -> int:
-        """Units of a number."""
+        """Return the units of a number."""
         raise NotImplementedError
 
-    def taken(self, places: Places, kind: str) -> NDArray[Any]:
-        """The numbers at places that are there."""
+    def gather(self, places: Places, kind: str) -> NDArray[Any]:
+        """Return the numbers at places within the file."""
         raise NotImplementedError
 
     def read(self, places: Places, kind: str) -> NDArray[Any]:
-        """The numbers at places."""
+        """Return the numbers at places."""
         if len(places) and not 0 <= places.min() <= places.max() <= self.end - self.size(kind):
             raise Unreadable("it is cut short")
-        return self.taken(places, kind)
+        return self.gather(places, kind)
 
     def length(self, kind: str) -> Callable[[int], int]:
-        """What reads the length of a list at a place."""
+        """Return a function that reads the length of a list at a place."""
         raise NotImplementedError
 
     def whole(self, places: Places, kind: str) -> NDArray[np.int64]:
-        """The same, as whole numbers."""
+        """Return the numbers at places as integers."""
         with np.errstate(invalid="ignore"):
             return self.read(places, kind).astype(np.int64)
 
@@ -157,7 +157,7 @@ class _Bytes(_Body):
         read = struct.Struct(self.order + _CODES[kind]).unpack_from
         return lambda at: read(self.data, at)[0]
 
-    def taken(self, places: Places, kind: str) -> NDArray[Any]:
+    def gather(self, places: Places, kind: str) -> NDArray[Any]:
         # A number may begin at every byte.
         count = max(self.end - self.size(kind) + 1, 0)
         return np.ndarray((count,), np.dtype(self.order + kind), self.data, 0, (1,))[places]
@@ -179,7 +179,7 @@ class _Numbers(_Body):
     def length(self, kind: str) -> Callable[[int], int]:
         return lambda at: int(self.numbers.item(at))
 
-    def taken(self, places: Places, kind: str) -> NDArray[Any]:
+    def gather(self, places: Places, kind: str) -> NDArray[Any]:
         with np.errstate(over="ignore"):
             return self.numbers[places].astype(kind if kind[0] == "f" else np.float64)
 
@@ -190,13 +190,13 @@ class _Table:
     Attributes
     ----------
     end : int
-        The place behind the last of them.
+        The place behind the last row.
     """
 
     def __init__(self, body: _Body, element: _Element, at: int) -> None:
         self.body, self.element = body, element
-        #: Where each property begins in each row: places, and how far behind them.
-        self.found: dict[str, tuple[Places, int]] = {}
+        #: The start of each property in each row: places, and an offset from them.
+        self.starts: dict[str, tuple[Places, int]] = {}
         self.counts: dict[str, NDArray[np.int64]] = {}
         try:
             # Most tables have rows of one length.
@@ -211,72 +211,78 @@ class _Table:
             raise Unreadable("it is cut short")
 
     def numbers(self, name: str) -> NDArray[np.float64]:
-        """A column of numbers."""
-        one = next((one for one in self.element.properties if one.name == name and not one.length), None)
-        if one is None:
+        """Return a column of numbers."""
+        column = next(
+            (column for column in self.element.properties if column.name == name and not column.length), None
+        )
+        if column is None:
             raise Unreadable(f"its vertices have no property `{name}`")
-        places, offset = self.found[name]
-        return self.body.read(places + offset, one.kind).astype(np.float64)
+        places, offset = self.starts[name]
+        return self.body.read(places + offset, column.kind).astype(np.float64)
 
     def lists(self, name: str) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        """The lengths of a column of lists, and all their numbers one after another."""
-        one = next(one for one in self.element.properties if one.name == name)
-        places, offset = self.found[name]
+        """Return the lengths of a column of lists, and all their numbers in order."""
+        column = next(column for column in self.element.properties if column.name == name)
+        places, offset = self.starts[name]
         counts = self.counts[name]
-        first = places + offset + self.body.size(str(one.length))
+        starts = places + offset + self.body.size(str(column.length))
         within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-        return counts, self.body.whole(np.repeat(first, counts) + within * self.body.size(one.kind), one.kind)
+        return counts, self.body.whole(
+            np.repeat(starts, counts) + within * self.body.size(column.kind), column.kind
+        )
 
     def _laid(self, starts: Places) -> Places:
-        """The ends of rows that begin at places."""
+        """Lay out rows that begin at places, and return their ends."""
         places, offset = starts, 0
-        for one in self.element.properties:
-            self.found[one.name] = places, offset
-            if one.length:
-                counts = self.body.whole(places + offset, one.length)
+        for column in self.element.properties:
+            self.starts[column.name] = places, offset
+            if column.length:
+                counts = self.body.whole(places + offset, column.length)
                 if len(counts) and not 0 <= counts.min() <= counts.max() <= self.body.end:
                     raise Unreadable("the length of a list is below zero, or beyond the end of the file")
-                self.counts[one.name] = counts
-                places = places + offset + self.body.size(one.length) + counts * self.body.size(one.kind)
+                self.counts[column.name] = counts
+                places = (
+                    places + offset + self.body.size(column.length) + counts * self.body.size(column.kind)
+                )
                 offset = 0
             else:
-                offset += self.body.size(one.kind)
+                offset += self.body.size(column.kind)
         return places + offset
 
     def _walked(self, at: int) -> Places:
-        """Where each row begins: where the one before it ends."""
+        """Walk from row to row, and return their starts."""
         steps, gap = [], 0
-        for one in self.element.properties:
-            if one.length:
-                sizes = self.body.size(one.length), self.body.size(one.kind)
-                steps.append((gap, self.body.length(one.length), *sizes))
+        for column in self.element.properties:
+            if column.length:
+                sizes = self.body.size(column.length), self.body.size(column.kind)
+                steps.append((gap, self.body.length(column.length), *sizes))
                 gap = 0
             else:
-                gap += self.body.size(one.kind)
-        found = []
+                gap += self.body.size(column.kind)
+        starts = []
         try:
             for _ in range(self.element.count):
-                found.append(at)
+                starts.append(at)
                 for before, length, size, item in steps:
                     at += before
                     at += size + item * length(at)
                 at += gap
         except (IndexError, struct.error, ValueError, OverflowError):
             raise Unreadable(
-                f"it is cut short in row {len(found):,} of its table `{self.element.name:.40}`"
+                f"it is cut short in row {len(starts):,} of its table `{self.element.name:.40}`"
             ) from None
-        return np.array(found, np.int64)
+        return np.array(starts, np.int64)
 
 
 def _head(data: bytes) -> tuple[str, list[_Element], int]:
-    """The order of its bytes, its tables, and where they begin."""
+    """Parse the head: the order of bytes, the tables, and the place where they begin."""
     first = re.match(rb"(?:\xef\xbb\xbf)?ply[^\S\r\n]*(\r\n|\n|\r)", data[:64], re.I)
     if first is None:
         raise Unreadable("it has no head of a PLY file")
     order: str | None = None
     elements: list[_Element] = []
     at = first.end()
-    # Lines end as the first does: what follows the head may begin like the end of another line.
+    # Lines end as the first line does: the bytes after the head may look like the end of a line.
     for line in data[at:_LONGEST].split(first[1]):
         at += len(line) + len(first[1])
         words = line.decode("latin-1").split()
@@ -298,7 +304,7 @@ def _head(data: bytes) -> tuple[str, list[_Element], int]:
 def _element(words: list[str], others: list[_Element]) -> _Element:
     if len(words) != 3 or not words[2].isdecimal() or len(words[2]) > 18:
         raise Unreadable(f"its head announces {' '.join(words[2:]):.40} rows")
-    if any(one.name == words[1] for one in others):
+    if any(other.name == words[1] for other in others):
         raise Unreadable(f"its head announces `{words[1]:.40}` twice")
     return _Element(words[1], int(words[2]))
 
@@ -311,19 +317,21 @@ def _property(words: list[str], element: _Element) -> _Property:
         wrong = [kind for kind in kinds[:1] if _TYPES[kind] not in _CODES]
     if wrong or len(words) != (5 if is_list else 3):
         raise Unreadable(f"its head has a property of type `{' '.join(wrong or words[1:]):.40}`")
-    if any(one.name == words[-1] for one in element.properties):
+    if any(other.name == words[-1] for other in element.properties):
         raise Unreadable(f"its head announces `{words[-1]:.40}` twice")
     return _Property(words[-1], _TYPES[kinds[-1]], _TYPES[kinds[0]] if is_list else None)
 
 
-def _check_length(elements: list[_Element], order: str, left: int) -> None:
-    needed = 0
-    for one in elements:
-        if one.count and not one.properties:
+def _check_length(elements: list[_Element], order: str, rest: int) -> None:
+    least = 0
+    for element in elements:
+        if element.count and not element.properties:
             raise Unreadable("its head announces rows without properties")
-        # At least: of a list its length alone; in text a digit and what ends it.
-        sizes = [np.dtype(each.length or each.kind).itemsize if order else 2 for each in one.properties]
-        needed += one.count * sum(sizes)
-    # The last number of a text may be its end.
-    if needed > left + (not order):
-        raise Unreadable(f"its head announces at least {needed:,} bytes, and {max(left, 0):,} follow")
+        # A lower bound: the length of a list; in text a digit and a separator.
+        sizes = [
+            np.dtype(column.length or column.kind).itemsize if order else 2 for column in element.properties
+        ]
+        least += element.count * sum(sizes)
+    # A text may end with its last number.
+    if least > rest + (not order):
+        raise Unreadable(f"its head announces at least {least:,} bytes, and {max(rest, 0):,} follow")

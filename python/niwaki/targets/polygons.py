@@ -1,9 +1,9 @@
-"""Polygons as triangles that cover them and nothing else.
+"""Triangulation of polygons: triangles cover a polygon and nothing else.
 
-A fan, the triangles from one corner to all others, covers a polygon where all of them face as the polygon does; that is
-so of every convex one, and of many others. What is left is cut by ear clipping (mapbox_earcut). In a polygon that
-touches itself, such as one with a cut that leads to a hole, it may pass over corners on straight lines that the polygon
-beside needs; triangles without area put them back, so that a closed surface stays closed.
+A fan (the triangles from one corner to all others) covers a polygon if all its triangles face as the polygon does. Fans
+cover every convex polygon, and many others. Ear clipping (mapbox_earcut) cuts the rest. In a polygon that touches
+itself, such as one with a cut that leads to a hole, it may skip corners on straight lines. The neighbouring polygon
+needs these corners. Triangles without area restore them, so that a closed surface stays closed.
 """
 
 from __future__ import annotations
@@ -17,89 +17,89 @@ from numpy.typing import NDArray
 from niwaki.inputs.limits import beyond, limit
 from niwaki.targets.pieces import check_corners
 
-#: How far a triangle of a fan may face away, as a share of the polygon's area.
+#: The tolerance for triangles of a fan that face away, as a share of the polygon's area.
 _AWAY = 1e-9
 
 
 def triangles(
     vertices: NDArray[np.float64], corners: NDArray[np.int64], counts: NDArray[np.int64]
 ) -> NDArray[np.int64]:
-    """Triangles of polygons, in the order of the polygons.
+    """Cut polygons into triangles, in the order of the polygons.
 
     Parameters
     ----------
     vertices : (n, 3) float64
     corners : (k,) int64
-        Numbers of vertices, those of each polygon one after another.
+        Vertex numbers, polygon after polygon.
     counts : (m,) int64
-        The number of corners of each polygon. Those with one or two have no triangles.
+        The number of corners of each polygon. Polygons with one or two have no triangles.
 
     Raises
     ------
     Unreadable
-        A corner is none of the vertices.
+        A corner names no vertex.
     FileError
-        Its concave polygons have too many corners.
+        The concave polygons have too many corners.
     """
     check_corners(corners, len(vertices))
     starts = np.cumsum(counts) - counts
-    found, owners = [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
-    compared, allowed = 0, limit("comparisons") + 100 * len(corners)
+    pieces, owners = [np.empty((0, 3), np.int64)], [np.empty(0, np.int64)]
+    comparisons, budget = 0, limit("comparisons") + 100 * len(corners)
     for count in np.unique(counts[counts >= 3]).tolist():
-        which = np.flatnonzero(counts == count)
-        rows = corners[starts[which, None] + np.arange(count)]
+        numbers = np.flatnonzero(counts == count)
+        rows = corners[starts[numbers, None] + np.arange(count)]
         # A quad is covered by its fan from the first corner or from the second.
         for first in (0, 1):
             cut = fans(np.roll(rows, -first, axis=1))
             cover = _cover(vertices, cut) if count > 3 else np.ones(len(rows), bool)
-            found.append(cut[cover].reshape(-1, 3))
-            owners.append(np.repeat(which[cover], count - 2))
-            rows, which = rows[~cover], which[~cover]
-        compared += count * count * len(rows)
-        if compared > allowed:
+            pieces.append(cut[cover].reshape(-1, 3))
+            owners.append(np.repeat(numbers[cover], count - 2))
+            rows, numbers = rows[~cover], numbers[~cover]
+        comparisons += count * count * len(rows)
+        if comparisons > budget:
             raise beyond(
                 "comparisons", f"cutting its concave polygons, one of {count:,} corners, takes more", None
             )
-        for row, owner in zip(rows, which, strict=True):
-            found.append(row[_clipped(vertices[row])])
-            owners.append(np.full(len(found[-1]), owner))
-    return np.concatenate(found)[np.argsort(np.concatenate(owners), kind="stable")]
+        for row, owner in zip(rows, numbers, strict=True):
+            pieces.append(row[_clipped(vertices[row])])
+            owners.append(np.full(len(pieces[-1]), owner))
+    return np.concatenate(pieces)[np.argsort(np.concatenate(owners), kind="stable")]
 
 
 def fans(rows: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Triangles (m, k, 3) from the first corner of each row to all others."""
+    """Return triangles (m, k, 3) from the first corner of each row to all others."""
     return np.stack([np.broadcast_to(rows[:, :1], rows[:, 2:].shape), rows[:, 1:-1], rows[:, 2:]], axis=2)
 
 
 def strips(corners: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Triangles of strips, which end at -1: each corner makes one with the two before it, every second turned over."""
+    """Return triangles of strips, which end at -1: each corner with the two before it, every second turned over."""
     if len(corners) < 3:
         return np.empty((0, 3), np.int64)
-    found = np.stack([corners[:-2], corners[1:-1], corners[2:]], axis=1)
+    faces = np.stack([corners[:-2], corners[1:-1], corners[2:]], axis=1)
     number = np.arange(len(corners))
     first = np.maximum.accumulate(np.where(corners < 0, number + 1, 0))[:-2]
     odd = (number[:-2] - first) % 2 == 1
-    found[odd] = found[odd][:, [1, 0, 2]]
-    return found[(found >= 0).all(axis=1)]
+    faces[odd] = faces[odd][:, [1, 0, 2]]
+    return faces[(faces >= 0).all(axis=1)]
 
 
 def _cover(vertices: NDArray[np.float64], fans: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Whether the triangles of each fan (m, k, 3) cover its polygon and nothing else."""
+    """Return whether the triangles of each fan (m, k, 3) cover its polygon and nothing else."""
     a, b, c = (vertices[fans[:, :, k]] for k in range(3))
     with np.errstate(all="ignore"):
         areas = np.cross(b - a, c - a)
         whole = areas.sum(axis=1)
         along = np.einsum("mkx,mx->mk", areas, whole)
         away = along < -_AWAY * (whole * whole).sum(axis=1, keepdims=True)
-    # Of numbers that are not finite nothing is asked: `Target` refuses them.
+    # Numbers that are not finite pass: `Target` refuses them.
     return np.asarray(~away.any(axis=1) | ~np.isfinite(along).all(axis=1))
 
 
 def _clipped(points: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Triangles of one polygon (n, 3), as numbers of its corners; their borders add up to the polygon's."""
+    """Clip a polygon (n, 3) into triangles of its corner numbers. Their borders add up to the polygon's."""
     centred = points - points[0]
     area = np.cross(centred, np.roll(centred, -1, axis=0)).sum(axis=0)
-    # Seen along the axis that it faces most, a polygon has the same triangles, and no coordinate is rounded.
+    # The projection along the axis that it faces most has the same triangles, and rounds no coordinate.
     axis = int(np.abs(area).argmax())
     flat = np.ascontiguousarray(np.delete(centred, axis, axis=1))
     ears = triangulate_float64(flat, np.array([len(flat)], np.uint32)).reshape(-1, 3).astype(np.int64)
@@ -110,7 +110,7 @@ def _clipped(points: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def _missing(count: int, ears: NDArray[np.int64]) -> list[list[int]]:
-    """Triangles between the border of `ears` and that of the polygon 0, 1, ..., `count` - 1."""
+    """Return triangles between the border of `ears` and the border of the polygon 0, 1, ..., `count` - 1."""
     uses: dict[tuple[int, int], int] = defaultdict(int)
     ring = [(k, (k + 1) % count) for k in range(count)]
     for a, b in [*ring, *((b, a) for t in ears.tolist() for a, b in zip(t, t[1:] + t[:1], strict=True))]:
@@ -118,13 +118,13 @@ def _missing(count: int, ears: NDArray[np.int64]) -> list[list[int]]:
     after: dict[int, list[int]] = defaultdict(list)
     for (a, b), times in uses.items():
         after[a if times > 0 else b] += [b if times > 0 else a] * abs(times)
-    found = []
+    faces = []
     for start in list(after):
         path = [start]
-        # Each vertex has as many edges in as out, so every walk closes; a loop is taken out where it does.
+        # Each vertex has as many edges in as out, so every walk closes; each loop leaves the path.
         while after[path[-1]]:
             path.append(after[path[-1]].pop())
             at = path.index(path[-1])
             loop, path = path[at:-1], path[: at + 1]
-            found += [[loop[0], loop[k], loop[k + 1]] for k in range(1, len(loop) - 1)]
-    return found
+            faces += [[loop[0], loop[k], loop[k + 1]] for k in range(1, len(loop) - 1)]
+    return faces

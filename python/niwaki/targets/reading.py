@@ -1,7 +1,7 @@
 """Meshes from OBJ, STL, PLY, GLB and glTF files: all objects of a file together, each placed as its file places it.
 
-What a file announces is held against its length first. A large file whose reader keeps no limits is read in a process
-of its own (`niwaki.inputs.child`).
+The counts in the head of a file are compared with its length first. A separate process (`niwaki.inputs.child`) reads a
+large file whose reader has no limits.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ _READERS = {".obj": obj.parsed, ".stl": stl.parsed, ".ply": ply.parsed}
 
 
 def load(path: str | PathLike[str]) -> Arrays:
-    """Vertices and faces of a mesh file.
+    """Read vertices and faces of a mesh file.
 
     Raises
     ------
     FileError
-        The file is missing, empty, larger than is read, or of a format that is not read.
+        The file is missing, empty, larger than the limit, or of another format.
     InputError
         `mesh-too-large`: there is not enough memory.
     """
@@ -51,7 +51,7 @@ def load(path: str | PathLike[str]) -> Arrays:
 
 
 def parsed(data: bytes, suffix: str, place: Path | None = None) -> Arrays:
-    """Vertices and faces of the bytes of a mesh file.
+    """Parse the bytes of a mesh file into vertices and faces.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def parsed(data: bytes, suffix: str, place: Path | None = None) -> Arrays:
     suffix
         One of `FORMATS`.
     place
-        Where it is; without it, no file beside it is read.
+        The path of the file; without it, no other file is read.
 
     Raises
     ------
@@ -72,27 +72,27 @@ def parsed(data: bytes, suffix: str, place: Path | None = None) -> Arrays:
     try:
         if suffix in (".glb", ".gltf"):
             return _gltf(data, suffix, place)
-        # Binary STL is as long as its head says.
+        # The head of binary STL determines its length.
         plain = suffix == ".stl" and not stl.is_text(data)
         if suffix == ".ply":
             ply.check_head(data)
     except Unreadable as reason:
         raise FileError("file-unreadable", place, suffix=suffix, reason=str(reason)) from None
     if plain or len(data) <= limit("apart"):
-        found = arrays(data, suffix)
+        mesh = arrays(data, suffix)
     else:
         memory = limit("memory") + APART_PER_BYTE * len(data)
-        found = read_apart(arrays, data, place, suffix, memory, suffix=suffix)
-    return found["vertices"], found["faces"]
+        mesh = read_apart(arrays, data, place, suffix, memory, suffix=suffix)
+    return mesh["vertices"], mesh["faces"]
 
 
 def arrays(data: bytes, suffix: str) -> dict[str, NDArray[Any]]:
-    """Vertices (n, 3) float64 and faces (m, 3) int64 of an OBJ, STL or PLY file.
+    """Parse an OBJ, STL or PLY file into vertices (n, 3) float64 and faces (m, 3) int64.
 
     Raises
     ------
     FileError
-        It cannot be read, or holds no triangles.
+        The file cannot be read, or holds no triangles.
     """
     try:
         vertices, faces = _READERS[suffix](data)
@@ -112,6 +112,6 @@ def _gltf(data: bytes, suffix: str, place: Path | None) -> Arrays:
 
     parts = gltf.parsed(data, suffix, beside)
     if not any(len(faces) for _, faces in parts):
-        found = "the file holds points or curves only" if parts else "the file holds no object"
-        raise FileError("target-empty", place, reason=found)
+        reason = "the file holds points or curves only" if parts else "the file holds no object"
+        raise FileError("target-empty", place, reason=reason)
     return joined(parts)

@@ -1,4 +1,4 @@
-"""What a scene should be like: sketches as values that multiply, chosen when a model is run, and not by the model.
+"""Scores of scenes: sketches as values that multiply. You choose a score when you run a model, not inside of it.
 
     score = no_self_intersection() * match_volume(target, voxel=0.25)
     score = no_self_intersection() * floor(0) * avoid("wall.obj") * match_image("skyline.png", "cam.json")
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 RULES = ("solid", "surface")
 
-#: A sketch by name, with what it is given.
+#: The name of a sketch, and its arguments.
 Ask = tuple[str, dict[str, Any]]
 
 #: Low and high corner of a part of the plane, (x, y) each, scene units.
@@ -54,11 +54,11 @@ class View:
     kind : str
         "image" for a silhouette, "shadow" for the shadow on a receiver, "drawing" for a drawing in the plane.
     camera : Camera or None
-        From where the image is seen; None for a drawing.
+        The camera that sees the image; None for a drawing.
     image : (rows, columns) bool
-        Which pixels should be on.
+        The pixels that should be on.
     receiver : Receiver or None
-        What the shadow falls on.
+        The surface that the shadow falls on.
     light : tuple of float or None
         Direction in which the light travels.
     window : tuple or None
@@ -88,7 +88,7 @@ class View:
             )
 
     def mask(self, scene: Scene) -> NDArray[np.bool_]:
-        """Which pixels of a scene are on, (rows, columns)."""
+        """Return the mask of the pixels that are on in a scene, (rows, columns)."""
         return self.picture.mask([shape for part in scene.parts for shape in part.shapes])
 
 
@@ -117,7 +117,7 @@ class Score:
     asks : tuple of SketchCall
         The sketches, in the order of evaluation.
     target : Target or None
-        What the scene should fill, for pictures.
+        The target that the scene should fill, for pictures.
     views : tuple of View
         Images that the scene or its shadow should match, for pictures.
     """
@@ -133,14 +133,11 @@ class Score:
 
     @property
     def window(self) -> Window | None:
-        """The part of the plane that its drawings show, where it has one: scenes are then drawn, not built."""
-        found: list[Window] = [
-            one.given["window"] for one in self.asks if one.function in ("match_drawing", "fill_drawing")
-        ]
-        return found[0] if found else None
+        """The part of the plane that its drawings show, or None. With a window, scenes are drawn, not built."""
+        return next((sketch.given["window"] for sketch in self.asks if "window" in sketch.given), None)
 
     def data(self, write: Callable[[Any], Any]) -> list[dict[str, Any]]:
-        """The sketches as plain data; `write` writes what one is given."""
+        """Return the sketches as plain data; `write` converts arguments."""
         return [
             {"sketch": sketch.function, "given": {name: write(value) for name, value in sketch.given.items()}}
             for sketch in self.asks
@@ -148,13 +145,13 @@ class Score:
 
     @classmethod
     def of_data(cls, data: Sequence[Mapping[str, Any]], read: Any) -> Score:
-        """The sketches of their data; `read.table` reads what one is given."""
+        """Read sketches from plain data; `read.table` converts arguments."""
         score = cls()
-        for number, one in enumerate(data):
-            make = SKETCHES.get(one["sketch"])
+        for number, entry in enumerate(data):
+            make = SKETCHES.get(entry["sketch"])
             if make is None:
-                raise Unfit(f"$[{number}].sketch", f"one of {', '.join(SKETCHES)}", shown(one["sketch"]))
-            score *= make(**read.table(one["given"], f"[{number}].given"))
+                raise Unfit(f"$[{number}].sketch", f"one of {', '.join(SKETCHES)}", shown(entry["sketch"]))
+            score *= make(**read.table(entry["given"], f"[{number}].given"))
         return score
 
     def __mul__(self, other: Score) -> Score:
@@ -172,7 +169,7 @@ class Score:
 
 
 def no_self_intersection(rule: str = "solid") -> Score:
-    """Forbids scenes in which two primitives intersect.
+    """Forbid scenes in which two primitives intersect.
 
     Parameters
     ----------
@@ -192,14 +189,14 @@ def no_self_intersection(rule: str = "solid") -> Score:
 
 
 def match_volume(target: Target | Place, voxel: float | None = None, sigma: float = 0.02) -> Score:
-    """Scores a scene by how well it fills a target, cell by cell.
+    """Score a scene by how well it fills a target, cell by cell.
 
     Parameters
     ----------
     target
-        What to fill: a `Target`, or a mesh file.
+        The volume to fill: a `Target`, or a mesh file.
     voxel
-        Size of a cell, scene units; about 65 thousand cells around the target when left out.
+        Size of a cell, scene units. By default, there are about 65 thousand cells around the target.
     sigma
         Standard deviation of the share of cells that may be wrong: smaller is stricter.
     """
@@ -220,7 +217,7 @@ def match_image(
     weight: float = 10.0,
     sigma: float = 0.02,
 ) -> Score:
-    """Scores a scene by how well its silhouette, seen by a camera, is an image.
+    """Score a scene by how well its silhouette, seen by a camera, matches an image.
 
     Parameters
     ----------
@@ -229,19 +226,19 @@ def match_image(
     camera
         A `Camera`, its JSON file, or the names and values of one.
     weight_image
-        Of the same size; where it is white, a pixel weighs `1 + weight`, where it is black, 1.
+        An image of the same size. A white pixel weighs `1 + weight`, a black pixel 1.
     weight
         How much more white weighs than black.
     sigma
         Standard deviation of the share of the weight that may be wrong: smaller is stricter.
     """
-    seen_by = Camera.of(camera)
+    viewpoint = Camera.of(camera)
     on, greys = _wish(image, weight_image)
     real("sigma", sigma, 0)
     with picture_errors():
-        picture = _engine.Picture(seen_by.lens(), on, greys, real("weight", weight, 0, ends="[)"))
-    given = {"image": on, "camera": seen_by, "weight_image": greys, "weight": weight, "sigma": sigma}
-    return _score("match_image", given, {"sigma": sigma}, view=View("image", seen_by, on, picture))
+        picture = _engine.Picture(viewpoint.lens(), on, greys, real("weight", weight, 0, ends="[)"))
+    given = {"image": on, "camera": viewpoint, "weight_image": greys, "weight": weight, "sigma": sigma}
+    return _score("match_image", given, {"sigma": sigma}, view=View("image", viewpoint, on, picture))
 
 
 def match_shadow(
@@ -254,28 +251,28 @@ def match_shadow(
     weight: float = 10.0,
     sigma: float = 0.02,
 ) -> Score:
-    """Scores a scene by how well the shadow that it casts on a receiver is an image.
+    """Score a scene by how well its shadow on a receiver matches an image.
 
     Parameters
     ----------
     image, weight_image, weight, sigma
         As for `match_image`; a pixel should be in shadow where red is at least half of the brightest.
     light
-        Direction in which the light travels, any length: (0, -1, 0) is a sun right above.
+        Direction in which the light travels, of any length: (0, -1, 0) is a sun right above.
     receiver
-        What the shadow falls on: a `Receiver`, or a mesh file. It need not be closed or thick.
+        The surface that the shadow falls on: a `Receiver`, or a mesh file. It need not be closed or thick.
     camera
-        Who sees the shadow; when left out, an orthographic camera that looks along the light at the middle of the
+        The camera that sees the shadow. By default, an orthographic camera looks along the light at the middle of the
         receiver and shows its whole extent along x.
     """
     on, greys = _wish(image, weight_image)
     real("sigma", sigma, 0)
     floor = Receiver.of(receiver)
     direction = _direction("light", light)
-    seen_by = floor.camera(direction, on.shape[1] / on.shape[0]) if camera is None else Camera.of(camera)
+    viewpoint = floor.camera(direction, on.shape[1] / on.shape[0]) if camera is None else Camera.of(camera)
     with picture_errors(floor.name):
         picture = _engine.Picture(
-            seen_by.lens(),
+            viewpoint.lens(),
             on,
             greys,
             real("weight", weight, 0, ends="[)"),
@@ -286,12 +283,12 @@ def match_shadow(
         "image": on,
         "light": direction,
         "receiver": floor,
-        "camera": seen_by,
+        "camera": viewpoint,
         "weight_image": greys,
         "weight": weight,
         "sigma": sigma,
     }
-    view = View("shadow", seen_by, on, picture, floor, direction)
+    view = View("shadow", viewpoint, on, picture, floor, direction)
     return _score("match_shadow", given, {"sigma": sigma}, view=view)
 
 
@@ -302,19 +299,19 @@ def match_drawing(
     pixels: int | None = None,
     sigma: float = 0.02 / sqrt(2.0),
 ) -> Score:
-    """Scores a scene by how well it draws an image: dark ink on white paper.
+    """Score a scene by how well it draws an image: dark ink on white paper.
 
     The scene is seen from +z. Its similarity is 1 for the image and 0 for an empty page; contours count more than
-    areas, and what reaches out of the window costs much (dissertation 6.5.2).
+    areas, and parts outside of the window lower the score much (dissertation 6.5.2).
 
     Parameters
     ----------
     image
-        A file, a Pillow image or an array of greys; what is not white is ink.
+        A file, a Pillow image or an array of greys; every pixel that is not white is ink.
     window
         Low and high corner of the part of the plane that the image shows, (x, y) each.
     pixels
-        Of the longer side: a larger image is made smaller first. As it is when left out.
+        Pixels of the longer side: a larger image is made smaller first. None keeps its size.
     sigma
         Standard deviation of the similarity: smaller is stricter.
     """
@@ -333,19 +330,19 @@ def fill_drawing(
     share: float = 0.5,
     sigma: float = 0.01 / sqrt(2.0),
 ) -> Score:
-    """Scores a scene by how it fills a part of the plane: to a certain share, with as many edges as there can be.
+    """Score a scene by how it fills a part of the plane: to a certain share, with as many edges as possible.
 
-    The scene is seen from +z. With long straight strokes this makes circuits (dissertation 6.5.3); what reaches out
-    of the window costs much.
+    The scene is seen from +z. With long straight strokes this makes circuits (dissertation 6.5.3). Parts outside of the
+    window lower the score much.
 
     Parameters
     ----------
     window
         Low and high corner of the part of the plane, (x, y) each.
     size
-        Columns and rows of pixels by which edges and fill are measured.
+        Columns and rows of the pixels that measure edges and fill.
     share
-        Of the pixels that should be touched, above 0 and at most 1.
+        Share of the pixels that should be touched, above 0 and at most 1.
     sigma
         Standard deviation of the score: smaller is stricter.
     """
@@ -358,15 +355,15 @@ def fill_drawing(
 
 
 def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
-    """Forbids scenes that come near an obstacle: no cell may be filled by both.
+    """Forbid scenes that come near an obstacle: no cell may be filled by both.
 
     Parameters
     ----------
     obstacle
         A solid: a `Target`, or a mesh file.
     voxel
-        Size of a cell, scene units; the scene keeps up to two cells away. About 65 thousand cells around the obstacle
-        when left out.
+        Size of a cell, scene units; the scene keeps up to two cells away. By default, there are about 65 thousand cells
+        around the obstacle.
     """
     solid = Target.of(obstacle)
     size = real("voxel", automatic_voxel(solid) if voxel is None else voxel, 0)
@@ -376,7 +373,7 @@ def avoid(obstacle: Target | Place, voxel: float | None = None) -> Score:
 
 
 def floor(y: float = 0.0) -> Score:
-    """Forbids scenes that reach below a height; standing on it is free."""
+    """Forbid scenes that reach below the height `y`. A scene may stand on it."""
     given = {"y": real("y", y)}
     return _score("floor", given, given)
 
@@ -384,14 +381,14 @@ def floor(y: float = 0.0) -> Score:
 def overshoot(
     domain: Target | tuple[Sequence[float], Sequence[float]] | NDArray[np.float64], sigma: float = 0.02
 ) -> Score:
-    """Scores a scene by how far it reaches out of a box.
+    """Score a scene by how far it reaches out of a box.
 
-    `match_volume` has it already; it goes with images and shadows, which do not see what leaves them.
+    `match_volume` includes this term. Use it with images and shadows, which do not see parts outside of them.
 
     Parameters
     ----------
     domain
-        A target, whose box it is, or the low and the high corner.
+        The low and the high corner, or a target for its box.
     sigma
         Standard deviation of the lengths outside, summed over the six sides, as shares of the box.
     """
@@ -419,22 +416,9 @@ def overshoot(
     return _score("overshoot", given, given)
 
 
-#: The functions that make sketches, by name, in the order in which they are evaluated where `niwaki.targets.asks` asks
-#: for several: those that may forbid a scene come first.
-SKETCHES: dict[str, Callable[..., Score]] = {
-    make.__name__: make
-    for make in (
-        no_self_intersection,
-        match_drawing,
-        fill_drawing,
-        floor,
-        avoid,
-        match_image,
-        match_shadow,
-        overshoot,
-        match_volume,
-    )
-}
+#: The functions that make sketches, by name, in the order of the engine's table. `niwaki.targets.asks` multiplies them
+#: in this order: those that may forbid a scene come first. A name without a function above is a `KeyError`.
+SKETCHES: dict[str, Callable[..., Score]] = {name: globals()[name] for name in _engine.SKETCHES}
 
 
 def _score(
@@ -446,7 +430,7 @@ def _score(
     target: Target | None = None,
     view: View | None = None,
 ) -> Score:
-    """A score of one sketch, from the engine's settings of it; `target` is what the scene should fill."""
+    """Make the score of one sketch from its settings in the engine; `target` is the volume to fill."""
     seen = None if view is None else view.picture
     picture = seen if isinstance(seen, _engine.Picture) else None
     drawing = seen if isinstance(seen, _engine.Drawing) else None
@@ -477,7 +461,7 @@ def _direction(name: str, value: Any, zero: bool = False) -> tuple[float, float,
 
 @contextmanager
 def picture_errors(receiver: str = "") -> Iterator[None]:
-    """Inside, what views refuse is raised as an `InputError`."""
+    """Raise errors of views as `InputError` inside of this context."""
     try:
         yield
     except ValueError as error:
@@ -488,20 +472,20 @@ def picture_errors(receiver: str = "") -> Iterator[None]:
 
 
 def automatic_voxel(target: Target) -> float:
-    """A cell size that gives about `CELLS` cells, to two digits."""
+    """Return a cell size that gives about `CELLS` cells, to two digits."""
     x, y, z = (float(length) for length in target.size)
     return float(f"{(x * y * z / CELLS) ** (1 / 3):.2g}")
 
 
 def check_count(name: str, value: int) -> int:
-    """The number, when it is a whole number above zero."""
+    """Return the number if it is an integer above zero, else refuse it."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
         raise bad(name, value, "a whole number of pixels, 1 or more", "such a number, for instance 50")
     return int(value)
 
 
 def check_window(window: Any) -> Window:
-    """Two corners of the plane, the first lower along x and y than the second."""
+    """Return two corners of the plane if the first is lower along x and y than the second, else refuse them."""
     try:
         (left, low), (right, high) = ((float(x), float(y)) for x, y in window)
     except (TypeError, ValueError):
@@ -519,7 +503,7 @@ def check_window(window: Any) -> Window:
 
 @contextmanager
 def geometry_errors(target: Target, size: float) -> Iterator[None]:
-    """Inside, what geometry refuses is raised as an `InputError`."""
+    """Raise errors of geometry as `InputError` inside of this context."""
     name, cells = target.name, " x ".join(f"{length / size:.0f}" for length in target.size)
     try:
         yield

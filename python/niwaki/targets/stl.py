@@ -1,4 +1,4 @@
-"""The triangles of STL files, binary and text."""
+"""Triangles of STL files, binary and text."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attrib
 
 
 def is_text(data: bytes) -> bool:
-    """Whether a file is text; refused where it is neither that nor as long as a binary file must be.
+    """Return whether a file is text.
 
     Raises
     ------
     Unreadable
-        Its length is not what its head announces.
+        The file is not text, and its head announces another length.
     """
     count = struct.unpack_from("<I", data, _HEAD - 4)[0] if len(data) >= _HEAD else 0
     size = count * _TRIANGLE.itemsize
     follow = len(data) - _HEAD
     if follow == size >= 0:
         return False
-    # A binary file may begin with `solid` as well; few have triangles enough to be without a zero here.
+    # A binary file may begin with `solid` as well; few have so many triangles that no byte here is zero.
     if b"facet" in data[:65536].lower() and b"\0" not in data[:_HEAD]:
         return True
     if follow < 0:
         raise Unreadable(f"it has {len(data)} bytes, fewer than the head of an STL file")
-    # Some programs end a file with a few bytes of their own: too few to be a triangle that was not counted.
+    # Some programs end a file with a few more bytes: too few for another triangle.
     if count == 0 or not size <= follow < size + _TRIANGLE.itemsize:
         raise Unreadable(
             f"its head announces {count:,} triangles, {size:,} bytes, and {follow:,} bytes follow"
@@ -43,14 +43,14 @@ def is_text(data: bytes) -> bool:
 
 
 def parsed(data: bytes) -> Arrays:
-    """Vertices and triangles of a file.
+    """Parse a file into vertices and triangles.
 
     Raises
     ------
     Unreadable
-        It is cut short, or has something else in the place of numbers.
+        The file is cut short, or a coordinate is no number.
     FileError
-        It has no triangles.
+        The file has no triangles.
     """
     if is_text(data):
         return _text(lines_of(data))

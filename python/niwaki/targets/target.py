@@ -1,7 +1,7 @@
 """Targets: the volumes that a scene should fill, and receivers of shadows, from OBJ, STL, PLY and GLB files or arrays.
 
-Coordinates are taken as they are in the file: no centring, no scaling, no change of units or axes. A file
-with several objects is one target; its closed parts may overlap. What is enclosed is filled, cavities as well.
+Coordinates are those of the file: no centring, no scaling, no change of units or axes. A file with several objects is
+one target; its closed parts may overlap. Enclosed space is filled, cavities as well.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-#: How far from 0 a coordinate may be, and how short the longest side: volumes stay numbers, also those of 32 bits.
-MOST, LEAST = 1e12, 1e-9
+#: The largest distance of a coordinate from 0, and the smallest longest side: volumes stay finite, also in 32 bits.
+FARTHEST, SHORTEST = 1e12, 1e-9
 
 
 class TargetWarning(UserWarning):
@@ -44,9 +44,9 @@ class Mesh:
         Scene units, finite.
     faces : (m, 3) int64
     name : str
-        For captions and messages.
+        Its name in captions and messages.
     source : str or None
-        Where it can be found again: the file that it was read from, with its whole path, or `gallery:` and a name.
+        Its origin: the whole path of its file, or `gallery:` and a name.
     """
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, name: str) -> None:
@@ -76,27 +76,27 @@ class Mesh:
         return mesh
 
     @classmethod
-    def of(cls, given: Self | str | PathLike[str]) -> Self:
-        """The same, or that of a mesh file; of a target also `gallery:` and the name of an example.
+    def of(cls, mesh: Self | str | PathLike[str]) -> Self:
+        """Return a mesh as it is, or load it from a file; for a target also from `gallery:` and the name of an example.
 
         Raises
         ------
         InputError
-            It is neither.
+            The value is neither a mesh nor a path.
         FileError
             As for `load`.
         """
-        if isinstance(given, cls):
-            return given
-        if not isinstance(given, str | PathLike):
+        if isinstance(mesh, cls):
+            return mesh
+        if not isinstance(mesh, str | PathLike):
             raise bad(
-                cls.__name__.lower(), given, "a mesh, or the file of one", '`niwaki.Target.load("ship.obj")`'
+                cls.__name__.lower(), mesh, "a mesh, or the file of one", '`niwaki.Target.load("ship.obj")`'
             )
-        return cls.find(str(given))
+        return cls.find(str(mesh))
 
     @classmethod
     def find(cls, source: str) -> Self:
-        """The mesh of a `source`."""
+        """Load the mesh of a `source`."""
         return cls.load(source)
 
     @property
@@ -113,8 +113,8 @@ class Mesh:
 class Target(Mesh):
     """A triangle mesh to fill.
 
-    Whatever the outside does not reach is filled, also a cavity: a surface inside of another makes no hole, on
-    whichever side it faces. How a flat polygon is cut into triangles makes no difference.
+    Everything that the outside does not reach is filled, cavities included: a surface inside of another makes no hole,
+    whichever way it faces. The triangulation of a flat polygon makes no difference.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ class Target(Mesh):
     faces : (m, 3) int64
         Counter-clockwise seen from outside.
     name
-        For captions and messages.
+        Its name in captions and messages.
 
     Attributes
     ----------
@@ -158,22 +158,22 @@ class Target(Mesh):
 
     @classmethod
     def of_shapes(cls, *shapes: Shape) -> Target:
-        """A target made of shapes, which may overlap: `Target.of_shapes(box((0, 3, 0), (3, 6, 3)))`."""
+        """Make a target of shapes, which may overlap: `Target.of_shapes(box((0, 3, 0), (3, 6, 3)))`."""
         vertices, faces = Scene([("target", shapes)]).merged(fine=False)
         return cls(vertices, faces)
 
     @classmethod
     def find(cls, source: str) -> Target:
-        """The target of a `source`: a file, or `gallery:` and the name of an example."""
+        """Load the target of a `source`: a file, or `gallery:` and the name of an example."""
         example = targets.examples.TARGETS.get(source.removeprefix("gallery:").replace("-", "_"))
         if source.startswith("gallery:") and example is not None:
-            found = example()
-            found.source = f"gallery:{example.__name__}"
-            return found
+            target = example()
+            target.source = f"gallery:{example.__name__}"
+            return target
         return cls.load(source)
 
     def __repr__(self) -> str:
-        """Name, triangles, extent."""
+        """Return name, triangles and extent."""
         x, y, z = self.size
         return f"<Target {self.name}: {len(self.faces)} triangles, {x:.3g} x {y:.3g} x {z:.3g}>"
 
@@ -208,7 +208,7 @@ class Receiver(Mesh):
     faces : (m, 3) int64
         In either orientation.
     name
-        For messages.
+        Its name in messages.
 
     Examples
     --------
@@ -234,7 +234,7 @@ class Receiver(Mesh):
         return cls(corners, [[0, 1, 2], [0, 2, 3]], name="floor")
 
     def __repr__(self) -> str:
-        """Name and triangles."""
+        """Return name and triangles."""
         return f"<Receiver {self.name}: {len(self.faces)} triangles>"
 
     def camera(self, light: tuple[float, float, float], aspect: float = 1.0) -> Camera:
@@ -252,14 +252,14 @@ class Receiver(Mesh):
         along = np.asarray(light, dtype=np.float64)
         along = along / np.linalg.norm(along)
         eye = middle - along * (float(np.linalg.norm(extent)) + 1.0)
-        # Away from the viewer, as the original has it: -z is the top of a picture seen from above.
+        # -z is the top of a picture seen from above, as in the original.
         up = (0.0, 0.0, -1.0) if abs(along[2]) < 0.999 else (0.0, 1.0, 0.0)
         width = float(extent[0]) or float(np.linalg.norm(extent))
         return Camera.orthographic(eye.tolist(), middle.tolist(), up, height=width / aspect)
 
 
 def _rows(values: ArrayLike, dtype: type[np.generic], name: str) -> NDArray[Any]:
-    """Numbers in rows of three."""
+    """Return numbers in rows of three."""
     try:
         return np.array(values, dtype=dtype).reshape(-1, 3)
     except (TypeError, ValueError, OverflowError) as error:
@@ -278,22 +278,22 @@ def _check_arrays(vertices: NDArray[np.float64], faces: NDArray[np.int64], name:
     _check_size(vertices[faces.ravel()], name)
 
 
-def _check_size(used: NDArray[np.float64], name: str) -> None:
+def _check_size(corners: NDArray[np.float64], name: str) -> None:
     """Refuse coordinates whose products would not be numbers."""
-    largest = float(np.abs(used).max())
-    if largest > MOST:
-        reason = f"a coordinate is {largest:.3g} from 0, and the limit is {MOST:g}"
+    largest = float(np.abs(corners).max())
+    if largest > FARTHEST:
+        reason = f"a coordinate is {largest:.3g} from 0, and the limit is {FARTHEST:g}"
         raise FileError("target-size", name, found="large", reason=reason)
-    extent = float((used.max(axis=0) - used.min(axis=0)).max())
-    if 0.0 < extent < LEAST:
-        reason = f"its longest side is {extent:.3g}, and the limit is {LEAST:g}"
+    extent = float((corners.max(axis=0) - corners.min(axis=0)).max())
+    if 0.0 < extent < SHORTEST:
+        reason = f"its longest side is {extent:.3g}, and the limit is {SHORTEST:g}"
         raise FileError("target-size", name, found="small", reason=reason)
 
 
 def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -> None:
     _check_arrays(vertices, faces, name)
-    used = vertices[faces.ravel()]
-    extent = used.max(axis=0) - used.min(axis=0)
+    corners = vertices[faces.ravel()]
+    extent = corners.max(axis=0) - corners.min(axis=0)
     if (extent <= 1e-9 * extent.max()).any():
         axis = "xyz"[int(extent.argmin())]
         raise FileError("target-flat", name, axis=axis, extent=" x ".join(f"{e:.4g}" for e in extent))
@@ -302,7 +302,7 @@ def _check(vertices: NDArray[np.float64], faces: NDArray[np.int64], name: str) -
 def _welded(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """One vertex for each place that is used, in order of first use; faces without three places left out."""
+    """Merge equal vertices, in order of first use. Unused vertices and faces without three different corners go."""
     is_used = np.zeros(len(vertices), dtype=bool)
     is_used[faces.ravel()] = True
     used = np.flatnonzero(is_used)
@@ -315,12 +315,12 @@ def _welded(
     starts[1:] = (rows[1:] != rows[:-1]).any(axis=1)
     first = np.empty_like(order)
     first[order] = order[starts][np.cumsum(starts) - 1]
-    kept = first == np.arange(len(first))
+    is_first = first == np.arange(len(first))
     number = np.empty(len(vertices), dtype=np.int64)
-    number[used] = (np.cumsum(kept) - 1)[first]
+    number[used] = (np.cumsum(is_first) - 1)[first]
     merged = number[faces]
     a, b, c = merged.T
-    return points[kept], merged[(a != b) & (b != c) & (c != a)]
+    return points[is_first], merged[(a != b) & (b != c) & (c != a)]
 
 
 def _open_edges(faces: NDArray[np.int64]) -> int:

@@ -1,6 +1,6 @@
-"""A result as its image or shadow sketch sees it: the wanted picture, the actual one, and their difference.
+"""Pictures of a scene as its image or shadow sketch sees it: the target, the actual picture, and their difference.
 
-In the difference, ink is right, blue is missing, orange is too much. The last panel is the scene itself from the same
+In the difference, ink is right, blue is missing, orange is surplus. The last panel is the scene itself from the same
 camera; for a shadow it lies over the shadow that it casts.
 """
 
@@ -42,38 +42,38 @@ def view_sheet(
     captions: bool = True,
     style: str = "ink",
 ) -> Image.Image:
-    """Draws a scene through the camera of an image or shadow sketch, beside the image to match.
+    """Draw a scene through the camera of an image or shadow sketch, beside the image to match.
 
     Parameters
     ----------
     scene
-        What was made.
+        The scene to draw.
     view
         One of `score.views`.
     height
-        Of each panel, pixels.
+        Height of each panel, pixels.
     samples
         Rays for each pixel of the panel that shows the scene itself.
     captions
-        Whether to write what each panel is.
+        Whether to write a caption below each panel.
     style
-        Of a drawing.
+        Style of a drawing.
 
     Returns
     -------
     PIL.Image.Image
-        RGB; four panels from left to right: wanted, made, difference, scene.
+        RGB; four panels from left to right: target, result, difference, scene.
     """
-    wanted, drawn = view.image, view.mask(scene)
-    rows, columns = wanted.shape
+    target, mask = view.image, view.mask(scene)
+    rows, columns = target.shape
     size = (max(1, round(height * columns / rows)), height)
-    made = {"image": "silhouette", "shadow": "shadow", "drawing": "touched"}[view.kind]
+    result = {"image": "silhouette", "shadow": "shadow", "drawing": "touched"}[view.kind]
     panels = [
-        (colored([(wanted, INK)], size), "wanted"),
-        (colored([(drawn, INK)], size), made),
+        (colored([(target, INK)], size), "wanted"),
+        (colored([(mask, INK)], size), result),
         (
-            colored([(wanted & drawn, INK), (wanted & ~drawn, MISSING), (drawn & ~wanted, SURPLUS)], size),
-            f"difference: {Fit.of_masks(wanted, drawn)}",
+            colored([(target & mask, INK), (target & ~mask, MISSING), (mask & ~target, SURPLUS)], size),
+            f"difference: {Fit.of_masks(target, mask)}",
         ),
         (
             through_camera(scene, view, size, samples=samples, style=style),
@@ -81,10 +81,10 @@ def view_sheet(
         ),
     ]
     gap = max(2, height // 90)
-    letters = max(11, round(height / 24))
-    strip = round(2.2 * letters) if captions else 0
+    text_height = max(11, round(height / 24))
+    strip = round(2.2 * text_height) if captions else 0
     page = Image.new("RGB", (4 * (size[0] + gap) - gap, height + strip), (255, 255, 255))
-    pen, font = ImageDraw.Draw(page), ImageFont.load_default(letters)
+    pen, font = ImageDraw.Draw(page), ImageFont.load_default(text_height)
     for k, (panel, caption) in enumerate(panels):
         x = k * (size[0] + gap)
         page.paste(panel, (x, 0))
@@ -96,20 +96,20 @@ def view_sheet(
 def through_camera(
     scene: Scene, view: View, size: tuple[int, int], *, samples: int = 16, style: str = "ink"
 ) -> Image.Image:
-    """Draws the scene itself as a sketch sees it, over the shadow that it casts or the drawing that it follows."""
+    """Draw the scene itself as a sketch sees it, over the shadow that it casts or the drawing that it follows."""
     if view.camera is None:
         return drawing(scene, size=size, style=style, window=view.window, under=view.image).convert("RGB")
     under = colored([(view.mask(scene), SHADE)] if view.kind == "shadow" else [], size)
     if len(scene) == 0:
         return under
-    # Far below the picture: the renderer's own floor and its shadow are not what this panel is about.
+    # The renderer's own floor, with its shadow, lies far below the picture.
     image = picture(scene, size=size, samples=samples, camera=eye(view.camera), backdrop="clear", lift=1e3)
     under.paste(image, (0, 0), image)
     return under
 
 
 def eye(camera: Camera) -> Eye:
-    """The renderer's camera: parallel rays are those from far away."""
+    """Return the renderer's camera. It has no parallel rays: the camera goes far away instead."""
     if camera.kind == "perspective":
         return (camera.position, camera.look_at, camera.up, camera.fov_degrees)
     away = np.subtract(camera.position, camera.look_at)
@@ -119,7 +119,7 @@ def eye(camera: Camera) -> Eye:
 
 
 def colored(layers: list[tuple[NDArray[np.bool_], Rgb]], size: tuple[int, int]) -> Image.Image:
-    """Masks in their colours on paper, at another size with smooth edges."""
+    """Draw masks in their colours on paper, at another size with smooth edges."""
     page = Image.new("RGB", size, PAPER)
     for mask, color in layers:
         alpha = Image.fromarray(np.where(mask, np.uint8(255), np.uint8(0)), "L")
@@ -130,5 +130,5 @@ def colored(layers: list[tuple[NDArray[np.bool_], Rgb]], size: tuple[int, int]) 
 
 
 def save_view(path: str | PathLike[str], scene: Scene, view: View, **settings: Any) -> Path:
-    """Draws `view_sheet` into an image file."""
+    """Write `view_sheet` into an image file."""
     return save_image(lambda: view_sheet(scene, view, **settings), path)

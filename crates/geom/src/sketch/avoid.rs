@@ -10,29 +10,40 @@
 
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, share};
+use super::settings::{Forbids, Inputs, Named, Settings};
 use crate::bricks::Target;
+use crate::error::GeomError;
 use crate::solids::primitive::Primitive;
 use crate::solids::shape::Shape;
 use crate::vector::Vec3;
 use crate::voxel::Voxels;
+use serde::Deserialize;
 use std::sync::Arc;
 
-struct AvoidSpec {
-    obstacle: Arc<Target>,
+/// The settings of `avoid`: it has none. Its obstacle is the target.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AvoidSettings {}
+
+impl Settings for AvoidSettings {
+    const FORBIDS: Option<Forbids> = Some(Forbids {
+        part: "reaches into the obstacle",
+        cure: "start the model beside the obstacle, or make the obstacle smaller",
+    });
+
+    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        Ok(avoid(inputs.target()?))
+    }
 }
 
 /// Forbids scenes that fill a cell of `obstacle`.
 pub fn avoid(obstacle: Arc<Target>) -> Arc<dyn SketchSpec> {
-    Arc::new(AvoidSpec { obstacle })
+    Arc::new(Avoid::new(obstacle))
 }
 
-impl SketchSpec for AvoidSpec {
+impl SketchSpec for Avoid {
     fn name(&self) -> &'static str {
-        "avoid"
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(Avoid::new(self.obstacle.clone()))
+        AvoidSettings::NAME
     }
 }
 
@@ -116,10 +127,6 @@ impl PartialEq for Avoid {
 }
 
 impl Sketch for Avoid {
-    fn name(&self) -> &'static str {
-        "avoid"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         let touches = touches(&self.obstacle, primitive);
         self.touching += u64::from(touches);

@@ -24,6 +24,7 @@
 use super::bag::Bag;
 use super::outside::Outside;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use super::settings::{Inputs, Named, Settings};
 use super::tiles::Tiles;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -32,6 +33,7 @@ use crate::solids::primitive::Primitive;
 use crate::view::Cover;
 use crate::window::flat::{self, Spot};
 use crate::window::{Place, WindowForm};
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// The weight of an empty pixel in integers.
@@ -142,9 +144,17 @@ fn slope(greys: &[u8], [columns, rows]: [usize; 2], column: usize, row: usize) -
     (x * x + y * y).sqrt()
 }
 
-struct DrawingSpec {
-    drawing: Arc<Drawing>,
+/// The settings of `match_drawing`: the standard deviation of the similarity.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DrawingSettings {
     sigma: f64,
+}
+
+impl Settings for DrawingSettings {
+    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        match_drawing(inputs.drawing()?, self.sigma)
+    }
 }
 
 /// Scores a scene by how well it draws `drawing`.
@@ -153,12 +163,12 @@ struct DrawingSpec {
 /// `bad-setting` when `sigma` is not positive.
 pub fn match_drawing(drawing: Arc<Drawing>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(DrawingSpec { drawing, sigma }))
+    Ok(Arc::new(DrawingMatch::new(drawing, sigma)))
 }
 
-impl SketchSpec for DrawingSpec {
+impl SketchSpec for DrawingMatch {
     fn name(&self) -> &'static str {
-        "match_drawing"
+        DrawingSettings::NAME
     }
 
     fn window(&self) -> Option<WindowForm> {
@@ -173,10 +183,6 @@ impl SketchSpec for DrawingSpec {
 
     fn domain(&self) -> Option<Aabb> {
         Some(self.drawing.page.domain())
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(DrawingMatch::new(self.drawing.clone(), self.sigma))
     }
 }
 
@@ -258,10 +264,6 @@ impl PartialEq for DrawingMatch {
 }
 
 impl Sketch for DrawingMatch {
-    fn name(&self) -> &'static str {
-        "match_drawing"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         let covers = covers(primitive, &self.drawing.page);
         for (shape, cover) in primitive.shapes().iter().zip(&*covers) {

@@ -5,14 +5,30 @@
 
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec};
+use super::settings::{Forbids, Inputs, Named, Settings};
 use crate::error::GeomError;
 use crate::intersect::SOLID_TOLERANCE;
 use crate::solids::primitive::Primitive;
 use crate::solids::shape::Shape;
+use serde::Deserialize;
 use std::sync::Arc;
 
-struct FloorSpec {
-    height: f64,
+/// The settings of `floor`: its height, scene units along y.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FloorSettings {
+    y: f64,
+}
+
+impl Settings for FloorSettings {
+    const FORBIDS: Option<Forbids> = Some(Forbids {
+        part: "reaches below the floor",
+        cure: "move the floor below the model's first part, or start the model above it",
+    });
+
+    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        floor(self.y)
+    }
 }
 
 /// Forbids scenes that reach below `height`, scene units along y.
@@ -24,16 +40,12 @@ pub fn floor(height: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
         let message = format!("the floor is at {height}, expected a finite number");
         return Err(GeomError::new("bad-setting", message));
     }
-    Ok(Arc::new(FloorSpec { height }))
+    Ok(Arc::new(Floor { height, below: 0, bag: Bag::default() }))
 }
 
-impl SketchSpec for FloorSpec {
+impl SketchSpec for Floor {
     fn name(&self) -> &'static str {
-        "floor"
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(Floor { height: self.height, below: 0, bag: Bag::default() })
+        FloorSettings::NAME
     }
 }
 
@@ -59,10 +71,6 @@ impl PartialEq for Floor {
 }
 
 impl Sketch for Floor {
-    fn name(&self) -> &'static str {
-        "floor"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         self.below += self.below(primitive);
         self.bag.add(primitive, || ());

@@ -5,27 +5,40 @@
 
 use super::bag::same_bag;
 use super::score::{Sketch, SketchSpec};
+use super::settings::{Forbids, Inputs, Named, Settings};
+use crate::error::GeomError;
 use crate::intersect::{Rule, primitives_intersect};
 use crate::solids::primitive::Primitive;
 use crate::tree::BoxTree;
+use serde::Deserialize;
 use std::sync::Arc;
 
-struct IntersectionSpec {
+/// The settings of `no_self_intersection`: the rule by which two primitives intersect.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IntersectionSettings {
     rule: Rule,
+}
+
+impl Settings for IntersectionSettings {
+    const FORBIDS: Option<Forbids> = Some(Forbids {
+        part: "runs into another part",
+        cure: "put parts that belong together into one `emit`, or leave a gap between them",
+    });
+
+    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        Ok(no_self_intersection(self.rule))
+    }
 }
 
 /// Forbids scenes in which two primitives intersect by `rule`.
 pub fn no_self_intersection(rule: Rule) -> Arc<dyn SketchSpec> {
-    Arc::new(IntersectionSpec { rule })
+    Arc::new(NoSelfIntersection::new(rule))
 }
 
-impl SketchSpec for IntersectionSpec {
+impl SketchSpec for NoSelfIntersection {
     fn name(&self) -> &'static str {
-        "no_self_intersection"
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(NoSelfIntersection::new(self.rule))
+        IntersectionSettings::NAME
     }
 }
 
@@ -63,10 +76,6 @@ impl PartialEq for NoSelfIntersection {
 }
 
 impl Sketch for NoSelfIntersection {
-    fn name(&self) -> &'static str {
-        "no_self_intersection"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         self.pairs += self.pairs_with(primitive);
         self.boxes.insert(primitive.clone());

@@ -3,7 +3,7 @@
 //! A sketch keeps sums of integers or order statistics, so its score is the same to the bit for every order of adding,
 //! and adding then removing restores the old sketch.
 //!
-//! - [`score`]: what every sketch is
+//! - [`score`]: what every sketch is; [`settings`]: what every sketch is as data
 //! - [`volume`], over [`crate::bricks`]: fill a target's volume
 //! - [`picture`], over [`tiles`]: look like a picture, or cast a shadow like one
 //! - [`drawing`], [`texture`], over [`tiles`] and [`outside`]: draw a picture on a page, or fill the page with edges
@@ -13,7 +13,8 @@
 //! - [`bag`]: the primitives of a sketch
 //! - [`product`]: several sketches of one scene
 //!
-//! [`SketchForm`] names all that a scene can be scored by.
+//! [`SketchForm`] is the table of the sketches. To add a sketch, write a file like `floor.rs` (settings that are [`Settings`], the
+//! [`Sketch`] and its [`SketchSpec`]), and a row below.
 
 pub mod avoid;
 pub mod bag;
@@ -25,6 +26,7 @@ pub mod overshoot;
 pub mod picture;
 pub mod product;
 pub mod score;
+pub mod settings;
 pub mod texture;
 pub mod tiles;
 pub mod volume;
@@ -40,61 +42,49 @@ pub use score::{Copied, Sketch, SketchSpec};
 pub use texture::{Texture, TextureMatch, fill_drawing};
 pub use volume::{VolumeMatch, match_volume};
 
-use crate::bounds::Aabb;
-use crate::bricks::Target;
 use crate::error::GeomError;
-use crate::intersect::Rule;
-use crate::plane::Page;
 use serde::Deserialize;
+pub use settings::{Forbids, Inputs};
+use settings::{Named, Settings};
 use std::sync::Arc;
 
-/// A sketch as data: its name and its settings, which are those of Python's function of that name. A target and an image
-/// are given beside them.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-#[expect(missing_docs, reason = "the settings are described where people read them: in Python's functions")]
-pub enum SketchForm {
-    NoSelfIntersection { rule: Rule },
-    MatchVolume { sigma: f64 },
-    MatchImage { sigma: f64 },
-    MatchShadow { sigma: f64 },
-    MatchDrawing { sigma: f64 },
-    FillDrawing { window: [[f64; 2]; 2], size: [usize; 2], share: f64, sigma: f64 },
-    Avoid {},
-    Floor { y: f64 },
-    Overshoot { domain: [[f64; 3]; 2], sigma: f64 },
-}
+/// Declares [`SketchForm`] and [`SKETCHES`]. A row is the name of Python's function, a variant, and the settings by their file.
+macro_rules! sketches {
+    ($($name:literal $variant:ident($file:ident::$settings:ident);)*) => {
+        /// A sketch as data: its name and its settings. [`Inputs`] hold the targets.
+        #[derive(Clone, Debug, Deserialize)]
+        pub enum SketchForm {
+            $(#[doc = concat!("`", $name, "`")] #[serde(rename = $name)] $variant($file::$settings),)*
+        }
 
-impl SketchForm {
-    /// Its specification.
-    ///
-    /// # Errors
-    /// `bad-setting` for a setting that it cannot have, and where it needs a target, an image or a drawing that is not given.
-    pub fn spec(
-        &self,
-        target: Option<Arc<Target>>,
-        picture: Option<Arc<Picture>>,
-        drawing: Option<Arc<Drawing>>,
-    ) -> Result<Arc<dyn SketchSpec>, GeomError> {
-        let missing = |what| GeomError::new("bad-setting", format!("this sketch needs {what}"));
-        let target = || target.ok_or_else(|| missing("a target"));
-        let picture = || picture.ok_or_else(|| missing("an image"));
-        match *self {
-            SketchForm::NoSelfIntersection { rule } => Ok(no_self_intersection(rule)),
-            SketchForm::MatchVolume { sigma } => match_volume(target()?, sigma),
-            SketchForm::MatchImage { sigma } => match_image(picture()?, sigma),
-            SketchForm::MatchShadow { sigma } => match_shadow(picture()?, sigma),
-            SketchForm::MatchDrawing { sigma } => {
-                match_drawing(drawing.ok_or_else(|| missing("a drawing"))?, sigma)
-            }
-            SketchForm::FillDrawing { window: [low, high], size, share, sigma } => {
-                fill_drawing(Texture { page: Page::new(low, high, size)?, share, sigma })
-            }
-            SketchForm::Avoid {} => Ok(avoid(target()?)),
-            SketchForm::Floor { y } => floor(y),
-            SketchForm::Overshoot { domain: [low, high], sigma } => {
-                no_overshoot(Aabb { low: low.into(), high: high.into() }, sigma)
+        $(impl Named for $file::$settings {
+            const NAME: &'static str = $name;
+        })*
+
+        /// The names of all sketches, and the texts of those that forbid scenes, in the order of the table.
+        pub const SKETCHES: &[(&str, Option<Forbids>)] = &[$(($name, <$file::$settings as Settings>::FORBIDS)),*];
+
+        impl SketchForm {
+            /// The specification with these settings.
+            ///
+            /// # Errors
+            /// `bad-setting` for a value out of its range, and for an input that is missing.
+            pub fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+                match self { $(SketchForm::$variant(form) => form.spec(inputs),)* }
             }
         }
-    }
+    };
+}
+
+// The order in which Python evaluates sketches that are asked for by name: those that may forbid a scene come first.
+sketches! {
+    "no_self_intersection" NoSelfIntersection(intersection::IntersectionSettings);
+    "match_drawing" MatchDrawing(drawing::DrawingSettings);
+    "fill_drawing" FillDrawing(texture::TextureSettings);
+    "floor" Floor(floor::FloorSettings);
+    "avoid" Avoid(avoid::AvoidSettings);
+    "match_image" MatchImage(picture::ImageSettings);
+    "match_shadow" MatchShadow(picture::ShadowSettings);
+    "overshoot" Overshoot(overshoot::OvershootSettings);
+    "match_volume" MatchVolume(volume::VolumeSettings);
 }

@@ -11,14 +11,26 @@
 
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal};
+use super::settings::{Inputs, Named, Settings};
 use crate::bounds::Aabb;
 use crate::error::GeomError;
 use crate::solids::primitive::Primitive;
+use serde::Deserialize;
 use std::sync::Arc;
 
-struct OvershootSpec {
-    domain: Aabb,
+/// The settings of `overshoot`: the low and the high corner of the box, and the standard deviation.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OvershootSettings {
+    domain: [[f64; 3]; 2],
     sigma: f64,
+}
+
+impl Settings for OvershootSettings {
+    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        let [low, high] = self.domain.map(Into::into);
+        no_overshoot(Aabb { low, high }, self.sigma)
+    }
 }
 
 /// Scores a scene by how far it reaches out of `domain`.
@@ -33,16 +45,12 @@ pub fn no_overshoot(domain: Aabb, sigma: f64) -> Result<Arc<dyn SketchSpec>, Geo
         let message = format!("the box from {low:?} to {high:?} has no inside");
         return Err(GeomError::new("bad-setting", message));
     }
-    Ok(Arc::new(OvershootSpec { domain, sigma }))
+    Ok(Arc::new(Overshoot { domain, sigma, bag: Bag::default() }))
 }
 
-impl SketchSpec for OvershootSpec {
+impl SketchSpec for Overshoot {
     fn name(&self) -> &'static str {
-        "overshoot"
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(Overshoot { domain: self.domain, sigma: self.sigma, bag: Bag::default() })
+        OvershootSettings::NAME
     }
 }
 
@@ -75,10 +83,6 @@ impl PartialEq for Overshoot {
 }
 
 impl Sketch for Overshoot {
-    fn name(&self) -> &'static str {
-        "overshoot"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         self.bag.add(primitive, || ());
     }

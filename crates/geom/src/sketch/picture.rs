@@ -16,6 +16,7 @@
 
 use super::bag::Bag;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use super::settings::{Inputs, Named, Settings};
 use super::tiles::Tiles;
 use crate::error::GeomError;
 use crate::once::Once;
@@ -25,6 +26,7 @@ use crate::view::{Cover, Rays};
 use crate::window::bits::Bits;
 use crate::window::plate::Plate;
 use crate::window::{Place, WindowForm};
+use serde::Deserialize;
 use std::ops::{Add, AddAssign, Sub, SubAssign};
 use std::sync::{Arc, OnceLock};
 
@@ -182,10 +184,30 @@ impl Picture {
     }
 }
 
-struct PictureSpec {
-    name: &'static str,
-    picture: Arc<Picture>,
+/// The settings of `match_image`: the standard deviation of the similarity.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageSettings {
     sigma: f64,
+}
+
+impl Settings for ImageSettings {
+    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        match_image(inputs.picture()?, self.sigma)
+    }
+}
+
+/// The settings of `match_shadow`: the standard deviation of the similarity.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShadowSettings {
+    sigma: f64,
+}
+
+impl Settings for ShadowSettings {
+    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        match_shadow(inputs.picture()?, self.sigma)
+    }
 }
 
 /// Scores a scene by how well its silhouette is `picture`, seen by the camera of the picture's rays.
@@ -194,7 +216,7 @@ struct PictureSpec {
 /// `bad-setting` when it is not positive.
 pub fn match_image(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(PictureSpec { name: "match_image", picture, sigma }))
+    Ok(Arc::new(PictureMatch::new(ImageSettings::NAME, picture, sigma)))
 }
 
 /// Scores a scene by how well its shadow is `picture`, whose rays go from a receiver to a light.
@@ -203,10 +225,10 @@ pub fn match_image(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSp
 /// `bad-setting` when it is not positive.
 pub fn match_shadow(picture: Arc<Picture>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(PictureSpec { name: "match_shadow", picture, sigma }))
+    Ok(Arc::new(PictureMatch::new(ShadowSettings::NAME, picture, sigma)))
 }
 
-impl SketchSpec for PictureSpec {
+impl SketchSpec for PictureMatch {
     fn name(&self) -> &'static str {
         self.name
     }
@@ -214,10 +236,6 @@ impl SketchSpec for PictureSpec {
     fn window(&self) -> Option<WindowForm> {
         let seen = !self.picture.rays.is_empty();
         seen.then(|| WindowForm::flat(self.picture.plate().side()))
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(PictureMatch::new(self.name, self.picture.clone(), self.sigma))
     }
 }
 
@@ -238,7 +256,7 @@ pub struct PictureMatch {
 }
 
 impl PictureMatch {
-    /// The empty scene, under a name for people.
+    /// The empty scene, for the sketch of this name.
     pub fn new(name: &'static str, picture: Arc<Picture>, sigma: f64) -> PictureMatch {
         let tiles = Tiles::new(picture.rays.words());
         let (on, right) = (Amount::default(), Amount::default());
@@ -295,8 +313,8 @@ fn covers(primitive: &Primitive, rays: &Rays) -> Arc<[Cover]> {
 impl Clone for PictureMatch {
     fn clone(&self) -> PictureMatch {
         PictureMatch {
-            picture: self.picture.clone(),
             name: self.name,
+            picture: self.picture.clone(),
             sigma: self.sigma,
             tiles: self.tiles.clone(),
             on: self.on,
@@ -307,8 +325,8 @@ impl Clone for PictureMatch {
     }
 
     fn clone_from(&mut self, source: &PictureMatch) {
-        share(&mut self.picture, &source.picture);
         self.name = source.name;
+        share(&mut self.picture, &source.picture);
         self.sigma = source.sigma;
         self.tiles.clone_from(&source.tiles);
         self.on = source.on;
@@ -328,10 +346,6 @@ impl PartialEq for PictureMatch {
 }
 
 impl Sketch for PictureMatch {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         let covers = covers(primitive, &self.picture.rays);
         for cover in &*covers {

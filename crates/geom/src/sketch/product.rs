@@ -17,6 +17,7 @@ pub struct Sketches {
 }
 
 struct Member {
+    name: &'static str,
     sketch: Box<dyn Sketch>,
     /// The score of the primitives that the sketch has seen.
     log_score: f64,
@@ -26,10 +27,16 @@ struct Member {
 
 impl Member {
     fn fork(&self) -> Member {
-        Member { sketch: self.sketch.fork(), log_score: self.log_score, waiting: self.waiting.clone() }
+        Member {
+            name: self.name,
+            sketch: self.sketch.fork(),
+            log_score: self.log_score,
+            waiting: self.waiting.clone(),
+        }
     }
 
     fn become_copy(&mut self, other: &Member) -> bool {
+        self.name = other.name;
         self.log_score = other.log_score;
         self.waiting.clone_from(&other.waiting);
         self.sketch.become_copy(&*other.sketch)
@@ -62,7 +69,7 @@ impl Sketches {
     pub fn start(specs: &[Arc<dyn SketchSpec>]) -> Sketches {
         let member = |spec: &Arc<dyn SketchSpec>| {
             let sketch = spec.start();
-            Member { log_score: sketch.log_score(), sketch, waiting: Vec::new() }
+            Member { name: spec.name(), log_score: sketch.log_score(), sketch, waiting: Vec::new() }
         };
         Sketches { members: specs.iter().map(member).collect() }
     }
@@ -77,9 +84,9 @@ impl Sketches {
         self.members.is_empty()
     }
 
-    /// The sketches, in order. One after the first that forbids the scene may not have seen all of it.
-    pub fn iter(&self) -> impl Iterator<Item = &dyn Sketch> {
-        self.members.iter().map(|m| &*m.sketch)
+    /// The sketches with their names, in order. A sketch after the first that forbids the scene may not have seen all of it.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &dyn Sketch)> {
+        self.members.iter().map(|m| (m.name, &*m.sketch))
     }
 
     /// Adds a primitive to the scene; returns the name of the first sketch that now forbids it.
@@ -91,7 +98,7 @@ impl Sketches {
                 continue;
             }
             member.see(Some(primitive));
-            forbidden = member.is_forbidden().then(|| member.sketch.name());
+            forbidden = member.is_forbidden().then_some(member.name);
         }
         forbidden
     }
@@ -162,7 +169,7 @@ impl Sketches {
 
     /// Name of the first sketch that forbids the scene.
     pub fn forbidden_by(&self) -> Option<&'static str> {
-        self.members.iter().find(|m| m.is_forbidden()).map(|m| m.sketch.name())
+        self.members.iter().find(|m| m.is_forbidden()).map(|m| m.name)
     }
 
     /// Sum of the log scores, nats; of those up to the first that forbids the scene.
@@ -197,7 +204,7 @@ impl Sketches {
 
     /// Named numbers of all sketches, in order.
     pub fn measures(&self) -> Vec<(&'static str, f64)> {
-        self.iter().flat_map(|s| s.measures()).collect()
+        self.iter().flat_map(|(_, sketch)| sketch.measures()).collect()
     }
 
     /// Share of cells that are equal in the scene and its target, where a sketch has one.

@@ -10,8 +10,6 @@ use std::sync::Arc;
 
 /// A running score of a bag of primitives.
 pub trait Sketch: Copied + Any + Send + Sync {
-    /// Its name for people, for example `no_self_intersection`.
-    fn name(&self) -> &'static str;
     /// Adds a primitive to the bag.
     fn add(&mut self, primitive: &Primitive);
     /// Removes one primitive equal to this from the bag; false, and nothing changed, when there is none.
@@ -35,9 +33,9 @@ pub trait Sketch: Copied + Any + Send + Sync {
     fn measures(&self) -> Vec<(&'static str, f64)>;
 }
 
-/// What to score, given by the caller: creates the sketch of the empty scene.
-pub trait SketchSpec: Send + Sync {
-    /// Name of its sketch.
+/// The sketch of the empty scene, from which those of scenes are copied.
+pub trait SketchSpec: Copied + Send + Sync {
+    /// Its name for people, for example `no_self_intersection`.
     fn name(&self) -> &'static str;
     /// The window that fits its target; `None` when it shows nothing.
     fn window(&self) -> Option<WindowForm> {
@@ -52,8 +50,10 @@ pub trait SketchSpec: Send + Sync {
     fn domain(&self) -> Option<Aabb> {
         None
     }
-    /// The sketch of the empty scene.
-    fn start(&self) -> Box<dyn Sketch>;
+    /// A copy.
+    fn start(&self) -> Box<dyn Sketch> {
+        self.fork()
+    }
 }
 
 /// Copies of a sketch whose kind is not known: every sketch that can be cloned has them.

@@ -22,6 +22,7 @@
 use super::bag::Bag;
 use super::outside::Outside;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use super::settings::{Inputs, Named, Settings};
 use super::tiles::Tiles;
 use crate::bounds::Aabb;
 use crate::error::GeomError;
@@ -31,6 +32,7 @@ use crate::view::Cover;
 use crate::window::bits::Bits;
 use crate::window::flat::{self, Spot};
 use crate::window::{Place, WindowForm};
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// Samples of a pixel, and its value where nothing is drawn.
@@ -49,7 +51,23 @@ pub struct Texture {
     pub sigma: f64,
 }
 
-struct TextureSpec(TextureMatch);
+/// The settings of `fill_drawing`: those of a [`Texture`], with the corners and the size of its page.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TextureSettings {
+    window: [[f64; 2]; 2],
+    size: [usize; 2],
+    share: f64,
+    sigma: f64,
+}
+
+impl Settings for TextureSettings {
+    fn spec(self, _: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        let [low, high] = self.window;
+        let page = Page::new(low, high, self.size)?;
+        fill_drawing(Texture { page, share: self.share, sigma: self.sigma })
+    }
+}
 
 /// Scores a scene by how it fills a window.
 ///
@@ -61,32 +79,28 @@ pub fn fill_drawing(texture: Texture) -> Result<Arc<dyn SketchSpec>, GeomError> 
         let message = format!("the share is {}, expected a number above 0, at most 1", texture.share);
         return Err(GeomError::new("bad-setting", message));
     }
-    Ok(Arc::new(TextureSpec(TextureMatch::new(Arc::new(texture)))))
+    Ok(Arc::new(TextureMatch::new(Arc::new(texture))))
 }
 
-impl SketchSpec for TextureSpec {
+impl SketchSpec for TextureMatch {
     fn name(&self) -> &'static str {
-        "fill_drawing"
+        TextureSettings::NAME
     }
 
     fn window(&self) -> Option<WindowForm> {
-        Some(WindowForm::flat(self.0.texture.page.side()))
+        Some(WindowForm::flat(self.texture.page.side()))
     }
 
     /// Without a target no pixel is filled.
     fn image(&self) -> Option<(Page, Vec<u64>)> {
-        let page = &self.0.texture.page;
+        let page = &self.texture.page;
         let mut bits = Vec::new();
         page.image(|_| 0, &mut bits);
         Some((page.clone(), bits))
     }
 
     fn domain(&self) -> Option<Aabb> {
-        Some(self.0.texture.page.domain())
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(self.0.clone())
+        Some(self.texture.page.domain())
     }
 }
 
@@ -278,10 +292,6 @@ impl PartialEq for TextureMatch {
 }
 
 impl Sketch for TextureMatch {
-    fn name(&self) -> &'static str {
-        "fill_drawing"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         let covers = covers(primitive, &self.texture.page);
         self.change(primitive, |own| {

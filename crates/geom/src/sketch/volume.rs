@@ -12,6 +12,7 @@
 use super::bag::Bag;
 use super::overshoot::overshoot;
 use super::score::{Sketch, SketchSpec, check_sigma, log_normal, share};
+use super::settings::{Inputs, Named, Settings};
 use crate::bounds::Aabb;
 use crate::bricks::{Counters, Target};
 use crate::error::GeomError;
@@ -19,11 +20,20 @@ use crate::solids::primitive::Primitive;
 use crate::voxel::{Grid, Voxels};
 use crate::window::solid::Volume;
 use crate::window::{Place, WindowForm};
+use serde::Deserialize;
 use std::sync::Arc;
 
-struct VolumeSpec {
-    target: Arc<Target>,
+/// The settings of `match_volume`: the standard deviation of both terms.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VolumeSettings {
     sigma: f64,
+}
+
+impl Settings for VolumeSettings {
+    fn spec(self, inputs: Inputs) -> Result<Arc<dyn SketchSpec>, GeomError> {
+        match_volume(inputs.target()?, self.sigma)
+    }
 }
 
 /// Scores a scene by how well it fills `target`; `sigma` is the standard deviation of both terms.
@@ -32,12 +42,12 @@ struct VolumeSpec {
 /// `bad-setting` when it is not positive.
 pub fn match_volume(target: Arc<Target>, sigma: f64) -> Result<Arc<dyn SketchSpec>, GeomError> {
     check_sigma(sigma)?;
-    Ok(Arc::new(VolumeSpec { target, sigma }))
+    Ok(Arc::new(VolumeMatch::new(target, sigma)))
 }
 
-impl SketchSpec for VolumeSpec {
+impl SketchSpec for VolumeMatch {
     fn name(&self) -> &'static str {
-        "match_volume"
+        VolumeSettings::NAME
     }
 
     fn window(&self) -> Option<WindowForm> {
@@ -47,10 +57,6 @@ impl SketchSpec for VolumeSpec {
 
     fn domain(&self) -> Option<Aabb> {
         Some(*self.target.grid().domain())
-    }
-
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(VolumeMatch::new(self.target.clone(), self.sigma))
     }
 }
 
@@ -146,10 +152,6 @@ impl PartialEq for VolumeMatch {
 }
 
 impl Sketch for VolumeMatch {
-    fn name(&self) -> &'static str {
-        "match_volume"
-    }
-
     fn add(&mut self, primitive: &Primitive) {
         let VolumeMatch { target, counters, bag, .. } = self;
         let mut fill = |voxels: &Voxels| {

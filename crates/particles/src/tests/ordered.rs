@@ -153,9 +153,6 @@ impl Carried {
 }
 
 impl Sketch for Carried {
-    fn name(&self) -> &'static str {
-        "carried"
-    }
     fn add(&mut self, primitive: &Primitive) {
         *self.count(primitive) += 1;
     }
@@ -172,14 +169,9 @@ impl Sketch for Carried {
     }
 }
 
-struct CarriedSpec;
-
-impl SketchSpec for CarriedSpec {
+impl SketchSpec for Carried {
     fn name(&self) -> &'static str {
         "carried"
-    }
-    fn start(&self) -> Box<dyn Sketch> {
-        Box::new(Carried::default())
     }
 }
 
@@ -190,7 +182,7 @@ fn an_order_that_is_impossible_is_not_taken() {
         (fn "beam" (params) (do (emit (box (tuple 0.0 1.0 0.0) (tuple 2.0 0.2 0.2)))) (return 0))
         (fn "m" (params) (set $x (sample (dist bernoulli 0.5))) (do (future "beam")) (do (future "post"))
           (return $x)) (entry "m"))"#;
-    let task = Task { sketches: vec![Arc::new(CarriedSpec)], ..task(text) };
+    let task = Task { sketches: vec![Arc::new(Carried::default())], ..task(text) };
     for order in [Order::Stochastic, skewed()] {
         let own = Settings { seed: 4, ..small(3, order) };
         let chain = particle_gibbs(&task, &own, Ancestors::Sampled, 200, None, &mut |_| true).unwrap();

@@ -22,7 +22,7 @@ def find(job: FindDifference, send: Any) -> Answer:
     header = Difference(job.id, job.key)
     grid = cells(sample.search.score, sample.scene)
     if grid is not None:
-        marks = marked(grid.wanted, grid.made)
+        marks = marked(grid.target, grid.scene)
         header.low, header.high = tuple(grid.low.tolist()), tuple(grid.high.tolist())
         header.size = marks.shape[0], marks.shape[1], marks.shape[2]
         # x runs fastest.

@@ -1,10 +1,10 @@
-"""What a person can ask of a scene, by name: flags of the shell, keys of a batch, fields of a form.
+"""Options for scores, by name: flags of the shell, keys of a batch, fields of a form.
 
-An option asks for a sketch, whose first parameter it is, or is the parameter of that name of the sketches that are
-asked for. What is asked is one value, a list of sketches with what each is given: `score` makes the product of them,
-and `Score.data` writes it.
+An option asks for a sketch, and its value is the sketch's first parameter. An option without a sketch is a parameter
+of that name of the sketches of other options. The options become a list of sketches with their arguments. `score`
+makes the product of them, and `Score.data` writes it.
 
->>> asked({"floor": 0.0, "target": "gallery:ship", "sigma": 0.01})
+>>> sketches_of({"floor": 0.0, "target": "gallery:ship", "sigma": 0.01})
 [('no_self_intersection', {}), ('floor', {'y': 0.0}), ('match_volume', {'target': 'gallery:ship', 'sigma': 0.01})]
 """
 
@@ -22,34 +22,34 @@ from niwaki.targets import drawings
 from niwaki.targets.drawing import Drawing
 from niwaki.targets.sketches import SKETCHES, Ask, Score, Window
 
-#: Sketches of what is drawn in the plane, where parts of a scene may cross.
-DRAWN = ("match_drawing", "fill_drawing")
+#: Sketches of a drawing in the plane, where parts of a scene may cross.
+DRAWN = tuple(name for name, make in SKETCHES.items() if "window" in inspect.signature(make).parameters)
 
 
 @dataclass(frozen=True)
 class Option:
-    """Something that can be asked.
+    """An option.
 
     Attributes
     ----------
     kind : str
-        Of its value: "mesh", "meshes", "image", "camera" (each of which may be a file), "number", "count", "direction",
-        "box", "window" or "word".
+        The kind of its value: "mesh", "meshes", "image" or "camera", which may be files, "number", "count",
+        "direction", "box", "window" or "word".
     help : str
-        What it is.
+        Its description.
     metavar : str
-        What stands for its value.
+        The placeholder of its value.
     asks : tuple of str
-        The sketches that it asks for: the first one, or the second for what is drawn in the plane. With none it is a
+        The sketches that it asks for: the first, or the second for drawings in the plane. Without sketches, it is a
         further parameter.
     alone : str
-        Why it is nothing without a sketch that has it; empty where it may be left over.
+        The reason why it needs a sketch with this parameter; empty if it does not.
     needed : str
-        Why the sketches that have it are nothing without it.
+        The reason why sketches with this parameter need it.
     beside : str
-        The option that it is nothing without.
-    usual : Any
-        Its value when left out.
+        The option that it needs.
+    default : Any
+        Its value when it is absent.
     """
 
     kind: str
@@ -59,19 +59,28 @@ class Option:
     alone: str = ""
     needed: str = ""
     beside: str = ""
-    usual: Any = None
+    default: Any = None
 
 
 OPTIONS: dict[str, Option] = {
     "target": Option(
-        "mesh", "A mesh to fill: OBJ, STL, PLY, GLB, or `gallery:` and a name.", "FILE", ("match_volume",)
+        "mesh",
+        "A mesh to fill: OBJ, STL, PLY, GLB, or `gallery:` and a name. Default: a gallery model's own.",
+        "FILE",
+        ("match_volume",),
     ),
     "avoid": Option("meshes", "A mesh to avoid; may be repeated.", "FILE", ("avoid",)),
     "floor": Option("number", "A height to stay above.", "Y", ("floor",)),
-    "within": Option("box", "Low and high corner of a box to stay in; soft.", "X,Y,Z,X,Y,Z", ("overshoot",)),
+    "within": Option(
+        "box",
+        "Low and high corner of a box to stay in; soft: parts outside lower the score.",
+        "X,Y,Z,X,Y,Z",
+        ("overshoot",),
+    ),
     "match_image": Option(
         "image",
-        "A silhouette to match, seen by --camera; for models that draw, ink on white paper, or a drawing's name.",
+        "A silhouette to match, seen by --camera; for models that draw, ink on white paper, or the name of a drawing "
+        "such as `letters/E`.",
         "FILE",
         ("match_image", "match_drawing"),
     ),
@@ -80,20 +89,20 @@ OPTIONS: dict[str, Option] = {
     ),
     "camera": Option(
         "camera",
-        "The camera that sees the image or the shadow, a JSON file.",
+        "The camera that sees the image or the shadow, a JSON file. Default of a shadow: along the light.",
         "FILE",
         alone="only a picture is seen by a camera",
         needed="an image is seen by a camera; this model does not draw in a window of the plane",
     ),
     "weight_image": Option(
         "image",
-        "An image, white where a pixel counts more.",
+        "An image, white where a pixel counts more; of the same size.",
         "FILE",
         alone="it weights the pixels of a picture",
     ),
     "weight": Option(
         "number",
-        "How much more a white pixel counts. Default: 10.",
+        "How much more a white pixel counts: 1 + NUMBER times. Default: 10.",
         "NUMBER",
         alone="it is the weight of the white pixels",
         beside="weight_image",
@@ -130,99 +139,105 @@ OPTIONS: dict[str, Option] = {
         "Strictness of the match; smaller is stricter. Default: 0.02, drawings 0.014.",
         "NUMBER",
     ),
-    "rule": Option("word", "Which parts count as intersecting.", "solid|surface", usual="solid"),
+    "rule": Option("word", "Which parts count as intersecting.", "solid|surface", default="solid"),
 }
 
 #: Options that may name a file.
-FILES = tuple(name for name, one in OPTIONS.items() if one.kind in ("mesh", "meshes", "image", "camera"))
+FILES = tuple(
+    name for name, option in OPTIONS.items() if option.kind in ("mesh", "meshes", "image", "camera")
+)
 
 
 @cache
 def parameters(name: str) -> dict[str, str]:
-    """The parameter of each sketch that an option is."""
-    found = OPTIONS[name].asks
-    if found:
-        return {sketch: next(iter(_parameters(sketch))) for sketch in found}
+    """Return the parameter that an option sets, by sketch."""
+    sketches = OPTIONS[name].asks
+    if sketches:
+        return {sketch: next(iter(_parameters(sketch))) for sketch in sketches}
     return {sketch: name for sketch in SKETCHES if name in _parameters(sketch)}
 
 
-def asked(
-    given: Mapping[str, Any], usual: Iterable[Ask] = (), page: Window | None = None, name: str = ""
+def sketches_of(
+    options: Mapping[str, Any], defaults: Iterable[Ask] = (), page: Window | None = None, name: str = ""
 ) -> list[Ask]:
-    """What is asked by these options: sketches with what they are given, in the order of `SKETCHES`.
+    """Return the sketches of options with their arguments, in the order of `SKETCHES`.
 
     Parameters
     ----------
-    given
-        Values of options, None for those that are not given; what can be a file may be its name.
-    usual
-        What a scene should match where no option says it.
+    options
+        Values of options, None for absent options. The name of a file stands for its content.
+    defaults
+        The sketches of a model, where no option asks for a target.
     page
         The part of the plane in which the model draws; None for models in space.
     name
-        The model, for messages.
+        The name of the model, for messages.
 
     Raises
     ------
     InputError
         `flag-alone`: an option lacks another; `no-target`: there is nothing to match.
     """
-    given = {key: value for key, value in given.items() if value is not None}
-    is_drawn = "camera" not in given and (page is not None or "window" in given)
-    chosen: list[Ask] = []
-    for key, value in given.items():
+    options = {key: value for key, value in options.items() if value is not None}
+    is_drawn = "camera" not in options and (page is not None or "window" in options)
+    asks: list[Ask] = []
+    for key, value in options.items():
         option = OPTIONS[key]
         for sketch in option.asks[-1:] if is_drawn else option.asks[:1]:
             first = parameters(key)[sketch]
-            chosen += [(sketch, {first: one}) for one in (value if option.kind == "meshes" else [value])]
-    _check(given, {sketch for sketch, _ in chosen})
-    if not any(sketch.startswith("match_") for sketch, _ in chosen):
-        chosen += ((sketch, dict(own)) for sketch, own in usual)
-        if not any(sketch.startswith(("match_", "fill_")) for sketch, _ in chosen):
+            asks += [(sketch, {first: mesh}) for mesh in (value if option.kind == "meshes" else [value])]
+    _check(options, {sketch for sketch, _ in asks})
+    if not any(sketch.startswith("match_") for sketch, _ in asks):
+        asks += ((sketch, dict(arguments)) for sketch, arguments in defaults)
+        if not any(sketch.startswith(("match_", "fill_")) for sketch, _ in asks):
             raise InputError("no-target", name=name)
-    if not any(sketch in DRAWN for sketch, _ in chosen):
-        chosen.append(("no_self_intersection", {}))
-    for sketch, own in chosen:
-        own |= {key: given[key] for key in given if not OPTIONS[key].asks and sketch in parameters(key)}
+    if not any(sketch in DRAWN for sketch, _ in asks):
+        asks.append(("no_self_intersection", {}))
+    for sketch, arguments in asks:
+        arguments |= {
+            key: options[key] for key in options if not OPTIONS[key].asks and sketch in parameters(key)
+        }
         if sketch == "match_drawing":
-            side = own.pop("pixels", drawings.SIDE)
-            own["image"] = _drawing(own["image"], side)
-            own.setdefault("window", page)
+            side = arguments.pop("pixels", drawings.SIDE)
+            arguments["image"] = _drawing(arguments["image"], side)
+            arguments.setdefault("window", page)
     order = list(SKETCHES)
-    return sorted(chosen, key=lambda one: order.index(one[0]))
+    return sorted(asks, key=lambda ask: order.index(ask[0]))
 
 
 def score(asks: Iterable[Ask]) -> Score:
-    """The score of what is asked."""
+    """Return the product of sketches."""
     product = Score()
-    for sketch, own in asks:
+    for sketch, arguments in asks:
         if sketch == "match_drawing":
-            product *= own["image"].score(**{key: value for key, value in own.items() if key != "image"})
+            product *= arguments["image"].score(
+                **{key: value for key, value in arguments.items() if key != "image"}
+            )
         else:
-            product *= SKETCHES[sketch](**own)
+            product *= SKETCHES[sketch](**arguments)
     return product
 
 
 def start(asks: Iterable[Ask]) -> dict[str, Any]:
-    """The arguments of a model that follows a drawing: where it starts, and the direction."""
-    for sketch, own in asks:
+    """Return the arguments of a model that follows a drawing: its start and direction."""
+    for sketch, arguments in asks:
         if sketch == "match_drawing":
-            return dict(zip(("x", "y", "ahead"), own["image"].place(own["window"]), strict=True))
+            return dict(zip(("x", "y", "ahead"), arguments["image"].place(arguments["window"]), strict=True))
     return {}
 
 
 def flag(name: str) -> str:
-    """An option as it is typed."""
+    """Return the flag of an option."""
     return f"--{name.replace('_', '-')}"
 
 
 def _check(given: Mapping[str, Any], sketches: set[str]) -> None:
-    """Refuse options that lack another."""
+    """Refuse options that need an absent option."""
     for key, option in OPTIONS.items():
-        own = set(parameters(key))
-        if key in given and option.alone and (not own & sketches or option.beside not in {"", *given}):
-            raise _alone(key, [option.beside] if option.beside else _asking(own), option.alone)
-        for sketch in own & sketches if option.needed and key not in given else ():
+        known = set(parameters(key))
+        if key in given and option.alone and (not known & sketches or option.beside not in {"", *given}):
+            raise _alone(key, [option.beside] if option.beside else _asking(known), option.alone)
+        for sketch in known & sketches if option.needed and key not in given else ():
             if _parameters(sketch)[key].default is inspect.Parameter.empty:
                 raise _alone(_asking([sketch])[0], [key], option.needed)
 
@@ -232,17 +247,17 @@ def _parameters(sketch: str) -> Mapping[str, inspect.Parameter]:
 
 
 def _asking(sketches: Iterable[str]) -> list[str]:
-    """The options that ask for one of these sketches."""
+    """Return the options that ask for any of these sketches."""
     return [key for key, option in OPTIONS.items() if {*option.asks} & {*sketches}]
 
 
 def _alone(name: str, others: list[str], reason: str) -> InputError:
-    other = " or ".join(f"`{flag(one)}`" for one in others)
+    other = " or ".join(f"`{flag(key)}`" for key in others)
     return InputError("flag-alone", flag=flag(name), other=other, reason=reason)
 
 
 def _drawing(image: Any, side: int) -> Drawing:
-    """The drawing of an image: of a name or a file, or of an array as it is."""
+    """Return the drawing of a name, of a file, or of an array as it is."""
     if isinstance(image, Drawing):
         return image
     if isinstance(image, str | Path):

@@ -1,13 +1,13 @@
-"""Drawings of our own to grow into, by name: `scribbles/012`, `glyphs/lobster-B`, `letters/E`, `silhouettes/cat`.
+"""Built-in drawings to grow into, by name: `scribbles/012`, `glyphs/lobster-B`, `letters/E`, `silhouettes/cat`.
 
 scribbles     strokes of a brush, made by code; all start at the same point
 glyphs        letters, figures and signs of script fonts, in one piece without enclosed paper
 letters       capitals and figures of a plain bold font
 silhouettes   animals and plants, from clip art in the public domain
 
-Each is 50 by 50 pixels. `table.csv` has a line for each: its cell on the collection's page, where a model starts
+A drawing is 50 by 50 pixels. `table.csv` has a line for each: its cell on the collection's page, where a model starts
 (shares of the image from its lower left corner) and in which direction, and its use: "training", or "held-out" for
-what no guide is trained on. `benches/drawings/make.py` made them; NOTICE has the licences.
+drawings that no guide is trained on. `benches/drawings/make.py` made them; NOTICE has the licences.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from PIL import Image
 from niwaki.errors import InputError
 from niwaki.targets.drawing import Drawing, Point
 
-#: Pixels along a side of each drawing, and drawings in a row of a page.
+#: The number of pixels along a side of a drawing, and of drawings in a row of a page.
 SIDE, ACROSS = 50, 16
 
 COLLECTIONS = ("scribbles", "glyphs", "letters", "silhouettes")
@@ -46,7 +46,7 @@ class Row:
 
 @cache
 def table() -> dict[str, Row]:
-    """Every drawing by its name."""
+    """Return the rows of the table by the names of their drawings."""
     with (_HERE / "table.csv").open(encoding="utf-8", newline="") as file:
         rows = [
             Row(
@@ -62,7 +62,7 @@ def table() -> dict[str, Row]:
 
 
 def names(collection: str | None = None, use: str | None = None) -> list[str]:
-    """The names of a collection's drawings, or of all, with that use ("training" or "held-out"), or any."""
+    """Return the names of all drawings, or of those of a collection or a use ("training" or "held-out")."""
     return [
         row.name
         for row in table().values()
@@ -71,7 +71,7 @@ def names(collection: str | None = None, use: str | None = None) -> list[str]:
 
 
 def drawing(name: str) -> Drawing:
-    """The drawing of that name."""
+    """Return the drawing of that name."""
     row = table().get(name)
     if row is None:
         alike = [known for known in table() if known.lower() == name.lower()]
@@ -84,14 +84,14 @@ def drawing(name: str) -> Drawing:
 
 
 def find(place: str, pixels: int = SIDE) -> Drawing:
-    """A drawing by name or by file; a name is used where no such file exists.
+    """Find a drawing by name or by file. A file of the same name comes first.
 
     Parameters
     ----------
     place
         `letters/E`, or an image file.
     pixels
-        Of the longer side of a file's image: a larger one is made smaller.
+        Pixels of the longer side of a file's image: a larger image is made smaller.
     """
     collection = place.partition("/")[0]
     if not Path(place).exists() and (place in table() or collection in COLLECTIONS):

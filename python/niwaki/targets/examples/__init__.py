@@ -1,9 +1,9 @@
-"""Targets of our own design, made by code: solids to fill or to avoid, and images to match.
+"""Built-in targets, made by code: solids to fill or to avoid, and images to match.
 
 - `ships`, `towns`, `trees`  solids to fill
-- `obstacles`                solids to avoid, and what to fill around them
+- `obstacles`                solids to avoid, and volumes to fill around them
 - `images`                   pictures of silhouettes and shadows
-- `lofts`                    what the solids are built from
+- `lofts`                    the parts of the solids
 
 All lengths are scene units, y is up.
 """
@@ -67,21 +67,21 @@ IMAGES = ("digits", "face", "face_stroke", "ship_front", "skyline")
 
 def image(name: str) -> Image.Image:
     """Draw the image of that name, one of `IMAGES`."""
-    drawn: Image.Image = getattr(images, name)()
-    return drawn
+    picture: Image.Image = getattr(images, name)()
+    return picture
 
 
 def write_all(folder: str | PathLike[str]) -> list[Path]:
     """Write every target into a folder, solids as OBJ and images as PNG files, and return their paths."""
     place = ensure_folder(Path(folder))
-    written = []
+    paths = []
     for name, make in TARGETS.items():
         target = make()
         lines = [f"# niwaki target: {name}", f"o {name}"]
         lines += ["v " + " ".join(f"{c:.6f}" for c in vertex) for vertex in target.vertices]
         lines += ["f " + " ".join(str(i + 1) for i in face) for face in target.faces]
-        written.append(write_whole(place / f"{name}.obj", ("\n".join(lines) + "\n").encode("ascii")))
+        paths.append(write_whole(place / f"{name}.obj", ("\n".join(lines) + "\n").encode("ascii")))
     for name in IMAGES:
-        written.append(place / f"{name}.png")
-        image(name).save(written[-1])
-    return written
+        paths.append(place / f"{name}.png")
+        image(name).save(paths[-1])
+    return paths

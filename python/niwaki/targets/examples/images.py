@@ -1,6 +1,7 @@
-"""Images to match, drawn by code: white where something should be seen or be in shadow, black elsewhere.
+"""Images to match, drawn by code: white where a part or a shadow should be, black elsewhere.
 
-Each is a greyscale Pillow image. Shapes are drawn four times as large and made smaller, so that their edges are smooth.
+The images are greyscale Pillow images. Shapes are drawn four times as large and made smaller, so that their edges are
+smooth.
 """
 
 from __future__ import annotations

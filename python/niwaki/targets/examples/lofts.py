@@ -1,4 +1,4 @@
-"""What solid targets are built from: closed meshes over sections, boxes, balls and tubes.
+"""Parts of solid targets: closed meshes over sections, boxes, balls and tubes.
 
 Lengths are scene units, y is up. A target is a list of closed parts that may overlap.
 """
@@ -48,17 +48,17 @@ def loft(sections: Sequence[ArrayLike], closed: bool = False) -> Mesh:
 
 
 def rectangle(half: float, low: float, high: float, z: float) -> list[tuple[float, float, float]]:
-    """Four corners across z."""
+    """Return the four corners of a rectangle across z."""
     return [(half, low, z), (half, high, z), (-half, high, z), (-half, low, z)]
 
 
 def section(x: float, front: float, back: float, y: float, half: float) -> list[tuple[float, float, float]]:
-    """Four corners across x."""
+    """Return the four corners of a rectangle across x."""
     return [(x, y - half, front), (x, y + half, front), (x, y + half, back), (x, y - half, back)]
 
 
 def ring(center: ArrayLike, normal: ArrayLike, rx: float, ry: float, sides: int) -> NDArray[np.float64]:
-    """Corners (sides, 3) of an ellipse about `center`, across `normal`."""
+    """Return corners (sides, 3) of an ellipse about `center`, across `normal`."""
     n = np.asarray(normal, dtype=np.float64) / np.linalg.norm(normal)
     side = np.cross([0.0, 0.0, 1.0] if abs(n[2]) < 0.9 else [0.0, 1.0, 0.0], n)
     side /= np.linalg.norm(side)
@@ -116,7 +116,7 @@ def ball(center: ArrayLike, radii: tuple[float, float, float], sides: int = 24, 
 
 
 def curve(points: ArrayLike, between: int = 4) -> NDArray[np.float64]:
-    """Points of a Catmull-Rom curve through `points` (n, d), with `between` steps from each to the next."""
+    """Return points of a Catmull-Rom curve through `points` (n, d), with `between` steps from each to the next."""
     p = np.array(points, dtype=np.float64)
     padded = np.concatenate([[2 * p[0] - p[1]], p, [2 * p[-1] - p[-2]]])
     path = []

@@ -16,7 +16,7 @@ def ledges() -> Target:
 
 
 def funnel() -> Target:
-    """Make a square funnel 23 high that widens upwards: what to fill above the ledges."""
+    """Make a square funnel 23 high that widens upwards: a volume to fill above the ledges."""
     low, high = (2.9, 2.1), (13.8, 9.9)
     rims = [[(-w, y, -d), (w, y, -d), (w, y, d), (-w, y, d)] for y, (w, d) in ((0.0, low), (22.8, high))]
     return solid("funnel", [loft(rims)])
