@@ -69,7 +69,7 @@ def searched(
         suits, name = {**suits, **search.GUIDED}, name or "smc"
     if "(emit " not in found.model.core().text:
         raise InputError("no-emit", name=found.model.name)
-    return search.asked(
+    return search.grow_search(
         found.model,
         **{**found.start(asks), **arguments},
         score=score,

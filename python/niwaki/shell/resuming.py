@@ -20,7 +20,7 @@ from msgspec.structs import asdict
 from niwaki import Checkpoint, Result, Search, gallery
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted
-from niwaki.search.checkpoint import Stored, understood
+from niwaki.search.checkpoint import Stored, reading
 from niwaki.shell import arguments, references
 from niwaki.shell.references import ModelReference
 
@@ -134,7 +134,7 @@ def left(
     place = folder / NAME
     if not place.is_file():
         raise InputError("no-checkpoint", path=place)
-    with understood(place):
+    with reading(place):
         note: Note = fitted(Stored.read(place).note, Note)
         own = note.own
         if own is None or own.command != command:

@@ -236,7 +236,7 @@ def method(name: str | None, given: dict[str, Any], suits: Mapping[str, Any]) ->
         return Improve(**{**own, "particles": max(suits["particles"] // 3, 1), **options})
     options = {**own, **options}
     if chosen is Smc:
-        return search.usual(options)
+        return search.default_method(options)
     return chosen(**{**({"power": search.POWER} if "power" in known else {}), **options})
 
 
