@@ -40,6 +40,9 @@ __all__ = [
     "__version__",
     "agreement",
     "check_inside",
+    "check_kernel",
+    "check_method",
+    "check_order",
     "different",
     "draw",
     "draw_at",
@@ -239,6 +242,8 @@ class EngineFault(RuntimeError):
     blame: list[tuple[str, _Emitted, _Emitted | None, int]]
     looked_at: int
     attempts: list[tuple[str, int, int | None]]
+    value: str
+    expected: str | tuple[Any, ...] | None
 
 def log_density(family: str, params: Sequence[Any], x: Any) -> float: ...
 def draw(family: str, params: Sequence[Any], seed: int, n: int) -> list[Any]: ...
@@ -324,6 +329,9 @@ def guide_steps(
     weights: NDArray[np.float64], slopes: NDArray[np.float64], rate: float, averaging: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def check_inside(method: str) -> None: ...
+def check_kernel(kernel: str) -> None: ...
+def check_method(method: str) -> None: ...
+def check_order(order: str) -> None: ...
 def explain(task: Task, seed: int, address: str, tries: int = 1000) -> dict[str, Any]: ...
 
 @final

@@ -18,7 +18,7 @@ from chain_programs import program
 from niwaki import _engine, kernels
 from niwaki.errors import ModelError, NiwakiError
 from niwaki.lang.compiled import task
-from niwaki.search.searching import _written
+from niwaki.search.engine_runs import engine_form
 from niwaki.targets.sketches import no_self_intersection
 from niwaki.words import Bernoulli, Gaussian, clip
 from programs import shrink
@@ -70,7 +70,7 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
     kernel = KERNELS[seed % len(KERNELS)]
     try:
         made = task(model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000)
-        method, functions = _written(nw.mh(steps + 1, kernel=kernel, warmup=steps // 2))
+        method, functions = engine_form(nw.mh(steps + 1, kernel=kernel, warmup=steps // 2))
         found, proposals, accepted, faults = _engine.agreement(made, method, seed, steps, 20, functions)
     except (_engine.EngineFault, NiwakiError):
         # No possible first state, or a fault at once.

@@ -1,10 +1,10 @@
 //! One chain, and its settings.
 
-use crate::block::Block;
 use crate::kernel::Kernel;
+use crate::leaf::block::Block;
+use crate::leaf::trajectory::counts::TrajectoryCounts;
 use crate::leaf::{Proposer, Target};
 use crate::plan::Plan;
-use crate::trajectory::counts::TrajectoryCounts;
 use crate::walk::proposal::{FromPrior, Move};
 use crate::walk::samples::Samples;
 use crate::walk::state::State;

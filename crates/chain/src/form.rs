@@ -4,14 +4,16 @@
 //! {"name": "on", "settings": {"sites": [["z"]]}, "parts": [{"name": "drift", "settings": {"step": 0.5, "target": 0.44}}]}
 //! ```
 
-use crate::guided::Guided;
 use crate::kernel::Kernel;
 use crate::leaf::Proposer;
+use crate::leaf::guided::Guided;
 use niwaki_propose::guide::bound::BoundGuide;
 use niwaki_propose::proposal::Proposal;
 use niwaki_propose::user::User;
 use niwaki_run::select::Selection;
+use niwaki_run::setting::{COUNT, POSITIVE, Range, Ranges, check};
 use niwaki_vm::fault::Fault;
+use niwaki_vm::refusal::Expected;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
@@ -51,6 +53,42 @@ pub struct Tempered {
 }
 
 impl Form {
+    /// Ranges of the settings of a kernel, by its name.
+    fn ranges(name: &str) -> Ranges {
+        match name {
+            "mixture" => &[("weights", Range::List(&POSITIVE))],
+            "repeat" => &[("times", COUNT)],
+            "anneal" => &[("start", POSITIVE), ("end", POSITIVE), ("steps", COUNT)],
+            "tempering" => &[("powers", Range::List(&POSITIVE)), ("every", COUNT)],
+            name => Proposer::ranges(name),
+        }
+    }
+
+    /// Checks the settings of this kernel alone, without its parts.
+    ///
+    /// # Errors
+    /// The first setting that has a value it cannot have.
+    pub fn check(&self) -> Result<(), Fault> {
+        check(Form::ranges(&self.name), &self.settings)?;
+        match self.settings.get("powers") {
+            Some(Value::Array(powers)) if self.name == "tempering" => {
+                let powers: Vec<f64> = powers.iter().filter_map(Value::as_f64).collect();
+                let is_falling = powers.is_sorted_by(|high, low| high >= low) && powers[0] == 1.0;
+                let refusal = || {
+                    let value = Value::from(powers.clone()).to_string();
+                    Fault::refused("powers", value, Expected::Rule("powers-falling"))
+                };
+                is_falling.then_some(()).ok_or_else(refusal)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether the kernel, or one in it, has one of these names.
+    pub fn has(&self, names: &[&str]) -> bool {
+        names.contains(&self.name.as_str()) || self.parts.iter().any(|part| part.has(names))
+    }
+
     /// The kernel, and the powers of `tempering` where that is outermost.
     ///
     /// # Errors
@@ -59,6 +97,7 @@ impl Form {
         if self.name != "tempering" {
             return Ok(Tempered { kernel: self.kernel(attached)?, powers: vec![1.0], every: 100 });
         }
+        self.check()?;
         let mut own = self.own();
         let (powers, every) = (own.take("powers")?, own.take("every")?);
         let kernel = own.part(attached)?;
@@ -70,6 +109,7 @@ impl Form {
     /// # Errors
     /// An unknown name or setting, or nothing attached where it is needed.
     pub fn kernel(&self, attached: &[Attached]) -> Result<Kernel, Fault> {
+        self.check()?;
         let mut own = self.own();
         let kernel = match self.name.as_str() {
             "proposal" => {

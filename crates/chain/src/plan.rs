@@ -3,8 +3,8 @@
 //! The cursor is a stack of places in the tree, so a chain can stop between any two proposals.
 
 use crate::kernel::Kernel;
+use crate::leaf::trajectory::Trajectory;
 use crate::leaf::{Leaf, Learnt, Proposer};
-use crate::trajectory::Trajectory;
 use crate::walk::state::State;
 use niwaki_math::Stream;
 use niwaki_propose::gradient::nothing_continuous;
@@ -94,9 +94,6 @@ impl Plan {
             Kernel::Mixture(kernels) => {
                 let (mut sum, mut sums, mut inner) = (0.0, vec![], vec![]);
                 for (weight, kernel) in kernels {
-                    if !(*weight > 0.0 && weight.is_finite()) {
-                        return Err(bad("has a weight that is not a positive number"));
-                    }
                     sum += weight;
                     sums.push(sum);
                     inner.push(self.add(kernel, selection)?);
@@ -106,12 +103,7 @@ impl Plan {
                 }
                 Branch::Mixture(sums, inner)
             }
-            Kernel::Repeat(times, kernel) => {
-                if *times == 0 {
-                    return Err(bad("has nothing to do"));
-                }
-                Branch::Repeat(*times, self.add(kernel, selection)?)
-            }
+            Kernel::Repeat(times, kernel) => Branch::Repeat(*times, self.add(kernel, selection)?),
             Kernel::Anneal { start, end, steps, kernel } => {
                 let inner = self.add(kernel, selection)?;
                 Branch::Anneal { start: *start, end: *end, steps: *steps, done: 0, inner }

@@ -46,7 +46,7 @@
 use crate::many::Watch;
 use crate::partial_run::{FollowSettings, PartialRun, Step, follow};
 use crate::population::Population;
-use crate::settings::{Anneal, Settings, Weights};
+use crate::settings::Settings;
 use crate::smc::{Progress, run, run_of};
 use niwaki_math::streams::RngCore;
 use niwaki_propose::particle::Particle;
@@ -58,7 +58,6 @@ use niwaki_run::run::Run;
 use niwaki_run::streams::Reserved;
 use niwaki_run::weights::Normalised;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Machine;
 
 /// The runs that a chain of whole runs went through.
@@ -100,33 +99,11 @@ pub(super) fn draw_index(weights: &Normalised, seed: u64, sweep: usize) -> usize
     weights.index(Reserved::Sweep.stream(seed, sweep as u128, 1).uniform())
 }
 
-/// Refuses settings that a chain of whole runs cannot have.
-pub(super) fn check_chain(settings: &Settings, sweeps: usize) -> Result<(), Fault> {
-    settings.check()?;
-    if sweeps == 0 {
-        return Err(Fault::new("no-samples", "the number of sweeps is 0").with_help("use at least one"));
-    }
-    if settings.weights == Weights::Absolute {
-        return Err(Fault::new(
-            "bad-setting",
-            "absolute weights have no target distribution, which a chain needs",
-        )
-        .with_help("use ratio weights"));
-    }
-    if matches!(settings.anneal, Anneal::Adaptive(_)) {
-        return Err(Fault::new("bad-anneal", "a chain needs the same powers in every sweep").with_help(
-            "give the power at each barrier, for example those in the result of an adaptive search",
-        ));
-    }
-    Ok(())
-}
-
 /// `sweeps` sweeps of particle Gibbs. It starts from a run with the choices `from`, or from one of SMC's final set.
 /// `watch` is called after each barrier; when it returns false, the sweeps so far are returned.
 ///
 /// # Errors
-/// Settings that a chain cannot have, fewer than two particles, a fault of the program, or first populations that all
-/// died.
+/// A fault of the program, or first populations that all died.
 pub fn particle_gibbs(
     task: &Task,
     settings: &Settings,
@@ -135,15 +112,6 @@ pub fn particle_gibbs(
     from: Option<&[Entry]>,
     watch: &mut Watch<'_>,
 ) -> Result<Chain, Failure> {
-    check_chain(settings, sweeps)?;
-    if settings.particles < 2 {
-        return Err(Fault::new(
-            "no-particles",
-            "particle Gibbs needs another particle than the run that it keeps",
-        )
-        .with_help("use at least two")
-        .into());
-    }
     let mut chain = Chain::default();
     let mut orders = Reserved::Order.stream(settings.seed, 0, 0);
     let mut machine = task.machine();

@@ -45,7 +45,6 @@ use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::streams::RngCore;
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -151,11 +150,6 @@ pub(super) fn by_clock(
     clock: &dyn Fn() -> Duration,
     watch: &mut Watch<'_>,
 ) -> std::result::Result<Result, Failure> {
-    if time.is_zero() {
-        return Err(Fault::new("bad-setting", "the time of a search is not above 0")
-            .with_help("use a number of seconds above 0")
-            .into());
-    }
     let mut stopped = false;
     // Runs a population that stops at the first barrier after `end`; also whether the whole search was stopped.
     let mut one = |particles: usize, seed: u64, end: Duration| {
@@ -267,9 +261,7 @@ fn combine(
     }
     let total = plan.iter().sum();
     if plan.len() == 1 || lived.is_empty() {
-        let no_plan =
-            || Fault::new("no-particles", "the number of populations is 0").with_help("use at least one");
-        return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(|| no_plan().into()));
+        return lived.pop().map(|one| one.1).ok_or_else(|| died.unwrap_or_else(Failure::no_start));
     }
     let shares: Vec<Share> = lived.iter().map(|(size, one)| Share::of(*size, one)).collect();
     let (log_normaliser, shifts) = united(&shares, total);

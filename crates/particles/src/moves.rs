@@ -3,8 +3,8 @@
 
 use crate::partial_run::{Choice, Densities, FollowSettings, PartialRun};
 use crate::rejuvenation::{Mover, Round};
-use niwaki_chain::block;
-use niwaki_chain::block::Block;
+use niwaki_chain::leaf::block;
+use niwaki_chain::leaf::block::Block;
 use niwaki_chain::leaf::{Leaf, Target};
 use niwaki_chain::walk::accept::{Terms, accepts, selected};
 use niwaki_chain::walk::counts::Count;

@@ -13,7 +13,7 @@
 //! To go on until one survives and then make all sweeps would be biased: the number of populations would depend on the
 //! estimates.
 
-use crate::gibbs::{Chain, check_chain, draw_index, sweep_seed};
+use crate::gibbs::{Chain, draw_index, sweep_seed};
 use crate::many::Watch;
 use crate::settings::Settings;
 use crate::smc::run;
@@ -27,14 +27,13 @@ use niwaki_run::{Failure, Task};
 /// far are returned.
 ///
 /// # Errors
-/// Settings that a chain cannot have, a fault of the program, or populations that all died.
+/// A fault of the program, or populations that all died.
 pub fn pimh(
     task: &Task,
     settings: &Settings,
     sweeps: usize,
     watch: &mut Watch<'_>,
 ) -> Result<Chain, Failure> {
-    check_chain(settings, sweeps)?;
     let mut chain = Chain::default();
     let mut estimates = Vec::new();
     let mut first_death = None;

@@ -60,7 +60,6 @@ pub(super) struct Counts {
 impl<'a> Population<'a> {
     /// A population that has not begun. `serial` keeps it on one thread, because other populations use the others.
     pub fn start(task: &Task, settings: &'a Settings, serial: bool) -> Result<Self, Failure> {
-        settings.check()?;
         let mut first = task.start(&task.machine(), settings.order == Order::DepthFirst)?;
         if let Some(proposal) = &settings.proposal {
             proposal.check(&task.program)?;
@@ -80,7 +79,6 @@ impl<'a> Population<'a> {
 
     /// A population whose particles go on from a paused one.
     pub fn go_on(task: &Task, settings: &'a Settings, from: &mut Particle) -> Result<Self, Failure> {
-        settings.check()?;
         let (state, past) = (from.state.clone(), from.past.clone());
         let first = Particle::start(state, from.record.fork(), 0, settings.seed);
         Population::of(task, settings, true, Particle { past, ..first })

@@ -5,7 +5,7 @@ use niwaki_propose::look_ahead::LookAhead;
 use niwaki_propose::proposal::Proposal;
 use niwaki_run::order::Order;
 use niwaki_run::resampling::Resampling;
-use niwaki_vm::fault::Fault;
+use niwaki_run::setting::{BETWEEN, FROM_ZERO, POSITIVE, Range, Ranges, SHARE};
 use serde::{Deserialize, Deserializer};
 use std::sync::{Arc, LazyLock};
 
@@ -68,36 +68,6 @@ pub struct Rejuvenation {
     pub final_chains: Option<FinalChains>,
 }
 
-impl Rejuvenation {
-    /// Refuses settings that make no sense.
-    fn check(&self, weights: Weights) -> Result<(), Fault> {
-        if weights == Weights::Absolute {
-            return Err(Fault::new(
-                "bad-setting",
-                "absolute weights have no target distribution, which a move needs",
-            )
-            .with_help("use ratio weights"));
-        }
-        let none = self.final_chains.is_some_and(|wanted| wanted.chains == 0 || wanted.draws == 0);
-        if self.moves == 0 || self.at == Moment::Every(0) || none {
-            return Err(Fault::new("bad-setting", "a number of moves, barriers, chains or draws is 0")
-                .with_help("use at least one"));
-        }
-        if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
-            let what = "an annealing kernel changes the distribution of the particles";
-            return Err(Fault::new("bad-kernel", what)
-                .with_help("anneal the particles, and move them by the kernel inside `anneal`"));
-        }
-        let follows = |part: &Kernel| matches!(part, Kernel::Leaf(own) if own.trajectory().is_some());
-        if self.at != Moment::End && self.kernel.any(&follows) {
-            let what = "a particle that still runs has no gradient to follow";
-            return Err(Fault::new("bad-kernel", what)
-                .with_help("move the particles at the end, or without `hmc_step()` and `nuts_step()`"));
-        }
-        Ok(())
-    }
-}
-
 /// Chains from a few particles of the final set, instead of moves of all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FinalChains {
@@ -156,6 +126,18 @@ fn lanes() -> bool {
     *USED
 }
 
+impl Settings {
+    /// Ranges of the settings that are read as data.
+    pub const RANGES: Ranges = &[
+        ("order", Range::Either(&[Range::Words(&["stochastic", "depth-first"]), Range::Table(None)])),
+        ("weights", Range::Words(&["ratio", "absolute"])),
+        ("power", POSITIVE),
+        ("anneal", Range::Optional(&Range::Either(&[BETWEEN, Range::List(&FROM_ZERO)]))),
+        ("resampling", Range::Words(&["systematic", "residual", "stratified", "multinomial", "tempered"])),
+        ("ess", Range::Optional(&SHARE)),
+    ];
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Settings {
@@ -172,91 +154,5 @@ impl Default for Settings {
             lanes: lanes(),
             seed: 0,
         }
-    }
-}
-
-impl Settings {
-    /// Refuses settings that make no sense.
-    ///
-    /// # Errors
-    /// No particles, a power that is not positive, a threshold outside `[0, 1]`, a schedule of powers that is
-    /// empty; beside absolute weights a schedule, a proposal, moves, tempered resampling or look-ahead; beside look-ahead moves
-    /// of particles that still run.
-    pub fn check(&self) -> Result<(), Fault> {
-        if self.particles == 0 {
-            return Err(
-                Fault::new("no-particles", "the number of particles is 0").with_help("use at least one")
-            );
-        }
-        if !(self.power > 0.0 && self.power.is_finite()) {
-            return Err(Fault::new("bad-power", format!("the power is {}", self.power))
-                .with_help("use a positive number: 1 for the posterior, more to sharpen the search"));
-        }
-        if let When::EffectiveBelow(share) = self.when
-            && !(0.0..=1.0).contains(&share)
-        {
-            return Err(Fault::new("bad-threshold", format!("the resampling threshold is {share}"))
-                .with_help("use a share of the particles between 0 and 1"));
-        }
-        if self.proposal.is_some() && self.weights == Weights::Absolute {
-            return Err(Fault::new("bad-setting", "absolute weights do not count what a proposal drew")
-                .with_help("use ratio weights, or no proposal"));
-        }
-        if self.resampling == Resampling::Tempered && self.weights == Weights::Absolute {
-            return Err(Fault::new(
-                "bad-setting",
-                "absolute weights carry nothing from one barrier to the next",
-            )
-            .with_help("use ratio weights, or another resampling than \"tempered\""));
-        }
-        if let Some(own) = &self.look_ahead {
-            self.check_look_ahead(own)?;
-        }
-        if let Some(policy) = self.order.policy() {
-            policy.check()?;
-        }
-        if let Some(rejuvenation) = &self.rejuvenate {
-            rejuvenation.check(self.weights)?;
-        }
-        let (fits, given) = match &self.anneal {
-            Anneal::Constant => return Ok(()),
-            Anneal::Schedule(powers) => {
-                let fits = !powers.is_empty() && powers.iter().all(|t| *t >= 0.0 && t.is_finite());
-                (fits, format!("{powers:?}"))
-            }
-            Anneal::Adaptive(share) => (*share > 0.0 && *share < 1.0, share.to_string()),
-        };
-        if !fits {
-            return Err(Fault::new("bad-anneal", format!("the schedule of powers is {given}"))
-                .with_help("give the power at each barrier, or a share of the particles between 0 and 1"));
-        }
-        if self.weights == Weights::Absolute {
-            return Err(Fault::new("bad-anneal", "absolute weights have no schedule of powers")
-                .with_help("use ratio weights"));
-        }
-        Ok(())
-    }
-
-    fn check_look_ahead(&self, own: &LookAhead) -> Result<(), Fault> {
-        if !(own.strength > 0.0 && own.strength.is_finite()) {
-            return Err(Fault::new(
-                "bad-setting",
-                format!("the strength of the look-ahead is {}", own.strength),
-            )
-            .with_help("use a positive number, such as 0.2"));
-        }
-        if self.weights == Weights::Absolute {
-            return Err(Fault::new(
-                "bad-setting",
-                "absolute weights carry nothing on that a forecast could be taken back from",
-            )
-            .with_help("use ratio weights, or no look-ahead"));
-        }
-        if self.rejuvenate.as_ref().is_some_and(|moves| moves.at != Moment::End) {
-            let what = "particles that still run are not moved under a look-ahead";
-            return Err(Fault::new("bad-setting", what)
-                .with_help("move the particles at the end, or do not look ahead"));
-        }
-        Ok(())
     }
 }

@@ -12,7 +12,6 @@ use niwaki_run::forward::forward_by;
 use niwaki_run::record::AllInvalid;
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 
 /// Runs between two calls of `watch`.
@@ -31,7 +30,7 @@ pub struct Weighted {
 /// regularly with the number of runs; when it returns false, the runs so far are returned.
 ///
 /// # Errors
-/// A fault of the program, or of runs that are all invalid; `n` zero; runs that are all impossible.
+/// A fault of the program, or of runs that are all invalid; runs that are all impossible.
 pub fn importance(
     task: &Task,
     proposal: Option<&Proposal>,
@@ -39,11 +38,6 @@ pub fn importance(
     seed: u64,
     watch: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Weighted, Failure> {
-    if n == 0 {
-        return Err(Fault::new("no-samples", "the number of samples is 0")
-            .with_help("use at least one")
-            .into());
-    }
     if let Some(proposal) = proposal {
         proposal.check(&task.program)?;
     }

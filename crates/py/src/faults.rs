@@ -11,6 +11,8 @@ use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::Call;
+use niwaki_vm::refusal::{Expected, Range};
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
@@ -22,7 +24,7 @@ pyo3::create_exception!(
     "A fault as data.\n\n\
      Attributes: `kind`, `code`, `message`, `subject` (the address or pattern that it is about), `help`, and by kind: `stack` (function, path, (line, column, end line, \
      end column)), `omitted`, `path`, `invalid` (every run was); `barrier` or `tries`, `causes`; `blame` (constraint, place, other \
-     place or None, runs), `looked_at`, `attempts` (form, particles, barrier)."
+     place or None, runs), `looked_at`, `attempts` (form, particles, barrier); `value` (JSON) and `expected` (a rule or a range) of a refused setting."
 );
 
 /// The exception for why a search gave no result.
@@ -92,11 +94,37 @@ fn blamed<'py>(py: Python<'py>, blame: &[Blame], program: &Program) -> PyResult<
     PyList::new(py, found)
 }
 
+/// The condition of a setting: the name of a rule, or a range as `errors.settings.worded` reads it.
+fn expected<'py>(py: Python<'py>, expected: &Expected) -> PyResult<Bound<'py, PyAny>> {
+    match expected {
+        Expected::Rule(rule) => rule.into_bound_py_any(py),
+        Expected::Range(range) => range_as_tuple(py, range),
+    }
+}
+
+fn range_as_tuple<'py>(py: Python<'py>, range: &Range) -> PyResult<Bound<'py, PyAny>> {
+    match range {
+        Range::Whole { least, most } => ("whole", *least, *most).into_bound_py_any(py),
+        Range::Real { low, high, ends } => ("real", *low, *high, *ends).into_bound_py_any(py),
+        Range::Words(words) => ("words", PyTuple::new(py, *words)?).into_bound_py_any(py),
+        Range::List(range) => ("list", range_as_tuple(py, range)?).into_bound_py_any(py),
+        Range::Table(_) => ("table",).into_bound_py_any(py),
+        Range::Optional(range) => ("optional", range_as_tuple(py, range)?).into_bound_py_any(py),
+        Range::Either([first, second]) => {
+            ("either", range_as_tuple(py, first)?, range_as_tuple(py, second)?).into_bound_py_any(py)
+        }
+    }
+}
+
 fn note(facts: &Bound<'_, PyDict>, fault: &Fault, kind: &str) -> PyResult<()> {
     facts.set_item("kind", kind)?;
     facts.set_item("code", fault.code)?;
     facts.set_item("message", &fault.message)?;
     facts.set_item("subject", fault.subject.as_deref())?;
+    if let Some(refusal) = &fault.refusal {
+        facts.set_item("value", &refusal.value)?;
+        facts.set_item("expected", expected(facts.py(), &refusal.expected)?)?;
+    }
     facts.set_item("help", fault.help.as_deref())
 }
 

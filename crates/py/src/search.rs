@@ -16,8 +16,8 @@ use crate::positions::PyPlacer;
 use crate::runs::{PyRun, PyTrace};
 use crate::threads::Pool;
 use crate::values::Classes;
-use niwaki_chain::form::Attached;
-use niwaki_chain::regrow::{Afresh, afresh, is_apart};
+use niwaki_chain::form::{Attached, Form};
+use niwaki_chain::leaf::regrow::{Afresh, afresh, is_apart};
 use niwaki_chain::walk::counts::Count;
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_particles::Share;
@@ -28,9 +28,11 @@ use niwaki_propose::user::User;
 use niwaki_run::glob;
 use niwaki_run::hold::hold;
 use niwaki_run::mixed::{Place, mixed};
+use niwaki_run::order::Policy;
 use niwaki_run::record::Record;
 use niwaki_run::replay::{Missing, Source, Trace, replay};
 use niwaki_run::run::Shown;
+use niwaki_run::setting;
 use niwaki_run::{Failure, Task};
 use niwaki_search::improve::{Outputs, Round};
 use niwaki_search::method;
@@ -44,6 +46,7 @@ use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use serde::de::DeserializeOwned;
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -518,6 +521,30 @@ fn check_inside(py: Python<'_>, method: &str) -> PyResult<()> {
     checked.map_err(|fault| faults::setting(py, &fault))
 }
 
+/// Refuses a method, given as its text, with a setting that it cannot have.
+#[pyfunction]
+fn check_method(py: Python<'_>, method: &str) -> PyResult<()> {
+    Method::read(method).map(|_| ()).map_err(|fault| faults::setting(py, &fault))
+}
+
+/// Refuses a kernel, given as its text, with a setting that it cannot have. Its parts are not checked.
+#[pyfunction]
+fn check_kernel(py: Python<'_>, kernel: &str) -> PyResult<()> {
+    let form: Form = parsed(py, kernel)?;
+    form.check().map_err(|fault| faults::setting(py, &fault))
+}
+
+/// Refuses an order of futures, given as its text, with a number that it cannot have.
+#[pyfunction]
+fn check_order(py: Python<'_>, order: &str) -> PyResult<()> {
+    setting::check(Policy::RANGES, &parsed(py, order)?).map_err(|fault| faults::setting(py, &fault))
+}
+
+fn parsed<T: DeserializeOwned>(py: Python<'_>, text: &str) -> PyResult<T> {
+    let fault = |error: serde_json::Error| Fault::new("bad-setting", error.to_string());
+    serde_json::from_str(text).map_err(|error| faults::setting(py, &fault(error)))
+}
+
 /// Whether a pattern matches a readable address.
 #[pyfunction]
 fn matches(pattern: &str, address: &str) -> bool {
@@ -560,6 +587,9 @@ fn united(lived: Vec<(usize, Option<f64>, Vec<f64>)>, total: usize) -> (Option<f
 /// Puts this part into the module.
 pub fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(check_inside, module)?)?;
+    module.add_function(wrap_pyfunction!(check_kernel, module)?)?;
+    module.add_function(wrap_pyfunction!(check_method, module)?)?;
+    module.add_function(wrap_pyfunction!(check_order, module)?)?;
     module.add_function(wrap_pyfunction!(fingerprint, module)?)?;
     module.add_function(wrap_pyfunction!(population, module)?)?;
     module.add_function(wrap_pyfunction!(united, module)?)?;

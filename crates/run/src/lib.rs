@@ -33,6 +33,7 @@ pub mod replay;
 pub mod resampling;
 pub mod run;
 pub mod select;
+pub mod setting;
 pub mod streams;
 pub mod task;
 pub mod weights;

@@ -12,8 +12,8 @@
 //! probability never enters a weight (dissertation 5.3.1 and appendix C). It counts in one place: particle Gibbs draws
 //! ancestors for a held run, whose order is then less likely after some prefixes than after others.
 
+use crate::setting::{Range, Ranges};
 use niwaki_vm::code::Program;
-use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::state::{FutureId, State};
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
@@ -81,22 +81,18 @@ pub struct Policy {
     pub stay: f64,
 }
 
-/// The largest number of a policy, either sign: beyond it the other futures have no chance that a search could see.
-const LARGEST: f64 = 50.0;
+/// Numbers of a policy. Beyond them the other futures have no chance that a search could see.
+const NUMBER: Range = Range::Real { low: -50.0, high: 50.0, ends: "[]" };
 
 impl Policy {
-    /// Refuses numbers that are none, or too large.
-    ///
-    /// # Errors
-    /// Such a number.
-    pub fn check(&self) -> Result<(), Fault> {
-        let own = [self.depth, self.turns, self.waited, self.stay];
-        match self.functions.values().chain(&own).find(|x| x.is_nan() || x.abs() > LARGEST) {
-            None => Ok(()),
-            Some(x) => Err(Fault::new("bad-setting", format!("a number of the order policy is {x}"))
-                .with_help("use numbers between -50 and 50")),
-        }
-    }
+    /// Ranges of its numbers.
+    pub const RANGES: Ranges = &[
+        ("depth", NUMBER),
+        ("turns", NUMBER),
+        ("waited", NUMBER),
+        ("stay", NUMBER),
+        ("functions", Range::Table(Some(&NUMBER))),
+    ];
 }
 
 /// What a policy has seen of a future.

@@ -8,13 +8,14 @@ use crate::direct::normals;
 use crate::improve::{Improve, Improved, Outputs};
 use niwaki_chain::form::{Attached, Form};
 use niwaki_chain::kernel::Kernel;
+use niwaki_chain::leaf::trajectory::DOUBLINGS;
 use niwaki_continuous::hamiltonian;
 use niwaki_continuous::hamiltonian::chains::Length;
 use niwaki_continuous::hamiltonian::{Metric, Shape};
 use niwaki_continuous::variational::family::Family;
 use niwaki_particles::{
-    Ancestors, FinalChains, Moment, Progress, Rejuvenation, Settings, particle_gibbs, pimh, populations,
-    within,
+    Ancestors, Anneal, FinalChains, Moment, Progress, Rejuvenation, Settings, Weights, particle_gibbs, pimh,
+    populations, within,
 };
 use niwaki_propose::importance::importance;
 use niwaki_propose::look_ahead::LookAhead;
@@ -28,14 +29,23 @@ use niwaki_run::record::AllInvalid;
 use niwaki_run::rejection::rejection;
 use niwaki_run::resampling::Resampling;
 use niwaki_run::run::Run;
+use niwaki_run::setting;
+use niwaki_run::setting::{
+    BETWEEN, COUNT, FINITE, FROM_ZERO, POSITIVE, Range, Ranges, SHARE, SMALL_COUNT, whole,
+};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::kept::Strategy;
+use niwaki_vm::refusal::Expected;
 use niwaki_vm::value::Value;
 use serde::Deserialize;
+use serde_json::Map;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+
+/// A count in 32 bits, or 0.
+const SMALL: Range = Range::Whole { least: 0, most: u32::MAX as u64 };
 
 /// Approximate number of samples that a chain keeps by default.
 const KEPT: u64 = 1000;
@@ -60,6 +70,9 @@ pub enum Method {
     Vi(Vi),
 }
 
+/// A setting and the rule about several settings that it breaks.
+pub(crate) type BrokenRule = (&'static str, &'static str);
+
 /// Unknown settings, which a method refuses.
 type Rest = BTreeMap<String, serde_json::Value>;
 
@@ -72,6 +85,16 @@ pub struct Ais {
     kernel: Option<Form>,
     moves: u64,
     tries: u64,
+}
+
+impl Ais {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[
+        ("particles", whole(2)),
+        ("powers", Range::Either(&[COUNT, Range::List(&POSITIVE)])),
+        ("moves", COUNT),
+        ("tries", COUNT),
+    ];
 }
 
 /// Sequential Monte Carlo.
@@ -88,6 +111,20 @@ pub struct Smc {
     chains: usize,
     #[serde(flatten)]
     common: Populations,
+}
+
+impl Smc {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[
+        ("particles", Range::Either(&[COUNT, Range::List(&COUNT)])),
+        ("populations", Range::Optional(&COUNT)),
+        ("diverse", Range::Optional(&COUNT)),
+        ("seconds", Range::Optional(&POSITIVE)),
+        ("moves", COUNT),
+        ("at", Range::Either(&[COUNT, Range::Words(&["resampled", "end"])])),
+        ("draws", Range::Optional(&COUNT)),
+        ("chains", COUNT),
+    ];
 }
 
 /// Sizes of populations.
@@ -108,6 +145,16 @@ pub struct ParticleGibbs {
     common: Populations,
 }
 
+impl ParticleGibbs {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[
+        ("particles", whole(2)),
+        ("sweeps", COUNT),
+        ("anneal", Range::Optional(&Range::List(&FROM_ZERO))),
+        ("resampling", Range::Words(&["multinomial", "tempered"])),
+    ];
+}
+
 /// Particle independent Metropolis-Hastings.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Pimh {
@@ -117,7 +164,13 @@ pub struct Pimh {
     common: Populations,
 }
 
-/// The settings that methods with populations share.
+impl Pimh {
+    /// Ranges of its settings.
+    const RANGES: Ranges =
+        &[("particles", COUNT), ("sweeps", COUNT), ("anneal", Range::Optional(&Range::List(&FROM_ZERO)))];
+}
+
+/// The settings that the methods with populations share.
 #[derive(Clone, Debug, Deserialize)]
 struct Populations {
     proposal: Option<Form>,
@@ -127,6 +180,11 @@ struct Populations {
     settings: Settings,
     #[serde(flatten)]
     rest: Rest,
+}
+
+impl Populations {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[("look_ahead", Range::Optional(&POSITIVE))];
 }
 
 /// Metropolis-Hastings.
@@ -146,6 +204,19 @@ pub struct Mh {
     tries: u64,
 }
 
+impl Mh {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[
+        ("steps", COUNT),
+        ("strategy", Range::Words(&["c3", "rerun", "resume", "cache"])),
+        ("chains", COUNT),
+        ("thin", Range::Optional(&COUNT)),
+        ("keep", Range::Optional(&whole(0))),
+        ("warmup", whole(0)),
+        ("tries", COUNT),
+    ];
+}
+
 /// Hamiltonian Monte Carlo.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Hmc {
@@ -160,6 +231,11 @@ pub struct Hmc {
     rest: Rest,
 }
 
+impl Hmc {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[("steps", SMALL_COUNT), ("jitter", SHARE)];
+}
+
 /// The no-U-turn sampler.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Nuts {
@@ -168,6 +244,11 @@ pub struct Nuts {
     common: Trajectories,
     #[serde(flatten)]
     rest: Rest,
+}
+
+impl Nuts {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[("max_depth", DOUBLINGS)];
 }
 
 /// The settings that HMC and NUTS share.
@@ -184,6 +265,27 @@ struct Trajectories {
     tries: u64,
 }
 
+impl Trajectories {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[
+        ("draws", SMALL_COUNT),
+        ("chains", COUNT),
+        ("warmup", SMALL),
+        ("thin", SMALL_COUNT),
+        ("target_accept", BETWEEN),
+        (
+            "metric",
+            Range::Either(&[
+                Range::Words(&["diagonal", "dense", "low-rank", "unit"]),
+                Range::Either(&[Range::List(&POSITIVE), Range::List(&Range::List(&FINITE))]),
+            ]),
+        ),
+        ("step_size", Range::Optional(&POSITIVE)),
+        ("climb", SMALL),
+        ("tries", COUNT),
+    ];
+}
+
 /// The metric of chains.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
@@ -197,23 +299,17 @@ enum MetricForm {
 }
 
 impl MetricForm {
-    /// The shape to fit, and a constant metric.
-    fn read(&self) -> Result<(Shape, Option<Metric>), Fault> {
+    /// The shape to fit, and the given metric; `None` for numbers that are no covariance.
+    fn read(&self) -> Option<(Shape, Option<Metric>)> {
         let metric = match self {
-            MetricForm::Fitted(shape) => return Ok((*shape, None)),
-            MetricForm::Variances(variances) => {
-                let is_sound = variances.iter().all(|v| v.is_finite() && *v > 0.0);
-                is_sound.then(|| Metric::diagonal(variances.clone()))
-            }
+            MetricForm::Fitted(shape) => return Some((*shape, None)),
+            MetricForm::Variances(variances) => Metric::diagonal(variances.clone()),
             MetricForm::Covariance(rows) if rows.iter().all(|row| row.len() == rows.len()) => {
-                Metric::dense(rows.concat())
+                Metric::dense(rows.concat())?
             }
-            MetricForm::Covariance(_) => None,
+            MetricForm::Covariance(_) => return None,
         };
-        let metric = metric.ok_or_else(|| {
-            bad("`metric` has numbers that are neither variances above 0 nor a covariance".into())
-        })?;
-        Ok((Shape::Unit, Some(metric)))
+        Some((Shape::Unit, Some(metric)))
     }
 }
 
@@ -229,6 +325,20 @@ pub struct Vi {
     tolerance: f64,
     paths: usize,
     tries: u64,
+}
+
+impl Vi {
+    /// Ranges of its settings.
+    const RANGES: Ranges = &[
+        ("family", Range::Words(&["mean-field", "full-rank", "pathfinder"])),
+        ("start", Range::Words(&["pathfinder", "run"])),
+        ("draws", COUNT),
+        ("steps", SMALL_COUNT),
+        ("samples", COUNT),
+        ("tolerance", POSITIVE),
+        ("paths", COUNT),
+        ("tries", COUNT),
+    ];
 }
 
 /// The normals of variational inference.
@@ -304,9 +414,14 @@ impl Method {
     /// # Errors
     /// A text that is no method, or a setting that the method does not have.
     pub fn read(text: &str) -> Result<Method, Fault> {
-        let method: Method =
-            serde_json::from_str(text).map_err(|error| bad(format!("the method {text}: {error}")))?;
-        let rest = match &method {
+        let unread = |error: serde_json::Error| bad(format!("the method {text}: {error}"));
+        let settings: Map<String, serde_json::Value> = serde_json::from_str(text).map_err(unread)?;
+        let name = settings.get("method").and_then(serde_json::Value::as_str).unwrap_or_default();
+        for ranges in Method::ranges(name) {
+            setting::check(ranges, &settings)?;
+        }
+        let method = Method::deserialize(serde_json::Value::Object(settings.clone())).map_err(unread)?;
+        let unknown = match &method {
             Method::Smc(smc) => smc.common.rest.keys().next(),
             Method::ParticleGibbs(gibbs) => gibbs.common.rest.keys().next(),
             Method::Pimh(pimh) => pimh.common.rest.keys().next(),
@@ -314,9 +429,50 @@ impl Method {
             Method::Nuts(nuts) => nuts.rest.keys().next(),
             _ => None,
         };
-        match rest {
-            Some(name) => Err(bad(format!("the method {text} has no setting `{name}`"))),
+        if let Some(name) = unknown {
+            return Err(bad(format!("the method {text} has no setting `{name}`")));
+        }
+        match method.broken_rule() {
             None => Ok(method),
+            Some((name, rule)) => Err(Fault::refused(name, settings[name].to_string(), Expected::Rule(rule))),
+        }
+    }
+
+    /// Ranges of the settings of a method, by its name.
+    fn ranges(name: &str) -> Vec<Ranges> {
+        match name {
+            "forward" => vec![&[("n", COUNT)]],
+            "enumerate_all" => vec![&[("max_runs", COUNT), ("rest", FINITE)]],
+            "rejection" => vec![&[("n", COUNT), ("bound", FINITE), ("max_tries", COUNT)]],
+            "importance" => vec![&[("n", COUNT)]],
+            "ais" => vec![Ais::RANGES],
+            "smc" => vec![Smc::RANGES, Populations::RANGES, Settings::RANGES],
+            "particle_gibbs" => vec![ParticleGibbs::RANGES, Populations::RANGES, Settings::RANGES],
+            "pimh" => vec![Pimh::RANGES, Populations::RANGES, Settings::RANGES],
+            "improve" => vec![Improve::RANGES],
+            "mh" => vec![Mh::RANGES],
+            "hmc" => vec![Hmc::RANGES, Trajectories::RANGES],
+            "nuts" => vec![Nuts::RANGES, Trajectories::RANGES],
+            "vi" => vec![Vi::RANGES],
+            _ => vec![],
+        }
+    }
+
+    /// The first setting that breaks a rule about several settings, and the rule.
+    fn broken_rule(&self) -> Option<BrokenRule> {
+        match self {
+            Method::Ais(own) => own.broken_rule(),
+            Method::Smc(own) => own.broken_rule(),
+            Method::Improve(own) => own.broken_rule(),
+            Method::Mh(own) => (own.warmup >= own.steps).then_some(("warmup", "warmup-steps")),
+            Method::Hmc(Hmc { common, .. }) | Method::Nuts(Nuts { common, .. }) => {
+                common.metric.read().is_none().then_some(("metric", "metric-numbers"))
+            }
+            Method::Vi(own) => {
+                let is_path = matches!(own.family, Normals::Pathfinder);
+                (is_path && own.start == normals::Start::Run).then_some(("start", "pathfinder-start"))
+            }
+            _ => None,
         }
     }
 
@@ -439,7 +595,8 @@ impl Method {
             Method::Nuts(nuts) => (Length::NoUTurn { max_depth: nuts.max_depth }, &nuts.common),
             _ => return Ok(None),
         };
-        let (shape, metric) = common.metric.read()?;
+        let read = common.metric.read();
+        let (shape, metric) = read.ok_or_else(|| bad("`metric` is no covariance".into()))?;
         let settings = hamiltonian::Settings {
             length,
             climb: common.climb,
@@ -508,11 +665,19 @@ impl Method {
 }
 
 impl Ais {
+    fn broken_rule(&self) -> Option<BrokenRule> {
+        let has_powers = |kernel: &Form| kernel.has(&["anneal", "tempering"]);
+        if !self.powers.rise() {
+            return Some(("powers", "powers-rising"));
+        }
+        self.kernel.as_ref().is_some_and(has_powers).then_some(("kernel", "kernel-powers"))
+    }
+
     fn settings(&self, inputs: &Inputs<'_>) -> Result<annealed::Settings, Fault> {
         let kernel = self.kernel.as_ref().map(|form| form.kernel(inputs.attached)).transpose()?;
         Ok(annealed::Settings {
             particles: self.particles,
-            powers: self.powers.ladder()?,
+            powers: self.powers.ladder(),
             kernel: kernel.unwrap_or(Kernel::PRIOR),
             moves: self.moves,
             tries: self.tries,
@@ -522,7 +687,43 @@ impl Ais {
 }
 
 impl Smc {
-    /// The settings of the populations.
+    fn broken_rule(&self) -> Option<BrokenRule> {
+        let common = &self.common;
+        let (is_absolute, has_sizes) =
+            (common.settings.weights == Weights::Absolute, matches!(self.particles, Sizes::Own(_)));
+        let moved = self.rejuvenate.as_ref();
+        let rules = [
+            (self.seconds.is_some() && self.populations.is_some(), "populations", "seconds-alone"),
+            (self.seconds.is_some() && has_sizes, "particles", "seconds-alone"),
+            (self.populations.is_some() && has_sizes, "populations", "sizes-alone"),
+            (
+                is_absolute && common.settings.resampling == Resampling::Tempered,
+                "resampling",
+                "tempered-absolute",
+            ),
+            (is_absolute && common.proposal.is_some(), "proposal", "proposal-absolute"),
+            (is_absolute && moved.is_some(), "rejuvenate", "moves-absolute"),
+            (is_absolute && common.settings.anneal != Anneal::Constant, "anneal", "anneal-absolute"),
+            (moved.is_none() && self.draws.is_some(), "draws", "draws-kernel"),
+            (self.draws.is_none() && self.chains != 1, "chains", "chains-draws"),
+            (moved.is_none() && self.moves != 1, "moves", "moves-kernel"),
+            (moved.is_none() && self.at != Moment::Every(1), "at", "moves-kernel"),
+            (moved.is_some_and(|form| form.has(&["anneal", "tempering"])), "rejuvenate", "moves-powers"),
+            (
+                self.at != Moment::End && moved.is_some_and(|form| form.has(&["hmc_step", "nuts_step"])),
+                "rejuvenate",
+                "gradient-end",
+            ),
+            (
+                common.look_ahead.is_some() && moved.is_some() && self.at != Moment::End,
+                "look_ahead",
+                "look-ahead-moves",
+            ),
+        ];
+        rules.into_iter().find(|(is_broken, ..)| *is_broken).map(|(_, name, rule)| (name, rule))
+    }
+
+    /// The settings of its populations.
     fn settings(&self, inputs: &Inputs<'_>) -> Result<Settings, Fault> {
         let rejuvenate = match &self.rejuvenate {
             None => None,

@@ -7,15 +7,16 @@
 //! A fault is one pointer wide, so that `Result<Value, Fault>` is no larger than a value: every arithmetic
 //! instruction returns one.
 
+use crate::refusal::{Expected, Refusal};
 use std::fmt;
 use std::ops::Deref;
 
 /// Why a run stopped. Its fields are read through [`Details`].
-#[derive(Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq)]
 pub struct Fault(Box<Details>);
 
 /// The fields of a fault.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Details {
     /// Kebab-case key of the kind of fault (`list-index`, `division-by-zero`, ...).
     pub code: &'static str,
@@ -28,6 +29,8 @@ pub struct Details {
     /// The call that has no result for its arguments and so makes the run *invalid*: see
     /// [`crate::machine::invalid`]. `None` for faults that do not make a run invalid.
     pub invalid: Option<InvalidCall>,
+    /// The value of the setting `subject` that is refused, where that is the fault.
+    pub refusal: Option<Refusal>,
 }
 
 /// A call of a distribution, a shape or a host function that has no result, although its arguments are of the
@@ -123,7 +126,16 @@ impl Fault {
     /// A fault of any kind.
     #[cold]
     pub fn new(code: &'static str, message: impl Into<String>) -> Fault {
-        Fault(Box::new(Details { code, message: message.into(), subject: None, help: None, invalid: None }))
+        let message = message.into();
+        Fault(Box::new(Details { code, message, subject: None, help: None, invalid: None, refusal: None }))
+    }
+
+    /// A value, as JSON, that a setting cannot have.
+    #[cold]
+    pub fn refused(setting: &str, value: String, expected: Expected) -> Fault {
+        let mut fault = Fault::new("bad-setting", format!("`{setting}` cannot be {value}")).about(setting);
+        fault.0.refusal = Some(Refusal { value, expected });
+        fault
     }
 
     /// An operation without a derivative gets a number that varies with the continuous choices.

@@ -17,4 +17,5 @@ pub mod fault;
 pub mod machine;
 mod native;
 pub mod passes;
+pub mod refusal;
 pub mod value;

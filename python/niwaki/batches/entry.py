@@ -23,7 +23,7 @@ from niwaki.errors import InputError
 from niwaki.errors.settings import bad
 from niwaki.inputs.modules import files
 from niwaki.lang.models import Model
-from niwaki.search import Search, asked
+from niwaki.search import Search, grow_search
 from niwaki.targets.target import Target
 
 
@@ -147,7 +147,7 @@ class Table:
         for values in product(*axes.values()):
             own = dict(zip(axes, values, strict=True))
             labels.append({name: label(value) for name, value in own.items()})
-            searches.append(asked(model, own.pop("target", target), *args, seed=0, **settings, **own))
+            searches.append(grow_search(model, own.pop("target", target), *args, seed=0, **settings, **own))
         return cls(searches, labels)
 
     def spec(self, seeds: Any) -> Spec:

@@ -26,8 +26,8 @@ from niwaki.result.info import Count, Losses, PopulationInfo
 from niwaki.result.invalid import merged
 from niwaki.result.search_like import SearchLike
 from niwaki.search import Search
-from niwaki.search.carrying import carried_out
-from niwaki.search.searching import Clock, different
+from niwaki.search.engine_runs import Clock, distinct
+from niwaki.search.execution import execute
 
 #: The fault of a population whose particles have all become impossible: it counts, with an estimate of zero.
 DIED = "everything-impossible"
@@ -72,7 +72,7 @@ def spread(
     def one(_: SearchLike, seed: int, *rest: Any) -> Result:
         return _populations(search, method, seed, folder, workers)
 
-    return carried_out(search, None, None, once=one)
+    return execute(search, None, None, runner=one)
 
 
 def _populations(
@@ -98,7 +98,7 @@ def _populations(
     invalid = merged(*(outcome.result.invalid for outcome in lived.values()))
     runs, info = _united(search, method, lived)
     if method.diverse is not None:
-        runs = different(runs, method.diverse, info)
+        runs = distinct(runs, method.diverse, info)
     seconds = clock.read()
     return Result(
         search,

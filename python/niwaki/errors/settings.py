@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Mapping
 from math import inf, isfinite
 from typing import Any, NoReturn
 
 from niwaki.errors.kinds import InputError
+from niwaki.errors.texts.rules import RULES
+
+#: The values that a setting can have, as the engine describes them: `("whole", least, most)`,
+#: `("real", low, high, ends)`, `("words", words)`, `("list", range)`, `("table",)`, `("optional", range)` or
+#: `("either", range, range)`.
+Range = tuple[Any, ...]
 
 #: The largest count: the engine counts in 64 bits.
 MOST = 2**63 - 1
+
+#: Counts of the engine that are smaller have a limit that people should know.
+THIRTY_TWO_BITS = 2**32 - 1
 
 #: Default limits of a run: steps (calls and loop iterations), and bytes.
 MAX_STEPS, MAX_MEMORY = 20_000_000, 1 << 30
@@ -65,11 +75,8 @@ def count(name: str, value: Any, least: int = 1, most: int = MOST, usual: str | 
     """
     if is_whole(value) and least <= value <= most:
         return int(value)
-    if is_whole(value) and value > most:
-        raise bad(name, value, f"at most {most}", usual or "a smaller number")
-    expected = {0: "a whole number, 0 or more", 1: "a whole number above 0"}
-    suggestion = usual or ("0" if least == 0 else f"{least} or more")
-    raise bad(name, value, expected.get(least, f"a whole number, at least {least}"), suggestion)
+    range = ("whole", least, most)
+    raise bad(name, value, worded(range, value), usual or example(range))
 
 
 def real(
@@ -99,14 +106,84 @@ def real(
         above = value >= low if ends[0] == "[" else value > low
         if above and (value <= high if ends[1] == "]" else value < high):
             return float(value)
-    if high < inf:
-        form = {"()": "between {} and {}", "(]": "above {}, at most {}", "[)": "from {} to below {}"}
-        expected = f"a number {form.get(ends, 'from {} to {}').format(f'{low:g}', f'{high:g}')}"
-    elif low > -inf:
-        expected = f"a finite number {'above {:g}' if ends[0] == '(' else 'from {:g} on'}".format(low)
+    raise bad(name, value, worded(("real", low, high, ends)), usual)
+
+
+def worded(range: Range, value: Any = None) -> str:
+    """Describe a range in a message about a value."""
+    match range:
+        case ("whole", _, most) if is_whole(value) and value > most:
+            return f"at most {most}"
+        case ("whole", least, most) if most < THIRTY_TWO_BITS:
+            return f"a whole number from {least} to {most}"
+        case ("whole", least, _):
+            special = {0: "a whole number, 0 or more", 1: "a whole number above 0"}
+            return special.get(least, f"a whole number, at least {least}")
+        case ("real", low, high, ends) if high < inf:
+            form = {"()": "between {} and {}", "(]": "above {}, at most {}", "[)": "from {} to below {}"}
+            return f"a number {form.get(ends, 'from {} to {}').format(f'{low:g}', f'{high:g}')}"
+        case ("real", low, _, ends) if low > -inf:
+            return f"a finite number {'above {:g}' if ends[0] == '(' else 'from {:g} on'}".format(low)
+        case ("words", words):
+            return "one of " + ", ".join(f'"{word}"' for word in words)
+        case ("list", inner):
+            return f"a list, each entry {worded(inner)}"
+        case ("table",):
+            return "a table"
+        case ("optional", inner):
+            return f"None or {worded(inner, value)}"
+        case ("either", first, second):
+            return f"{worded(first, value)}, or {worded(second, value)}"
+        case _:
+            return "a finite number"
+
+
+def example(range: Range) -> str:
+    """Write a value of a range."""
+    match range:
+        case ("whole", least, _):
+            return "0" if least == 0 else f"{least} or more"
+        case ("real", low, high, _):
+            return f"{(low + high) / 2:g}" if high < inf else "0.5" if low >= 0 else "0"
+        case ("words", words):
+            return f'"{words[0]}"'
+        case ("list", inner):
+            return "such a list" if inner[0] == "list" else f"[{example(inner)}]"
+        case ("optional" | "either", inner, *_):
+            return example(inner)
+        case _:
+            return "such a value"
+
+
+def refused(fault: Any, values: Mapping[str, Any], defaults: Mapping[str, Any]) -> InputError:
+    """Word the engine's refusal of a setting.
+
+    Parameters
+    ----------
+    fault
+        The engine's fault.
+    values
+        The settings as a person gave them, by name.
+    defaults
+        Their defaults, which a message suggests.
+    """
+    expected = getattr(fault, "expected", None)
+    if expected is None:
+        return InputError("setting-refused", detail=fault.message, cure=fault.help or "use another value")
+    name = fault.subject
+    value = shown(values[name]) if name in values else fault.value
+    if isinstance(expected, str):
+        words, suggestion = RULES[expected]
     else:
-        expected = "a finite number"
-    raise bad(name, value, expected, usual)
+        words, default = worded(expected, values.get(name)), defaults.get(name)
+        suggestion = (
+            example(expected)
+            if default is None
+            else f'"{default}"'
+            if isinstance(default, str)
+            else repr(default)
+        )
+    return InputError("bad-setting", name=name, found=value, expected=words, suggestion=suggestion)
 
 
 def usual_threads() -> int | None:

@@ -10,8 +10,8 @@ from niwaki import _engine
 from niwaki.errors.schema import fitted
 from niwaki.guides.report import Round
 from niwaki.methods import Guide
-from niwaki.search.checkpoint import understood
-from niwaki.search.keeping import Keeper, Stage
+from niwaki.search.checkpoint import reading
+from niwaki.search.keeper import Keeper, Stage
 
 
 class Memory:
@@ -32,7 +32,7 @@ class Memory:
         data = None if self.keeper is None else self.keeper.get(f"{number}/done")
         if self.keeper is None or data is None:
             return None
-        with understood(self.keeper.path):
+        with reading(self.keeper.path):
             tables = {
                 name: [tuple(one) for one in data["round"][name]] for name in ("losses", "bounds", "lost")
             }
@@ -51,7 +51,7 @@ class Memory:
     def traces(self, number: int) -> Sequence[str | None]:
         """The runs of the searches of a round that are done, as data; None for those that gave no trace."""
         if self.keeper is not None and number not in self._texts:
-            with understood(self.keeper.path):
+            with reading(self.keeper.path):
                 self._texts[number] = fitted(self.keeper.get(f"{number}/traces") or [], list[str | None])
         return tuple(self._texts.get(number, ()))
 

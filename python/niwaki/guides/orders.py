@@ -24,10 +24,11 @@ from niwaki.errors import InputError
 from niwaki.errors.settings import bad
 from niwaki.lang.models import Model, as_model
 from niwaki.methods import FutureOrder, Smc, at_least_one, smc
-from niwaki.methods.order import LARGEST
 from niwaki.search import Search
 from niwaki.search.checks import check_seed, check_threads, fresh
 
+#: The largest number of an order that is tried; the engine refuses larger ones.
+LARGEST = 50.0
 #: Numbers of an order beside those of its functions.
 FEATURES = ("depth", "turns", "waited", "stay")
 #: The share of the orders of a round that the next one is fitted to.

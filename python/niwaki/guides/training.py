@@ -27,11 +27,11 @@ from niwaki.methods import Guide, Method, kernels, smc
 from niwaki.methods.room import SEARCH
 from niwaki.result import Sample
 from niwaki.search import Search
-from niwaki.search.checkpoint import Checkpoint, begun_seed
+from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, check_threads, fresh
 from niwaki.search.data import source_hash, text_hash
-from niwaki.search.keeping import Keeper, Stage
-from niwaki.search.worth import SearchWarning
+from niwaki.search.keeper import Keeper, Stage
+from niwaki.search.warnings import SearchWarning
 from niwaki.targets.sketches import Score
 
 #: Of the targets, one in so many judges where none is named.
@@ -142,7 +142,7 @@ def train_guide(
     >>> guide.report["rounds"][0]["wanted"]
     8
     """
-    model, seed = as_model(model), fresh(begun_seed(seed, checkpoint))
+    model, seed = as_model(model), fresh(resumed_seed(seed, checkpoint))
     training = training or Training()
     check_seed(seed)
     everything = list(targets)

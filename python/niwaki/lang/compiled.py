@@ -12,7 +12,7 @@ from typing import Any
 from niwaki import _engine
 from niwaki.errors import InputError, ModelFault
 from niwaki.errors.messages import MESSAGES
-from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count
+from niwaki.errors.settings import MAX_MEMORY, MAX_STEPS, bad, count, refused
 from niwaki.lang import vocabulary
 from niwaki.lang.blame import Blame, marked
 from niwaki.lang.core import Core
@@ -181,8 +181,7 @@ def _error(fault: Any, name: str, replay: str, choices: Mapping[str, Any]) -> Ex
             attempts=_tried(fault.attempts),
         )
     if fault.code not in MESSAGES or MESSAGES[fault.code].names - {"detail"}:
-        # The table's message has names that only Python knows, for a value that Python should have checked.
-        return InputError("setting-refused", detail=fault.message, cure=fault.help or "use another value")
+        return refused(fault, {}, {})
     return InputError(fault.code, detail=fault.message)
 
 

@@ -16,7 +16,7 @@ room        whether the counts of a method fit into memory
 """
 
 from niwaki.methods.annealed import Ais, ais
-from niwaki.methods.chains import STRATEGIES, Mh, mh
+from niwaki.methods.chains import Mh, mh
 from niwaki.methods.checks import at_least_one
 from niwaki.methods.direct import (
     EnumerateAll,
@@ -28,16 +28,13 @@ from niwaki.methods.direct import (
     importance,
     rejection,
 )
-from niwaki.methods.gradients import METRICS, Hmc, Nuts, explore, hmc, nuts
+from niwaki.methods.gradients import Hmc, Nuts, explore, hmc, nuts
 from niwaki.methods.guide import Guide
 from niwaki.methods.improve import Improve, improve
 from niwaki.methods.method import Method
-from niwaki.methods.normals import FAMILIES, STARTS, Vi, vi
+from niwaki.methods.normals import Vi, vi
 from niwaki.methods.order import FutureOrder
 from niwaki.methods.particles import (
-    ORDERS,
-    RESAMPLING,
-    WEIGHTS,
     ParticleGibbs,
     Pimh,
     Smc,
@@ -47,13 +44,6 @@ from niwaki.methods.particles import (
 )
 
 __all__ = [
-    "FAMILIES",
-    "METRICS",
-    "ORDERS",
-    "RESAMPLING",
-    "STARTS",
-    "STRATEGIES",
-    "WEIGHTS",
     "Ais",
     "EnumerateAll",
     "Forward",

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from niwaki.errors.settings import bad, is_number
-from niwaki.methods.checks import at_least_one
-from niwaki.methods.checks import particles as check_particles
+from niwaki.methods.checks import is_kernel
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
+from niwaki.methods.refusals import as_real
 
 
 @dataclass(frozen=True)
@@ -45,31 +43,10 @@ class Ais(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        check_particles(self.particles, 2)
-        self._set("powers", _ladder(self.powers))
-        for name in ("moves", "tries"):
-            at_least_one(name, getattr(self, name))
-        kernel: Any = self.kernel
-        if kernel is None:
-            return
-        if not isinstance(kernel, Kernel):
-            raise bad("kernel", kernel, "a kernel", "one of `niwaki.kernels`, such as `kernels.prior()`")
-        changing = kernel.first("anneal", "tempering")
-        if changing is not None:
-            expected = "a kernel without powers of its own, which annealing and tempering have"
-            raise bad("kernel", kernel, expected, f"{changing.parts[0]!r}, and `powers=` of `ais`")
-
-
-def _ladder(powers: Any) -> int | tuple[float, ...]:
-    """The number of rungs, or the powers as numbers."""
-    if not isinstance(powers, (list, tuple)):
-        return at_least_one("powers", powers)
-    rising = all(is_number(power) for power in powers) and all(
-        low < high for low, high in zip((0.0, *powers), powers, strict=False)
-    )
-    if not rising or not powers or powers[-1] != 1:
-        raise bad("powers", powers, "a number of rungs, or powers that rise from above 0 to 1", "100")
-    return tuple(map(float, powers))
+        if isinstance(self.powers, (list, tuple)):
+            self._set("powers", tuple(map(as_real, self.powers)))
+        is_kernel("kernel", self.kernel)
+        self._check()
 
 
 ais = Ais

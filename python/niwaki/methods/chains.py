@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.errors.settings import bad
-from niwaki.methods.checks import at_least_one, from_zero, one_of
+from niwaki.methods.checks import is_kernel
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
-
-STRATEGIES = ("c3", "rerun", "resume", "cache")
 
 
 @dataclass(frozen=True)
@@ -51,23 +48,8 @@ class Mh(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        for name in ("steps", "chains", "tries"):
-            at_least_one(name, getattr(self, name))
-        if self.thin is not None:
-            at_least_one("thin", self.thin)
-        if self.keep is not None:
-            from_zero("keep", self.keep)
-        from_zero("warmup", self.warmup)
-        if self.warmup >= self.steps:
-            raise bad("warmup", self.warmup, "fewer proposals than `steps`", repr(self.steps // 5))
-        one_of("strategy", self.strategy, STRATEGIES)
-        if self.kernel is not None and not isinstance(self.kernel, Kernel):
-            raise bad(
-                "kernel",
-                self.kernel,
-                "a kernel",
-                "one of `niwaki.kernels`, such as `kernels.drift()`",
-            )
+        is_kernel("kernel", self.kernel, "kernels.drift()")
+        self._check()
 
 
 mh = Mh

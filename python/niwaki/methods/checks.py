@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from niwaki.errors import InputError
-from niwaki.errors.settings import bad, count, is_whole, real, shown
+from niwaki.errors.settings import bad, count, worded
 from niwaki.methods import kernels
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
@@ -17,9 +17,16 @@ def at_least_one(name: str, value: int) -> int:
     return count(name, value)
 
 
-def from_zero(name: str, value: int, usual: str = "0") -> None:
-    """Refuse what is not a whole number, 0 or more."""
-    count(name, value, 0, usual=usual)
+def one_of(name: str, value: Any, words: tuple[str, ...]) -> None:
+    """Refuse a word that is not known."""
+    if value not in words:
+        raise bad(name, value, worded(("words", words)), f'"{words[0]}"')
+
+
+def is_kernel(name: str, value: Any, usual: str = "kernels.prior()") -> None:
+    """Refuse what is neither None nor a kernel."""
+    if value is not None and not isinstance(value, Kernel):
+        raise bad(name, value, "a kernel", f"one of `niwaki.kernels`, such as `{usual}`")
 
 
 def proposal(kernel: Any) -> None:
@@ -46,17 +53,10 @@ def guided(kernel: Kernel | None, guide: Guide | None) -> Kernel | None:
     return own if kernel is None else kernels.cycle(kernel, own)
 
 
-def look_ahead(strength: float | None, proposal: Kernel | None, moves: bool = False) -> float | None:
-    """The checked strength of a look-ahead; `moves` says that particles are moved while they run."""
-    if strength is None:
-        return None
-    strength = real("look_ahead", strength, 0, usual="0.2")
-    if not any(guide.looks_ahead for guide in _guides(proposal)):
+def look_ahead(strength: Any, proposal: Kernel | None) -> None:
+    """Refuse a look-ahead that no guide of the proposal has learned."""
+    if strength is not None and not any(guide.looks_ahead for guide in _guides(proposal)):
         raise InputError("guide-ahead", detail="no guide of this search has learned to look ahead")
-    if moves:
-        expected = "None beside `rejuvenate` of particles that still run: moves would have to know it"
-        raise bad("look_ahead", strength, expected, 'None, or `at="end"`')
-    return strength
 
 
 def _guides(kernel: Kernel | None) -> Iterator[Guide]:
@@ -67,24 +67,3 @@ def _guides(kernel: Kernel | None) -> Iterator[Guide]:
         yield kernel.function
     for part in kernel.parts:
         yield from _guides(part)
-
-
-def one_of(name: str, value: str, known: tuple[str, ...]) -> None:
-    """Refuse a word that is not known."""
-    if value not in known:
-        listed = ", ".join(f'"{one}"' for one in known)
-        raise bad(name, value, f"one of {listed}", f'"{known[0]}"')
-
-
-def samples(n: int) -> None:
-    """Refuse a number of samples that is none."""
-    if is_whole(n) and n < 1:
-        raise InputError("no-samples", detail=f"n={shown(n)}")
-    count("n", n)
-
-
-def particles(n: int, least: int = 1) -> None:
-    """Refuse a number of particles that is too small."""
-    if is_whole(n) and n < 1:
-        raise InputError("no-particles", found=shown(n))
-    count("particles", n, least, usual="100")

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.errors.settings import real
-from niwaki.methods.checks import at_least_one, samples
 from niwaki.methods.checks import guided as with_guide
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
+from niwaki.methods.refusals import as_real
 
 
 @dataclass(frozen=True)
@@ -37,9 +36,9 @@ class EnumerateAll(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        at_least_one("max_runs", self.max_runs)
         self._set("likely", bool(self.likely))
-        self._set("rest", real("rest", self.rest, usual="0"))
+        self._set("rest", as_real(self.rest))
+        self._check()
 
 
 @dataclass(frozen=True)
@@ -63,9 +62,8 @@ class Rejection(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        self._set("bound", real("bound", self.bound, usual="0"))
-        samples(self.n)
-        at_least_one("max_tries", self.max_tries)
+        self._set("bound", as_real(self.bound))
+        self._check()
 
 
 @dataclass(frozen=True)
@@ -91,8 +89,8 @@ class Importance(Method):
 
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
-        samples(self.n)
         self._set("proposal", with_guide(self.proposal, guide))
+        self._check()
 
 
 @dataclass(frozen=True)
@@ -110,7 +108,7 @@ class Forward(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        samples(self.n)
+        self._check()
 
 
 enumerate_all, rejection, importance, forward = EnumerateAll, Rejection, Importance, Forward

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import InitVar, dataclass
 
-from niwaki.errors.settings import bad, count, real
-from niwaki.methods.checks import at_least_one, guided
+from niwaki.methods.checks import guided
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
+from niwaki.methods.refusals import as_real
 
 
 @dataclass(frozen=True)
@@ -58,17 +58,10 @@ class Improve(Method):
 
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
-        at_least_one("particles", self.particles)
-        count("regrow", self.regrow, 2, usual="20")
-        self._set("power", real("power", self.power, 0, usual="16"))
-        for name in ("rounds", "diverse"):
-            if getattr(self, name) is not None:
-                at_least_one(name, getattr(self, name))
-        if self.seconds is not None:
-            self._set("seconds", real("seconds", self.seconds, 0, usual="10"))
-            if self.diverse is not None:
-                raise bad("seconds", self.seconds, "None together with `diverse`", "`rounds`")
+        for name in ("power", "seconds"):
+            self._set(name, as_real(getattr(self, name)))
         self._set("proposal", guided(self.proposal, guide))
+        self._check()
 
 
 improve = Improve

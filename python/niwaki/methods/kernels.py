@@ -23,10 +23,12 @@ from typing import Any
 
 from msgspec import Struct
 
+from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
-from niwaki.errors.settings import MOST, bad, count, real
+from niwaki.errors.settings import bad, real
 from niwaki.methods.guide import Guide
+from niwaki.methods.refusals import as_real, checked
 
 __all__ = [
     "Kernel",
@@ -54,9 +56,6 @@ __all__ = [
 #: Depths at which a function of the depth is evaluated; the last value holds for all deeper ones.
 _DEEPEST = 256
 
-#: Steps of a trajectory are counted in 32 bits.
-_MOST = 2**32 - 1
-
 
 class _KernelData(Struct):
     """A kernel as data; its parts are checked when they are read."""
@@ -75,6 +74,10 @@ class Kernel:
     settings: Mapping[str, Any] = field(default_factory=dict)
     parts: tuple[Kernel, ...] = ()
     function: Any = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        """Check the settings; the parts have checked theirs."""
+        checked(_engine.check_kernel, {"name": self.name, "settings": self.settings}, self.settings, {})
 
     def data(self, function: Callable[[Any], Any]) -> dict[str, Any]:
         """The kernel as plain data; `function` writes a user's proposal or a guide."""
@@ -171,7 +174,7 @@ def drift(step: float = 0.5, target: float = 0.44) -> Kernel:
     target
         The acceptance to which the step of each site is adapted during the warm-up; it is frozen afterwards.
     """
-    return Kernel("drift", {"step": _positive("step", step), "target": _share("target", target)})
+    return Kernel("drift", {"step": as_real(step), "target": as_real(target)})
 
 
 def neighbour(reach: int = 1) -> Kernel:
@@ -179,7 +182,7 @@ def neighbour(reach: int = 1) -> Kernel:
 
     A truth value turns, a whole number goes up or down by at most `reach`, a category becomes another.
     """
-    return Kernel("neighbour", {"reach": _whole("reach", reach, 1)})
+    return Kernel("neighbour", {"reach": reach})
 
 
 def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kernel:
@@ -198,16 +201,16 @@ def block(step: float = 0.2, share: float = 1.0, target: float = 0.234) -> Kerne
         The acceptance to which the step is adapted during the warm-up.
     """
     settings = {
-        "step": _positive("step", step),
-        "share": real("share", share, 0, 1, "(]", "0.5"),
-        "target": _share("target", target),
+        "step": as_real(step),
+        "share": as_real(share),
+        "target": as_real(target),
     }
     return Kernel("block", settings)
 
 
 def regenerate(levels: int = 0) -> Kernel:
     """A call and all below it are drawn again: the call that is `levels` calls or iterations above a choice."""
-    return Kernel("regenerate", {"levels": _whole("levels", levels, 0)})
+    return Kernel("regenerate", {"levels": levels})
 
 
 def regrow(
@@ -242,7 +245,6 @@ def regrow(
     guide
         Draws the new values in place of their priors; weights make up for it.
     """
-    turn = real("turn", turn, 0, 1, "[]", "0.5")
     if pick not in ("size", "choice"):
         raise bad("pick", pick, 'one of "size", "choice"', '"size"')
     named = [parts] if isinstance(parts, str) else parts
@@ -251,8 +253,8 @@ def regrow(
     return Kernel(
         "regrow",
         {
-            "particles": _whole("particles", particles, 2),
-            "turn": turn,
+            "particles": particles,
+            "turn": as_real(turn),
             "pick": pick if named is None else {"parts": list(named)},
         },
         function=None if guide is None else _guide(guide),
@@ -279,10 +281,10 @@ def hmc_step(steps: int = 10, step: float = 0.1, jitter: float = 0.0, target: fl
         The acceptance to which the step is adapted.
     """
     settings = {
-        "steps": _whole("steps", steps, 1, _MOST),
-        "step": _positive("step", step),
-        "jitter": real("jitter", jitter, 0, 1, "[]", "0.5"),
-        "target": _share("target", target),
+        "steps": steps,
+        "step": as_real(step),
+        "jitter": as_real(jitter),
+        "target": as_real(target),
     }
     return Kernel("hmc_step", settings)
 
@@ -298,9 +300,9 @@ def nuts_step(max_depth: int = 8, step: float = 0.1, target: float = 0.8) -> Ker
         As for `hmc_step`.
     """
     settings = {
-        "max_depth": _whole("max_depth", max_depth, 1, 20),
-        "step": _positive("step", step),
-        "target": _share("target", target),
+        "max_depth": max_depth,
+        "step": as_real(step),
+        "target": as_real(target),
     }
     return Kernel("nuts_step", settings)
 
@@ -350,15 +352,15 @@ def cycle(*kernels: Kernel) -> Kernel:
 def mixture(*kernels: Kernel, weights: Sequence[float] | None = None) -> Kernel:
     """One application of one of them, drawn by weight; evenly when no weights are given."""
     parts = _parts("mixture", kernels)
-    given = [1.0] * len(parts) if weights is None else [_positive("weights", one) for one in weights]
-    if len(given) != len(parts):
+    values = [1.0] * len(parts) if weights is None else [as_real(weight) for weight in weights]
+    if len(values) != len(parts):
         raise bad("weights", weights, "one weight for each kernel", "such a list")
-    return Kernel("mixture", {"weights": given}, parts)
+    return Kernel("mixture", {"weights": values}, parts)
 
 
 def repeat(times: int, kernel: Kernel) -> Kernel:
     """So many applications of a kernel."""
-    return Kernel("repeat", {"times": _whole("times", times, 1)}, _parts("repeat", (kernel,)))
+    return Kernel("repeat", {"times": times}, _parts("repeat", (kernel,)))
 
 
 def on(sites: str | Sequence[str], kernel: Kernel) -> Kernel:
@@ -402,9 +404,9 @@ def anneal(kernel: Kernel, steps: int, start: float = 0.1, end: float = 10.0) ->
     take the best.
     """
     settings = {
-        "start": _positive("start", start),
-        "end": _positive("end", end),
-        "steps": _whole("steps", steps, 1),
+        "start": as_real(start),
+        "end": as_real(end),
+        "steps": steps,
     }
     return Kernel("anneal", settings, _parts("anneal", (kernel,)))
 
@@ -421,14 +423,8 @@ def tempering(kernel: Kernel, powers: Sequence[float] = (1.0, 0.5, 0.25, 0.125),
     every
         Proposals between two exchanges.
     """
-    falling = [_positive("powers", one) for one in powers]
-    if not falling or falling[0] != 1.0 or falling != sorted(falling, reverse=True):
-        raise bad("powers", powers, "powers that fall from 1", "(1, 0.5, 0.25, 0.125)")
-    return Kernel(
-        "tempering",
-        {"powers": falling, "every": _whole("every", every, 1)},
-        _parts("tempering", (kernel,)),
-    )
+    settings = {"powers": [as_real(power) for power in powers], "every": every}
+    return Kernel("tempering", settings, _parts("tempering", (kernel,)))
 
 
 def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
@@ -451,7 +447,7 @@ def original(power: float = 16.0, nesting: str | None = None) -> Kernel:
     kernel = Kernel("by_family")
     if nesting is not None:
         kernel = weighted(kernel, depth=lambda n: math.exp(-n), calls=nesting)
-    return kernel if _positive("power", power) == 1.0 else anneal(kernel, 1, power, power)
+    return kernel if real("power", power, 0, usual="16") == 1.0 else anneal(kernel, 1, power, power)
 
 
 def parse(text: str) -> Kernel:
@@ -538,17 +534,5 @@ def _parts(name: str, kernels: Sequence[Any]) -> tuple[Kernel, ...]:
     return tuple(kernels)
 
 
-def _positive(name: str, value: Any) -> float:
-    return real(name, value, 0, usual="0.5")
-
-
 def _weight(name: str, value: Any) -> float:
     return real(name, value, 0, ends="[)", usual="1.0")
-
-
-def _share(name: str, value: Any) -> float:
-    return real(name, value, 0, 1, usual="0.44")
-
-
-def _whole(name: str, value: int, least: int, most: int = MOST) -> int:
-    return count(name, value, least, most, str(least))

@@ -14,10 +14,12 @@ from typing import Any, ClassVar, Self, get_type_hints
 
 from msgspec import defstruct
 
+from niwaki import _engine
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted, inside
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.order import FutureOrder
+from niwaki.methods.refusals import checked
 
 
 @dataclass(frozen=True)
@@ -112,6 +114,22 @@ class Method:
     def _set(self, name: str, value: Any) -> None:
         """Convert a setting: a whole number to a real one, a list to a tuple."""
         object.__setattr__(self, name, value)
+
+    def _check(self) -> None:
+        """Let the engine check the settings.
+
+        Raises
+        ------
+        InputError
+            The first setting that has a value it cannot have.
+        """
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        defaults = {field.name: field.default for field in fields(self)}
+        data = {
+            name: [] if isinstance(values.get(name), dict) else value
+            for name, value in self.data(lambda _: 0).items()
+        }
+        checked(_engine.check_method, data, values, defaults)
 
 
 @cache

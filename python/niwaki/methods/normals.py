@@ -4,13 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from niwaki.errors.settings import bad, count, real
-from niwaki.methods.checks import at_least_one, one_of
-from niwaki.methods.gradients import MOST
 from niwaki.methods.method import Method
-
-FAMILIES = ("mean-field", "full-rank", "pathfinder")
-STARTS = ("pathfinder", "run")
 
 
 @dataclass(frozen=True)
@@ -59,14 +53,7 @@ class Vi(Method):
 
     def __post_init__(self) -> None:
         """Check the settings."""
-        one_of("family", self.family, FAMILIES)
-        one_of("start", self.start, STARTS)
-        if self.family == "pathfinder" and self.start != "pathfinder":
-            raise bad("start", self.start, 'the default, because the family is "pathfinder"', '"pathfinder"')
-        real("tolerance", self.tolerance, 0, usual="0.02")
-        count("steps", self.steps, most=MOST, usual="10000")
-        for name in ("draws", "samples", "paths", "tries"):
-            at_least_one(name, getattr(self, name))
+        self._check()
 
 
 vi = Vi

@@ -8,11 +8,9 @@ from typing import Any
 
 from msgspec import Struct
 
+from niwaki import _engine
 from niwaki.errors.schema import fitted
-from niwaki.errors.settings import real
-
-#: The largest number of an order, either sign: beyond it the other futures have no chance that a search could see.
-LARGEST = 50.0
+from niwaki.methods.refusals import checked
 
 
 class _OrderData(Struct, forbid_unknown_fields=True):
@@ -55,9 +53,8 @@ class FutureOrder:
 
     def __post_init__(self) -> None:
         """Check the numbers."""
-        own = {"depth": self.depth, "turns": self.turns, "waited": self.waited, "stay": self.stay}
-        for name, value in (*own.items(), *self.functions.items()):
-            real(name, value, -LARGEST, LARGEST, "[]", "0")
+        data = self.data()
+        checked(_engine.check_order, data, data | data["functions"], {})
 
     def data(self) -> dict[str, Any]:
         """The order as plain data."""

@@ -6,22 +6,13 @@ from collections.abc import Sequence
 from dataclasses import InitVar, dataclass
 from typing import Any
 
-from niwaki.errors import InputError
-from niwaki.errors.settings import MOST, bad, is_number, is_whole, real, shown
-from niwaki.methods.checks import at_least_one, look_ahead, one_of
 from niwaki.methods.checks import guided as with_guide
-from niwaki.methods.checks import particles as check_particles
+from niwaki.methods.checks import is_kernel, look_ahead
 from niwaki.methods.guide import Guide
 from niwaki.methods.kernels import Kernel
 from niwaki.methods.method import Method
 from niwaki.methods.order import FutureOrder
-
-ORDERS = ("stochastic", "depth-first")
-WEIGHTS = ("ratio", "absolute")
-MOMENTS = ("resampled", "end")
-RESAMPLING = ("systematic", "residual", "stratified", "multinomial", "tempered")
-#: Those with a form in which one particle is held.
-HELD_RESAMPLING = ("multinomial", "tempered")
+from niwaki.methods.refusals import as_real
 
 
 @dataclass(frozen=True)
@@ -111,70 +102,11 @@ class Smc(Method):
 
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
-        if self.seconds is not None:
-            self._set("seconds", real("seconds", self.seconds, 0, usual="10"))
-            for name in ("populations", "particles"):
-                given = getattr(self, name)
-                if given is not None and not (name == "particles" and is_whole(given)):
-                    raise bad(name, given, "no number of populations beside `seconds`", "None")
         if isinstance(self.particles, (list, tuple, range)):
             self._set("particles", tuple(self.particles))
-        sizes: Any = self.particles if isinstance(self.particles, tuple) else (self.particles,)
-        for size in sizes or (0,):
-            check_particles(size)
-        _check_order(self.order)
-        one_of("weights", self.weights, WEIGHTS)
-        one_of("resampling", self.resampling, RESAMPLING)
-        if self.resampling == "tempered" and self.weights == "absolute":
-            expected = "another resampling together with absolute weights, which carry nothing on"
-            raise bad("resampling", self.resampling, expected, '"systematic", or `weights` to "ratio"')
-        _check_power(self)
-        if self.diverse is not None:
-            at_least_one("diverse", self.diverse)
-        if self.populations is not None:
-            at_least_one("populations", self.populations)
-            if not isinstance(self.particles, int):
-                raise bad("populations", self.populations, "None together with a list of sizes", "None")
-        self._set("proposal", with_guide(self.proposal, guide))
-        if self.proposal is not None and self.weights == "absolute":
-            expected = "None together with absolute weights, which ignore the density of a proposal"
-            raise bad("proposal", self.proposal, expected, 'None, or `weights` to "ratio"')
-        self._check_moves()
-        moves = self.rejuvenate is not None and self.at != "end"
-        self._set("look_ahead", look_ahead(self.look_ahead, self.proposal, moves))
-        self._set("anneal", _powers(self.anneal, self.weights))
-
-    def _check_moves(self) -> None:
-        at_least_one("moves", self.moves)
-        if self.at not in MOMENTS and (not is_whole(self.at) or not 1 <= int(self.at) <= MOST):
-            raise bad("at", self.at, 'a number of barriers, "resampled" or "end"', "1")
-        at_least_one("chains", self.chains)
-        if self.draws is not None:
-            at_least_one("draws", self.draws)
-            if self.rejuvenate is None:
-                raise bad("draws", self.draws, "None without `rejuvenate`, the kernel of the chains", "None")
-        elif self.chains != 1:
-            expected = "1 without `draws`, the number of states of each chain"
-            raise bad("chains", self.chains, expected, "1")
-        if self.rejuvenate is None:
-            for name in ("moves", "at"):
-                if getattr(self, name) != 1:
-                    expected = "1 without `rejuvenate`, the kernel that moves particles"
-                    raise bad(name, getattr(self, name), expected, "1, or give `rejuvenate`")
-            return
-        kernel: Any = self.rejuvenate
-        if not isinstance(kernel, Kernel):
-            suggestion = "one of `niwaki.kernels`, such as `kernels.prior()`"
-            raise bad("rejuvenate", self.rejuvenate, "a kernel", suggestion)
-        if self.weights == "absolute":
-            expected = "None together with absolute weights, which follow no fixed distribution"
-            raise bad("rejuvenate", self.rejuvenate, expected, 'None, or `weights` to "ratio"')
-        changing = self.rejuvenate.first("anneal", "tempering")
-        if changing is not None:
-            expected = "a kernel that keeps the particles' distribution, which annealing and tempering do not"
-            raise bad(
-                "rejuvenate", self.rejuvenate, expected, f"{changing.parts[0]!r}, and `anneal=` of `smc`"
-            )
+        self._set("seconds", as_real(self.seconds))
+        is_kernel("rejuvenate", self.rejuvenate)
+        _convert(self, guide)
 
     @property
     def sizes(self) -> tuple[int, ...]:
@@ -227,15 +159,8 @@ class ParticleGibbs(Method):
 
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
-        check_particles(self.particles, 2)
-        at_least_one("sweeps", self.sweeps)
-        _check_order(self.order)
-        one_of("resampling", self.resampling, HELD_RESAMPLING)
-        _check_power(self)
-        self._set("anneal", _fixed(self.anneal))
         self._set("ancestors", bool(self.ancestors))
-        self._set("proposal", with_guide(self.proposal, guide))
-        self._set("look_ahead", look_ahead(self.look_ahead, self.proposal))
+        _convert(self, guide)
 
 
 @dataclass(frozen=True)
@@ -274,61 +199,19 @@ class Pimh(Method):
 
     def __post_init__(self, guide: Guide | None) -> None:
         """Check the settings."""
-        check_particles(self.particles)
-        at_least_one("sweeps", self.sweeps)
-        _check_order(self.order)
-        one_of("resampling", self.resampling, RESAMPLING)
-        _check_power(self)
-        self._set("anneal", _fixed(self.anneal))
-        self._set("proposal", with_guide(self.proposal, guide))
-        self._set("look_ahead", look_ahead(self.look_ahead, self.proposal))
+        _convert(self, guide)
 
 
 smc, particle_gibbs, pimh = Smc, ParticleGibbs, Pimh
 
 
-def _check_order(order: Any) -> None:
-    """Check which future runs next."""
-    if not isinstance(order, FutureOrder):
-        one_of("order", order, ORDERS)
-
-
-def _check_power(method: Smc | ParticleGibbs | Pimh) -> None:
-    """Check the power, and when to resample."""
-    if not is_number(method.power) or not 0 < method.power < float("inf"):
-        raise InputError("bad-power", found=shown(method.power))
-    method._set("power", float(method.power))
-    if method.ess is not None and (not is_number(method.ess) or not 0 <= method.ess <= 1):
-        raise InputError("bad-threshold", found=shown(method.ess))
-
-
-def _powers(anneal: Any, weights: str) -> float | tuple[float, ...] | None:
-    """The checked schedule of powers."""
-    if anneal is None:
-        return None
-    if weights == "absolute":
-        raise InputError(
-            "bad-anneal", found=repr(anneal), reason="absolute weights have no schedule of powers"
-        )
-    if is_number(anneal):
-        if not 0 < anneal < 1:
-            raise InputError("bad-anneal", found=repr(anneal), reason="a share is between 0 and 1")
-        return float(anneal)
-    schedule = tuple(anneal) if isinstance(anneal, Sequence) and not isinstance(anneal, str) else ()
-    if not schedule or not all(is_number(t) and 0 <= t < float("inf") for t in schedule):
-        raise InputError(
-            "bad-anneal", found=repr(anneal), reason="a schedule is a list of numbers that are not negative"
-        )
-    return tuple(float(t) for t in schedule)
-
-
-def _fixed(anneal: Any) -> tuple[float, ...] | None:
-    """The same for a chain, whose sweeps must all have the same schedule."""
-    powers = _powers(anneal, "ratio")
-    if isinstance(powers, float):
-        raise InputError(
-            "bad-anneal",
-            found=repr(anneal),
-            reason="every sweep of a chain needs the same powers, so it must be a list",
-        )
-    return powers
+def _convert(method: Smc | ParticleGibbs | Pimh, guide: Guide | None) -> None:
+    """Convert and check the settings that all have."""
+    for name in ("power", "look_ahead"):
+        method._set(name, as_real(getattr(method, name)))
+    powers: Any = method.anneal
+    is_schedule = isinstance(powers, Sequence) and not isinstance(powers, str)
+    method._set("anneal", tuple(map(as_real, powers)) if is_schedule else as_real(powers))
+    method._set("proposal", with_guide(method.proposal, guide))
+    method._check()
+    look_ahead(method.look_ahead, method.proposal)

@@ -25,7 +25,7 @@ from niwaki.result.search_like import SearchLike
 
 
 class Stage(Protocol):
-    """What keeps the checkpoint of chains (`niwaki.search.keeping`)."""
+    """What keeps the checkpoint of chains (`niwaki.search.keeper`)."""
 
     @property
     def engine(self) -> _engine.Checkpoint:

@@ -3,14 +3,15 @@
 entry       `run` and `grow`, which create a search and run it
 request     `Search`: all that decides a result, as JSON, with a hash
 data        values as plain data, and back
+schema      the form of a search as JSON
 checks      checks before a search starts
-checkpoint  the file from which a search goes on after it was killed
-keeping     when it is written, and what is in it
-carrying    carrying out a search: run by run, each from where its checkpoint is, polished and kept
-searching   one run of a search on the engine, by its method
-collisions  which parts of a scene break its constraints
-drag        a part dragged to a point, by the derivatives of its place, or by a number of the source
-worth       what is said of a result that is worth less than its search promised
+checkpoint  the file from which a search resumes after its process was killed
+keeper      checkpoints of running searches: when they are written, and their stages
+execution   the runs of a search one after the other, resumed, polished, and with warnings
+engine_runs one run of a search on the engine, by its method
+collisions  parts of a scene that break its constraints
+drag        parts dragged to a point, by the derivatives of a place, or by a number of the source
+warnings    warnings about poor results
 """
 
 import lazy_loader

@@ -7,11 +7,11 @@ from .drag.source import SourceChange as SourceChange
 from .entry import GUIDED as GUIDED
 from .entry import OF_IMPROVE as OF_IMPROVE
 from .entry import POWER as POWER
-from .entry import asked as asked
+from .entry import default_method as default_method
 from .entry import explain as explain
 from .entry import grow as grow
+from .entry import grow_search as grow_search
 from .entry import run as run
-from .entry import usual as usual
-from .keeping import Stage as Stage
+from .keeper import Stage as Stage
 from .request import Search as Search
-from .worth import SearchWarning as SearchWarning
+from .warnings import SearchWarning as SearchWarning

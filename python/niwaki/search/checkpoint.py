@@ -1,8 +1,8 @@
-"""Checkpoints: what a search or a training needs to go on after it was killed, as one file.
+"""Files of checkpoints, from which a search or a training resumes after its process was killed.
 
-The first line names the format, its version and the SHA-256 of everything after it. The second is a table in JSON:
-what the checkpoint is of, a note, and the names and lengths of its parts, which follow as they are. The file is
-written whole; nothing in it is run.
+The first line has the format, its version and the SHA-256 of everything after it. The second line is a table in JSON:
+the settings of the search or training, a note, and the names and lengths of the parts. The bytes of the parts follow.
+The file is written whole; reading it runs no code.
 """
 
 from __future__ import annotations
@@ -24,34 +24,33 @@ from niwaki.errors.settings import bad, is_number
 from niwaki.inputs import bytes_of
 from niwaki.search.data import MALFORMED
 
-#: The version of the format, and of what the parts hold.
+#: The version of the format and of its parts.
 FORMAT = 1
 
 #: The first words of the file.
 MAGIC = "niwaki checkpoint"
 
-#: Characters of what an error says that are shown.
+#: The most characters of an error that a message shows.
 LONGEST = 200
 
-#: Values of at most so many characters are named where two searches differ.
+#: The most characters of a value that a message about another search shows.
 SHORT = 40
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """Where a search keeps what it needs to go on after it was killed.
+    """File from which a search resumes after its process was killed.
 
     Parameters
     ----------
     path
-        The file. A search whose checkpoint is there goes on from it.
+        The file. A search resumes from it if it exists.
     every
-        About so many seconds pass between two writes, and more where writing takes long: at most a fiftieth of the
-        time is spent on it.
+        About the seconds between two writes; more if writing takes long, so that it takes at most a fiftieth of the time.
     keep
-        Whether the file stays when the search is done.
+        Whether the file stays after the end of the search.
     note
-        Plain data that is written with it.
+        Plain data, which is written to the file.
     """
 
     path: str | PathLike[str]
@@ -65,25 +64,25 @@ class Checkpoint:
             raise bad("every", self.every, "a number of seconds, 0 or more", "1.0")
 
     @classmethod
-    def of(cls, given: Checkpoint | str | PathLike[str]) -> Checkpoint:
-        """The checkpoint of a path, or one as it is."""
-        return given if isinstance(given, Checkpoint) else cls(given)
+    def of(cls, checkpoint: Checkpoint | str | PathLike[str]) -> Checkpoint:
+        """Make a checkpoint of a path; return a checkpoint unchanged."""
+        return checkpoint if isinstance(checkpoint, Checkpoint) else cls(checkpoint)
 
 
 @dataclass
 class Stored:
-    """What a checkpoint's file holds.
+    """Content of a checkpoint's file.
 
     Attributes
     ----------
     kind : str
         "search" or "training".
     about : dict
-        What decides the result, by name: values, or their hashes.
+        The settings that decide the result, by name: values, or their hashes.
     note : object
-        Plain data: the search, and that of whoever writes the file.
+        Plain data: the search, and the note of the `Checkpoint`.
     parts : dict of str to bytes
-        What there is to go on from.
+        The states of running stages, and the results of finished ones.
     """
 
     kind: str
@@ -92,7 +91,7 @@ class Stored:
     parts: dict[str, bytes] = field(default_factory=dict)
 
     def bytes(self) -> bytes:
-        """The file's content."""
+        """The bytes of the file."""
         table = {
             "kind": self.kind,
             "about": self.about,
@@ -103,7 +102,7 @@ class Stored:
         return f"{MAGIC} {FORMAT} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
 
     def write(self, path: Path) -> None:
-        """Write the file, in a folder that is created where it is missing."""
+        """Write the file; create its folder if it is missing."""
         write_whole(ensure_folder(path.parent) / path.name, self.bytes())
 
     @classmethod
@@ -113,7 +112,7 @@ class Stored:
         Raises
         ------
         InputError
-            It is no checkpoint, one of another version, or damaged.
+            The file is no checkpoint, of another version, or damaged.
         FileError
             The file cannot be read, or is too large (`inputs.limits`).
         """
@@ -141,57 +140,66 @@ class Stored:
 
 
 @contextmanager
-def understood(path: Path) -> Iterator[None]:
-    """Inside, what a checkpoint holds is read; what no search has written there is an error about the file.
+def reading(path: Path) -> Iterator[None]:
+    """Context in which parts of a checkpoint are read: malformed data raise an error about the file.
 
     Raises
     ------
     InputError
-        `bad-checkpoint`.
+        `bad-checkpoint`: the data are not what a search writes.
     """
     try:
         yield
     except (*MALFORMED, _engine.EngineFault) as error:
-        said = " ".join(f"{type(error).__name__}: {error}".split())[:LONGEST]
+        reason = " ".join(f"{type(error).__name__}: {error}".split())[:LONGEST]
         raise InputError(
-            "bad-checkpoint", detail=f"`{path}`: a part of it is none of a search ({said})"
+            "bad-checkpoint", detail=f"`{path}`: no search has written one of its parts ({reason})"
         ) from error
 
 
-def opened(path: Path, kind: str, about: Mapping[str, Any]) -> Stored:
-    """The checkpoint of a file, or an empty one where there is no file.
+def open_file(path: Path, kind: str, about: Mapping[str, Any]) -> Stored:
+    """Read the checkpoint of a file, or make an empty one if there is no file.
+
+    Parameters
+    ----------
+    path
+        The file.
+    kind, about
+        The kind and the settings of the search or training, as in `Stored`.
 
     Raises
     ------
     InputError
-        The file is no checkpoint, damaged, of another version, or of something else; with what differs.
+        The file is no checkpoint, damaged, of another version, or of another search; the message names the differences.
     """
-    own = {**about, "the version of Niwaki": _engine.__version__, "the machine": _engine.fingerprint()}
-    own = json.loads(json.dumps(own))
-    # A name that no file can have is refused where it is written.
+    settings = {**about, "the version of Niwaki": _engine.__version__, "the machine": _engine.fingerprint()}
+    settings = json.loads(json.dumps(settings))
+    # A name that no file can have is refused where the file is written.
     if not os.path.exists(path):
-        return Stored(kind, own)
-    found = Stored.read(path)
-    if found.kind != kind:
-        raise InputError("bad-checkpoint", detail=f"`{path}`: it is of a {found.kind}, not of a {kind}")
-    differ = [name for name in own if found.about.get(name) != own[name]]
-    if differ:
-        said = "; ".join(_difference(name, found.about.get(name), own[name]) for name in differ)
-        raise InputError("other-checkpoint", path=path, kind=kind, differences=said)
-    return found
+        return Stored(kind, settings)
+    stored = Stored.read(path)
+    if stored.kind != kind:
+        raise InputError(
+            "bad-checkpoint", detail=f"`{path}`: it is the checkpoint of a {stored.kind}, not of a {kind}"
+        )
+    names = [name for name in settings if stored.about.get(name) != settings[name]]
+    if names:
+        differences = "; ".join(_difference(name, stored.about.get(name), settings[name]) for name in names)
+        raise InputError("other-checkpoint", path=path, kind=kind, differences=differences)
+    return stored
 
 
 def _difference(name: str, then: Any, now: Any) -> str:
-    """What differs between then and now."""
+    """The difference between two values of a setting."""
     texts = [value if isinstance(value, str) else json.dumps(value) for value in (then, now)]
     if any(len(text) > SHORT for text in texts):
         return f"{name} differs"
     return f"{name} was {texts[0]} and is {texts[1]}"
 
 
-def begun_seed(seed: int | None, given: Checkpoint | str | PathLike[str] | None) -> int | None:
-    """The seed, or where none is given that of the search or training that a checkpoint is of."""
-    if seed is not None or given is None or not os.path.exists(Checkpoint.of(given).path):
+def resumed_seed(seed: int | None, checkpoint: Checkpoint | str | PathLike[str] | None) -> int | None:
+    """The seed; without one, the seed of the search or training of a checkpoint."""
+    if seed is not None or checkpoint is None or not os.path.exists(Checkpoint.of(checkpoint).path):
         return seed
-    found = Stored.read(Path(Checkpoint.of(given).path)).about.get("its `seed`")
-    return found if isinstance(found, int) else None
+    stored = Stored.read(Path(Checkpoint.of(checkpoint).path)).about.get("its `seed`")
+    return stored if isinstance(stored, int) else None

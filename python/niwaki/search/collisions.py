@@ -1,7 +1,7 @@
-"""Which parts of a scene break the constraints of a search, and a run that shows it.
+"""Parts of a scene that break the constraints of a search, and a run that has such parts.
 
-The engine's sketches judge part by part, as they do when a search says why every run was impossible
-(`crates/run/src/blame.rs`); here every part is found, not the first alone.
+The engine's sketches judge part by part, as they do when a search explains why every run was impossible
+(`crates/run/src/blame.rs`). Here all parts that break a constraint are listed, not only the first.
 """
 
 from __future__ import annotations
@@ -18,26 +18,26 @@ from niwaki.methods import Forward
 from niwaki.search.request import Search
 from niwaki.targets.sketches import Score
 
-#: Runs of the prior that are tried, and the most parts that are compared with one another.
+#: The most runs of the prior, and the most parts that are compared with one another.
 TRIES, PARTS = 50, 1_000
 
 
 def breaking(scene: Scene, specs: Sequence[_engine.SketchSpec]) -> list[str]:
-    """Addresses of the parts that break a constraint, alone or with another part; in the order of the scene.
+    """List the addresses of the parts that break a constraint, alone or with another part, in the order of the scene.
 
     Parameters
     ----------
     scene
-        Of at most 1,000 parts; later ones are left out.
+        A scene; parts after the first 1,000 are left out.
     specs
-        `Score.specs`.
+        The constraints, `Score.specs`.
     """
     empty = _engine.Sketch(specs)
-    found: set[str] = set()
+    addresses: set[str] = set()
     others: list[tuple[Part, np.ndarray, np.ndarray]] = []
     for part in scene.parts[:PARTS]:
         if empty.fork().add(part.shapes) is not None:
-            found.add(part.address)
+            addresses.add(part.address)
             continue
         corners = np.concatenate([shape.vertices() for shape in part.shapes])
         low, high = corners.min(axis=0), corners.max(axis=0)
@@ -47,17 +47,17 @@ def breaking(scene: Scene, specs: Sequence[_engine.SketchSpec]) -> list[str]:
             both = empty.fork()
             both.add(other.shapes)
             if both.add(part.shapes) is not None:
-                found |= {part.address, other.address}
+                addresses |= {part.address, other.address}
         others.append((part, low, high))
-    return [part.address for part in scene.parts if part.address in found]
+    return [part.address for part in scene.parts if part.address in addresses]
 
 
 def example(search: Search) -> tuple[Scene, list[str]] | None:
-    """The scene of a run of the prior that breaks a constraint of the search, and the parts that do; None for none."""
+    """Draw a scene from the prior that breaks a constraint of a search, and list the parts; None if no scene does."""
     free = replace(search, score=Score(), method=Forward(), choices=None, polish=None, runs=1, keep="all")
     for number in range(TRIES):
         scene = replace(free, seed=(search.seed + number) % 2**64).run().best.scene
-        found = breaking(scene, search.score.specs)
-        if found:
-            return scene, found
+        addresses = breaking(scene, search.score.specs)
+        if addresses:
+            return scene, addresses
     return None

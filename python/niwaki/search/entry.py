@@ -1,7 +1,7 @@
-"""`run` a model by any method, and `grow` one into a target: both create a `Search` and run it.
+"""Functions `run`, for any method, and `grow`, for a target: both create a `Search` and run it.
 
-Seeds are 64-bit numbers; where none is given a fresh one is drawn and kept in the result. The same seed gives the same
-result on any number of threads. Ctrl-C stops a search, which then returns what it has (`Result.interrupted`).
+Seeds are 64-bit numbers. Without a seed, a fresh seed is drawn and stored in the result. Equal seeds give equal results
+on any number of threads. Ctrl-C stops a search, which then returns its results so far (`Result.interrupted`).
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from niwaki.methods import Forward, Improve, Method, Mh, Smc
 from niwaki.result import Result
 from niwaki.result.parts import Hold
 from niwaki.result.progress import Watch
-from niwaki.search.checkpoint import Checkpoint, begun_seed
+from niwaki.search.checkpoint import Checkpoint, resumed_seed
 from niwaki.search.checks import check_seed, fresh
+from niwaki.search.engine_runs import has_start, replay_choices
 from niwaki.search.request import Search
-from niwaki.search.searching import given, starts
 from niwaki.targets.sketches import Score, match_volume, no_self_intersection
 from niwaki.targets.target import Target
 
-#: The settings of `improve`, the usual search, which `grow` takes by name.
+#: The settings of `improve`, the default search of `grow`.
 OF_IMPROVE = ("rounds", "seconds", "diverse", "guide")
-#: The settings of `smc`, which are one population instead.
+#: The settings of `smc`; with one of these, `grow` searches by one population.
 OF_SMC = (*(field.name for field in fields(Smc)), "guide")
 
-#: One population with a guide: few particles do it, and tempered resampling keeps those that look bad for a moment.
+#: Settings of one population with a guide: few particles suffice, and tempered resampling spares promising particles.
 GUIDED: dict[str, Any] = {"particles": 50, "resampling": "tempered"}
 
 #: The power of a search for the best.
@@ -64,32 +64,32 @@ def run(
         Its arguments.
     method
         `smc(...)`, `ais(...)`, `particle_gibbs(...)`, `pimh(...)`, `mh(...)`, `enumerate_all(...)`, `rejection(...)`,
-        `importance(...)`, `hmc(...)`, `nuts(...)`, `vi(...)` or `forward(...)`, also what happens when it is left out.
-        It may also be the argument after the model.
+        `importance(...)`, `hmc(...)`, `nuts(...)`, `vi(...)` or `forward(...)`, the default. The method may also be the
+        argument after the model.
     score
-        What its scene should be like.
+        The sketches that score its scene.
     seed
-        Decides every random choice; fresh when left out.
+        The seed of all random choices; fresh when left out.
     choices
-        Values of choices by address, for one run with those: others are drawn from `seed` where it is given, and
-        missing ones are an error where it is not. With `mh`, `hmc`, `nuts`, `vi`, `particle_gibbs` the search starts
-        from them.
+        Values of choices by address. With `mh`, `hmc`, `nuts`, `vi` and `particle_gibbs` the search starts from them.
+        Any other method makes the one run with these choices: a `seed` draws missing choices, and without a seed
+        missing choices are an error.
     hold
-        What every run has: values of choices by address, such as `result.held("wing[1]")` gives; see `Search`.
+        Values of choices by address that every run has, such as those of `result.held("wing[1]")`; see `Search`.
     max_steps
-        Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
+        The most calls and loop steps of one run, with those of an `infer` inside. An operation on many elements counts
         one step for every eight of them, a primitive 256.
     max_memory
-        Most bytes of a run, or of a population or several chains together: calls, values and choices.
+        The most bytes of a run, or of a population or several chains together: calls, values and choices.
     threads
-        How many to use; all of the machine's when left out. The result does not depend on it.
+        The number of threads; all of the machine when left out. The result does not depend on it.
     progress
-        Called now and then with a `Progress`; an exception that it raises ends the search.
+        A function that is called at intervals with a `Progress`; an exception that it raises ends the search.
     checkpoint
-        A file, or a `Checkpoint`. What the search needs to go on is written there about every second. A search whose
-        file is there goes on from it, with the same result as if it had not ended; where no seed is given, with the
-        seed of the file. Chains and several runs go on from where they were; one population, an enumeration, or a
-        chain of `hmc` begins again.
+        A file, or a `Checkpoint`. The search writes its state there about every second. If the file exists, the search
+        resumes from it, with the same result as without the interruption; without a `seed`, it takes the seed of the
+        file. Chains and several runs resume where they stopped. One population, an enumeration, or a chain of `hmc`
+        begins again.
 
     Returns
     -------
@@ -104,14 +104,14 @@ def run(
         tuple(arguments(model, args, kwargs)),
         score=Score() if score is None else score,
         method=Forward() if method is None else method,
-        seed=fresh(begun_seed(seed, checkpoint)),
+        seed=fresh(resumed_seed(seed, checkpoint)),
         choices=choices,
         hold=hold,
         max_steps=max_steps,
         max_memory=max_memory,
     )
-    if choices is not None and seed is not None and not starts(search.method):
-        return given(search, search.seed)
+    if choices is not None and seed is not None and not has_start(search.method):
+        return replay_choices(search, search.seed)
     return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
@@ -135,48 +135,48 @@ def grow(
     checkpoint: Checkpoint | str | PathLike[str] | None = None,
     **kwargs: Any,
 ) -> Result:
-    """Grow a model into a target, or to a high score of any kind: the best of a search, `runs` times.
+    """Grow a model into a target, or to a high score of any kind: find the best run of a search, `runs` times.
 
-    The usual search is `improve`: it begins with a population of particles, and spends three times as much work on
-    growing parts of the best run again. It is a search and no sample: for a posterior name a method.
+    The default search is `improve`: it begins with a population of particles, and spends three times as much work on
+    growing parts of the best run again. Its result is no sample of the posterior: for a posterior give a `method`.
 
     Parameters
     ----------
     model
         A model that emits shapes.
     target
-        What to fill: a `Target`, or a file; may be left out where `score` has something to match.
+        The volume to fill: a `Target`, or a file. It may be left out if `score` has something to match.
     args, kwargs
-        The model's arguments. What `kwargs` has of `rounds`, `seconds`, `diverse` and `guide` is for the usual
-        search. With any other setting of `smc` (particles, order, power, ...) the search is one population by those,
-        with a `power` of 16 for ratio weights when left out (1 for drawings). With a `guide` and nothing of the usual
-        search it is one population, too: of 50 particles with tempered resampling, when left out.
+        The model's arguments. `rounds`, `seconds`, `diverse` and `guide` are settings of the default search. With any
+        other setting of `smc` (particles, order, power, ...) the search is one population by these settings, with a
+        default `power` of 16 for ratio weights (1 for drawings). With a `guide` and no other setting of the default
+        search it is one population, too, by default of 50 particles with tempered resampling.
     score
-        Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`; they multiply
-        `no_self_intersection(rule)`, which is left out for drawings and where they have it, and, where there is a
-        target, `match_volume(target, voxel, sigma)`.
+        Further sketches, such as `floor(0) * match_image("skyline.png", "cam.json")`. They multiply
+        `no_self_intersection(rule)` and, if there is a target, `match_volume(target, voxel, sigma)`. Drawings and
+        scores with a `no_self_intersection` of their own have no other.
     method
-        Another search than by those settings.
+        A method in place of these settings.
     voxel, sigma
         As for `match_volume`.
     rule
         As for `no_self_intersection`.
     polish
-        The chains that continue from the best of each run, `mh(...)`: the best state of its chains takes its place
+        The chains that continue from the best of each run, `mh(...)`. Their best state takes its place
         (`Result.polish`).
     runs
-        How many results, with seeds `seed`, `seed + 1`, ...
+        The number of results, with seeds `seed`, `seed + 1`, ...
     seed, hold, max_steps, max_memory, threads, progress, checkpoint
-        As for `run`. The usual search is written between two rounds.
+        As for `run`. The default search is written to its checkpoint between two rounds.
 
     Returns
     -------
     Result
-        One sample for each run, the best of its search, or as many as are `diverse`; runs in which every particle
-        became impossible are left out with a warning, and are an error when there is no other. A best that is worse
-        than the empty scene is a warning, too.
+        The best sample of each run, or `diverse` samples. Runs in which every particle became impossible are left out
+        with a warning; they are an error if no run is left. A best sample that is worse than the empty scene is a
+        warning, too.
     """
-    search = asked(
+    search = grow_search(
         model,
         target,
         *args,
@@ -187,7 +187,7 @@ def grow(
         rule=rule,
         polish=polish,
         runs=runs,
-        seed=begun_seed(seed, checkpoint),
+        seed=resumed_seed(seed, checkpoint),
         hold=hold,
         max_steps=max_steps,
         max_memory=max_memory,
@@ -196,7 +196,7 @@ def grow(
     return search.run(threads=threads, progress=progress, checkpoint=checkpoint)
 
 
-def asked(
+def grow_search(
     model: Model[..., Any] | Callable[..., Any],
     target: Target | str | PathLike[str] | None = None,
     *args: Any,
@@ -213,7 +213,7 @@ def asked(
     max_memory: int = MAX_MEMORY,
     **kwargs: Any,
 ) -> Search:
-    """The search that `grow` makes of its arguments, which it then runs."""
+    """Create the search that `grow` runs, from the same arguments."""
     model = as_model(model)
     settings = {name: kwargs.pop(name) for name in (*OF_IMPROVE, *OF_SMC) if name in kwargs}
     if settings.get("guide", True) is None:
@@ -227,18 +227,18 @@ def asked(
             suggestion=f"`method` left out, or the setting in `{method.NAME}(...)`",
         )
     product = Score() if score is None else score
-    drawn = product.window is not None
-    if not drawn and not any(one.function == no_self_intersection.__name__ for one in product.asks):
+    is_drawing = product.window is not None
+    if not is_drawing and not any(ask.function == no_self_intersection.__name__ for ask in product.asks):
         product = no_self_intersection(rule) * product
     if target is not None:
         product *= match_volume(target, voxel, sigma)
-    elif len(product.asks) == (0 if drawn else 1):
+    elif len(product.asks) == (0 if is_drawing else 1):
         raise InputError("no-target", name=model.name)
     return Search(
         model,
         tuple(arguments(model, args, kwargs)),
         score=product,
-        method=usual(settings, 1.0 if drawn else POWER) if method is None else method,
+        method=default_method(settings, 1.0 if is_drawing else POWER) if method is None else method,
         seed=fresh(seed),
         hold=hold,
         runs=runs,
@@ -249,10 +249,15 @@ def asked(
     )
 
 
-def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:
-    """The search for the best by settings of `improve`, or where there are others by one population.
+def default_method(settings: Mapping[str, Any], power: float = POWER) -> Method:
+    """Choose the method of `grow`: `improve` by its settings, or one population by settings of `smc`.
 
-    Where its `power` is left out, it is that one with ratio weights.
+    Parameters
+    ----------
+    settings
+        Settings by name.
+    power
+        The default power of a population with ratio weights.
     """
     if set(settings) <= set(OF_IMPROVE) and set(settings) != {"guide"}:
         return Improve(**settings)
@@ -267,9 +272,9 @@ def usual(settings: Mapping[str, Any], power: float = POWER) -> Method:
         )
     if "guide" in settings:
         settings = {**GUIDED, **settings}
-    given_power = settings.get("power")
-    sharp = power if settings.get("weights", "ratio") == "ratio" else 1.0
-    return Smc(**{**settings, "power": sharp if given_power is None else given_power})
+    if settings.get("power") is None:
+        settings = {**settings, "power": power if settings.get("weights", "ratio") == "ratio" else 1.0}
+    return Smc(**settings)
 
 
 def explain(
@@ -280,14 +285,14 @@ def explain(
     max_steps: int = MAX_STEPS,
     **kwargs: Any,
 ) -> dict[str, Any]:
-    """What each strategy does for one proposal from the prior, in the first state of a seed.
+    """Trace each strategy through one proposal from the prior, in the first state of a seed.
 
     Parameters
     ----------
     model
         A model.
     choice
-        The address of the choice that is changed, or a pattern: the first that matches.
+        The address of the choice that the proposal changes, or a pattern, for the first match.
     args, kwargs
         The model's arguments.
     seed, max_steps
@@ -297,9 +302,9 @@ def explain(
     -------
     dict
         `activations`: the calls and loop iterations, each before those it makes, as (label, function, depth, number of
-        the caller); `home`: which of them holds the choice; `path`, `old` and `new`; `runs`: by strategy what happened
-        ("invoked", "unwound", "skipped", "made" or "removed", and the number of the activation), and whether the run
-        came to its end. `niwaki.draw.reuse.draw` draws it.
+        the caller); `home`: the number of the activation with the choice; `path`, `old` and `new`; `runs`: by strategy
+        the events ("invoked", "unwound", "skipped", "made" or "removed", with the number of the activation), and
+        whether the run came to its end. `niwaki.draw.reuse.draw` draws the trace.
     """
     model = as_model(model)
     prepared = task(model, args, kwargs, (), max_steps)

@@ -1,7 +1,7 @@
-"""A search as a value: all that decides the result, and nothing else.
+"""Searches as values: all settings that decide a result, and nothing else.
 
-`niwaki.grow` and `niwaki.run` create one and run it. It can be written to JSON, read again and sent to another process.
-Two searches are the same if their hashes are equal.
+`niwaki.grow` and `niwaki.run` create a search and run it. A search can be written to JSON, read again and sent to
+another process. Two searches are the same if their hashes are equal.
 
 >>> import niwaki as nw
 >>> @nw.model
@@ -37,7 +37,7 @@ from niwaki.methods import Forward, Guide, Method, Mh
 from niwaki.once import cached_property
 from niwaki.result import Result, Sample, parts
 from niwaki.result.progress import Watch, watcher
-from niwaki.search import carrying, drag, searching
+from niwaki.search import drag, engine_runs, execution
 from niwaki.search.checkpoint import Checkpoint
 from niwaki.search.checks import check_polish, check_seed, check_threads, check_values, fresh
 from niwaki.search.data import MALFORMED, Reader, Writer, model_data, of_record_class, text_hash
@@ -47,22 +47,22 @@ from niwaki.targets.sketches import Score
 #: The version of the JSON form.
 FORMAT = 1
 
-#: What is kept of each run: every sample, or only the best.
+#: Samples of each run in the result: all, or only the best.
 KEEP = ("all", "best")
 
-#: Places and names of files in core form; and texts, which are kept.
+#: Places and names of files in core form; and texts, which stay.
 _PLACES = re.compile(r'\(file \d+ "(?:[^"\\]|\\.)*"\)|("(?:[^"\\]|\\.)*")| @\d+:\d+-\d+:\d+')
 
 
 class StoredModel(Model[..., Any]):
-    """A model that was read from data: its core form, without the Python function that it came from."""
+    """Model that was read from data: its core form, without its Python function."""
 
     def __init__(self, core: Core, name: str) -> None:
         self.name, self._core, self._program = name, core, None
         self.__name__ = name
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        """Run the model once with a fresh seed, and keep only its value."""
+        """Run the model once with a fresh seed, and return its value."""
         return Search(self, tuple(arguments(self, args, kwargs)), seed=fresh(None)).run().value
 
 
@@ -77,27 +77,27 @@ class Search:
     args
         Its arguments, by position.
     score
-        What its scene should be like.
+        The sketches that score its scene.
     method
         The method of the search, such as `smc(...)`; one run of the prior when left out.
     seed
-        Decides every random choice, 0 to 2^64 - 1.
+        The seed of all random choices, 0 to 2^64 - 1.
     choices
-        Values of choices by address: where chains start, or for any other method the choices of the one run.
+        Values of choices by address: the start of chains, or for any other method the choices of the one run.
     hold
-        Values of choices by address that every run has: they count as observations do. `Sample.held` gives them.
-        Patterns of choices and parts, too, where `choices` has their values.
+        Values of choices by address that every run has, as if they were observed. `Sample.held` returns such values.
+        Patterns of choices and parts are allowed if `choices` has their values.
     runs
-        How many searches, with seeds `seed`, `seed + 1`, ...
+        The number of searches, with seeds `seed`, `seed + 1`, ...
     keep
         "all" samples of the search, or the "best" of each.
     polish
         The chains that continue from the best of each run, `mh(...)`.
     max_steps
-        Most calls and loop steps of one run, those of an `infer` inside included. An operation on many elements counts
+        The most calls and loop steps of one run, with those of an `infer` inside. An operation on many elements counts
         one step for every eight of them, a primitive 256.
     max_memory
-        Most bytes of a run, or of a population or several chains together: calls, values and choices.
+        The most bytes of a run, or of a population or several chains together: calls, values and choices.
     """
 
     model: Model[..., Any]
@@ -120,7 +120,7 @@ class Search:
         check_seed(self.seed)
         check_values("choices", self.choices)
         if self.hold is not None:
-            # Patterns are resolved once: a search that is derived from this one may have other `choices`.
+            # Patterns are resolved here, because a search that is derived from this one may have other `choices`.
             object.__setattr__(self, "hold", self.held)
         for name, kind, suggestion in (
             ("method", Method, "`smc(particles=300)`"),
@@ -142,7 +142,7 @@ class Search:
 
     @cached_property
     def held(self) -> dict[str, Any]:
-        """The values of what is held, by address."""
+        """The values of held choices, by address."""
         return dict(parts.held(self.hold or {}, self.choices, (), self.model.name))
 
     @cached_property
@@ -157,27 +157,27 @@ class Search:
         progress: Watch | None = None,
         checkpoint: Checkpoint | str | PathLike[str] | None = None,
     ) -> Result:
-        """Carry it out.
+        """Run the search.
 
         Parameters
         ----------
         threads
-            How many to use; all of the machine's when left out. The result does not depend on it.
+            The number of threads; all of the machine when left out. The result does not depend on it.
         progress
-            Called now and then with a `Progress`; an exception that it raises ends the search.
+            A function that is called at intervals with a `Progress`; an exception that it raises ends the search.
         checkpoint
-            A file, or a `Checkpoint`, from which the search goes on after it was killed.
+            A file, or a `Checkpoint`, from which the search resumes after its process was killed.
 
         Raises
         ------
         InputError
             The checkpoint is damaged, or of another search or version.
         """
-        keeper = None if checkpoint is None else carrying.keeper(self, Checkpoint.of(checkpoint))
-        return carrying.carried_out(self, check_threads(threads), progress, keeper)
+        keeper = None if checkpoint is None else execution.keeper(self, Checkpoint.of(checkpoint))
+        return execution.execute(self, check_threads(threads), progress, keeper)
 
     def with_seed(self, seed: int) -> Search:
-        """The same search with another seed; both share what the engine has compiled."""
+        """Copy the search with another seed; both share the compiled program."""
         other = replace(self, seed=seed)
         other.__dict__["task"] = self.task
         return other
@@ -191,9 +191,9 @@ class Search:
         threads: int | None = None,
         progress: Watch | None = None,
     ) -> Result:
-        """Go on from the best sample of a result of this search; see `Result.polish`."""
+        """Continue from the best sample of a result of this search; see `Result.polish`."""
         seed = result.seed if seed is None else seed
-        return searching.polished(result, method, seed, threads, watcher(progress, self))
+        return engine_runs.polish(result, method, seed, threads, watcher(progress, self))
 
     def regrown(
         self,
@@ -206,7 +206,7 @@ class Search:
         threads: int | None = None,
     ) -> Result:
         """Grow one part of a sample of this search again; see `Sample.regrow`."""
-        return searching.regrown(self, sample, part, particles, power, seed, threads)
+        return engine_runs.regrow(self, sample, part, particles, power, seed, threads)
 
     def dragged(self, sample: Sample, part: str, to: Sequence[float], **settings: Any) -> drag.Drag:
         """Drag a part of a sample of this search; see `Sample.drag`."""
@@ -218,8 +218,8 @@ class Search:
         Parameters
         ----------
         files
-            How meshes that were read from files are written: "named" (by the file and a hash of what was read) or
-            "inside", for a machine that has not got the files.
+            The form of meshes that were read from files: "named" (the file and a hash of the mesh) or "inside", for a
+            machine without the files.
         """
         write = Writer(files)
         function = _function_writer(write)
@@ -231,7 +231,7 @@ class Search:
             "method": self.method.data(function),
             "seed": self.seed,
             "choices": None if self.choices is None else write(dict(self.choices)),
-            # The name that it has had in files since the first.
+            # Files of all versions have this name.
             "lock": None if self.hold is None else write(self.held),
             "runs": self.runs,
             "keep": self.keep,
@@ -248,12 +248,12 @@ class Search:
     def of_data(cls, data: Mapping[str, Any], trust: tuple[str, ...] = ()) -> Search:
         """Read a search from plain data.
 
-        No file of Python is run: the model is in the data. Meshes are read from the files that the data names.
+        Reading runs no Python file, because the model is in the data. Meshes are read from the named files.
 
         Parameters
         ----------
         data
-            What `Search.data` gives.
+            The result of `Search.data`.
         trust
             Names of modules whose host functions the model may call; importing a module runs it.
 
@@ -297,31 +297,31 @@ class Search:
 
     @cached_property
     def hash(self) -> str:
-        """SHA-256 of what decides the result, in hexadecimal.
+        """SHA-256 of all settings that decide the result, in hexadecimal.
 
-        It changes with the model's source, an argument, the bytes of a target, an image or a mesh, and any setting; not
-        with a comment, a line's place, or where a file lies.
+        The hash changes with the model's source, an argument, the bytes of a target, an image or a mesh, and any
+        setting. It does not change with a comment, the place of a line, or the place of a file.
         """
-        return text_hash(json.dumps(self._decisive(), sort_keys=True))
+        return text_hash(json.dumps(self._settings(), sort_keys=True))
 
-    def _decisive(self) -> dict[str, Any]:
-        """What decides the result, by name; the model and what is long by their hashes."""
+    def _settings(self) -> dict[str, Any]:
+        """The settings that decide the result, by name; hashes of the model and of long values."""
         return self.data("hashed") | {"model": model_hash(self.model)}
 
     @cached_property
     def about(self) -> dict[str, Any]:
-        """What decides the result, by name: short values as they are, and the hashes of others."""
+        """The settings that decide the result, by name: short values, and hashes of other values."""
 
         def short(value: Any) -> Any:
             return (
                 value if isinstance(value, int | str | None) else text_hash(json.dumps(value, sort_keys=True))
             )
 
-        return {f"its `{name}`": short(value) for name, value in self._decisive().items()}
+        return {f"its `{name}`": short(value) for name, value in self._settings().items()}
 
     @cached_property
     def key(self) -> str:
-        """SHA-256 of the search, the engine and the bits that this machine computes: the name of a stored result."""
+        """SHA-256 of the search, the engine and the arithmetic of this machine: the name of a stored result."""
         return text_hash(f"{self.hash} {engine_hash()} {_engine.fingerprint()}")
 
     def __eq__(self, other: object) -> bool:
@@ -333,7 +333,8 @@ class Search:
     @property
     def host_modules(self) -> tuple[str, ...]:
         """The modules of the host functions that the model calls."""
-        hosts = {public(one.__module__) for one in self.model.core().constants if callable(one)}
+        constants = self.model.core().constants
+        hosts = {public(constant.__module__) for constant in constants if callable(constant)}
         return tuple(sorted(hosts))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -350,35 +351,31 @@ def model_hash(model: Model[..., Any]) -> str:
     """SHA-256 of a model: its core form without places, its constants, the sources of its host functions."""
     core = model.core()
 
-    def kept(found: re.Match[str]) -> str:
-        return found.group(1) or ""
+    def without_places(match: re.Match[str]) -> str:
+        return match.group(1) or ""
 
     data = model_data(model, Writer("hashed"))
-    return text_hash(json.dumps(data | {"core": _PLACES.sub(kept, core.text)}, sort_keys=True))
+    return text_hash(json.dumps(data | {"core": _PLACES.sub(without_places, core.text)}, sort_keys=True))
 
 
 def check_format(data: Any, format: int) -> None:
-    """Refuse, before anything else is looked at, data of another version.
+    """Refuse data of another version.
 
     Raises
     ------
     Unfit
-        Their `format` is another, or they have none.
+        The data have another `format`, or none.
     """
-    found = data.get("format") if isinstance(data, Mapping) else None
-    if found is not None and is_whole(found) and found != format:
-        newer = (
-            "of a newer Niwaki, which can read it"
-            if found > format
-            else "of an older Niwaki, which can read it"
-        )
-        raise Unfit("$.format", f"{format}", f"{found}, the format {newer}")
-    if not is_whole(found):
-        raise Unfit("$.format", f"{format}", "nothing" if found is None else shown(found))
+    version = data.get("format") if isinstance(data, Mapping) else None
+    if version is not None and is_whole(version) and version != format:
+        age = "a newer" if version > format else "an older"
+        raise Unfit("$.format", f"{format}", f"{version}, the format of {age} Niwaki, which can read it")
+    if not is_whole(version):
+        raise Unfit("$.format", f"{format}", "nothing" if version is None else shown(version))
 
 
 def _read(name: str, read: Callable[[], Any]) -> Any:
-    """Read one of the parts of a search; what cannot be read is named by its place."""
+    """Read a part of a search; an error names the place of the part."""
     try:
         return read()
     except Unfit as error:
@@ -387,7 +384,7 @@ def _read(name: str, read: Callable[[], Any]) -> Any:
         error.values.setdefault("source", f"`$.{name}` of the search")
         raise
     except MALFORMED as error:
-        raise Unfit(f"$.{name}", "what `Search.json` wrote", f"something else ({error})") from error
+        raise Unfit(f"$.{name}", "the JSON of `Search.json`", f"something else ({error})") from error
 
 
 def _optional(data: Any, read: Reader) -> Any:
@@ -395,21 +392,21 @@ def _optional(data: Any, read: Reader) -> Any:
 
 
 def _function_reader(read: Reader) -> Any:
-    """Reads a user's proposal or a guide."""
+    """A function that reads a user's proposal or a guide."""
 
-    def function(given: Any) -> Model[..., Any] | Guide:
-        return Guide(base64.b85decode(given["guide"])) if "guide" in given else _stored(given, read)
+    def function(data: Any) -> Model[..., Any] | Guide:
+        return Guide(base64.b85decode(data["guide"])) if "guide" in data else _stored(data, read)
 
     return function
 
 
 def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
-    """The model of its data."""
+    """Read a model from its data."""
     fitted(data, ModelData)
     core = Core(
         text=data["core"],
         constants=read.each(data["constants"], ".constants"),
-        classes=[of_record_class(one) for one in data["classes"]],
+        classes=[of_record_class(kind) for kind in data["classes"]],
         files=[],
         entry=data["name"],
         parameters=tuple(data["parameters"]),
@@ -418,19 +415,19 @@ def _stored(data: Mapping[str, Any], read: Reader) -> StoredModel:
     return StoredModel(core, data["name"])
 
 
-def _unpickled(text: str, trust: tuple[str, ...], wanted: tuple[tuple[str, Path], ...]) -> Search:
-    """A search of another process, which has run those files."""
-    run_files(wanted)
+def _unpickled(text: str, trust: tuple[str, ...], paths: tuple[tuple[str, Path], ...]) -> Search:
+    """Read a search of another process, after running the files that the other process has run."""
+    run_files(paths)
     return Search.of_json(text, trust)
 
 
 def _function_writer(write: Writer) -> Any:
-    """Writes a user's proposal or a guide; for the hash of a search the hash of one."""
+    """A function that writes a user's proposal or a guide, or for the hash of a search its hash."""
 
-    def function(given: Any) -> Any:
-        if isinstance(given, Guide):
-            return {"guide": given.hash if write.files == "hashed" else base64.b85encode(given.data).decode()}
-        own = as_model(given)
-        return model_hash(own) if write.files == "hashed" else model_data(own, write)
+    def function(value: Any) -> Any:
+        if isinstance(value, Guide):
+            return {"guide": value.hash if write.files == "hashed" else base64.b85encode(value.data).decode()}
+        proposal = as_model(value)
+        return model_hash(proposal) if write.files == "hashed" else model_data(proposal, write)
 
     return function

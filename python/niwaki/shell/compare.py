@@ -11,7 +11,7 @@ import warnings
 from statistics import median
 
 import niwaki as nw
-from niwaki.search.worth import SearchWarning
+from niwaki.search.warnings import SearchWarning
 from niwaki.shell.progress import status_line
 from niwaki.shell.references import ModelReference
 

@@ -18,7 +18,7 @@ from niwaki.errors import InputError
 from niwaki.errors.files import check_place
 from niwaki.guides.report import sentence
 from niwaki.methods import Guide
-from niwaki.search.checkpoint import begun_seed
+from niwaki.search.checkpoint import resumed_seed
 from niwaki.shell import controls, folders, settings
 from niwaki.shell.app import ModelName, Seed, Threads, app
 from niwaki.shell.progress import status_line
@@ -110,7 +110,7 @@ def train(
         place.unlink(missing_ok=True)
     elif not place.is_file():
         raise InputError("no-checkpoint", path=place)
-    seed = search.fresh(begun_seed(seed, place))
+    seed = search.fresh(resumed_seed(seed, place))
     goals = _goals(reference, places, controls.read(options), mirror)
     start_time = time.perf_counter()
     with _training_line(reference.name) as progress, _report_interrupt(place, file):

@@ -71,7 +71,7 @@ def search_of(
         defaults, name = {**defaults, **search.GUIDED}, name or "smc"
     if "(emit " not in reference.model.core().text:
         raise InputError("no-emit", name=reference.model.name)
-    return search.asked(
+    return search.grow_search(
         reference.model,
         **{**reference.start(asks), **arguments},
         score=score,

@@ -20,7 +20,7 @@ from msgspec.structs import asdict
 from niwaki import Checkpoint, Result, Search, gallery
 from niwaki.errors import InputError
 from niwaki.errors.schema import fitted
-from niwaki.search.checkpoint import Stored, understood
+from niwaki.search.checkpoint import Stored, reading
 from niwaki.shell import arguments, references
 from niwaki.shell.references import ModelReference
 
@@ -148,7 +148,7 @@ def stopped_search(
     place = folder / NAME
     if not place.is_file():
         raise InputError("no-checkpoint", path=place)
-    with understood(place):
+    with reading(place):
         note = fitted(Stored.read(place).note, Note)
         shell_note = note.own
         if shell_note is None or shell_note.command != command:

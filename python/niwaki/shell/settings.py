@@ -243,7 +243,7 @@ def method(name: str | None, settings: dict[str, Any], defaults: Mapping[str, An
         return Improve(**{**of_model, "particles": max(defaults["particles"] // 3, 1), **options})
     options = {**of_model, **options}
     if kind is Smc:
-        return search.usual(options)
+        return search.default_method(options)
     return kind(**{**({"power": search.POWER} if "power" in field_names else {}), **options})
 
 

@@ -11,7 +11,7 @@ import niwaki as nw
 import numpy as np
 import pytest
 from niwaki.search import Search
-from niwaki.search.entry import asked
+from niwaki.search.entry import grow_search
 from niwaki_blender import asking, axes, grid, growing, naming
 
 CORNERS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-4.0, 4.0) for z in (0.0, 2.0)])
@@ -93,7 +93,7 @@ def test_an_order_is_the_search_that_python_makes() -> None:
     found = Search.of_data(json.loads(one.grown.run)["search"])
     score = nw.floor(-3.0) * nw.avoid(wall.target())
     model = nw.gallery.entry("spaceship").model
-    expected = asked(model, BLOCK.target(), score=score, rounds=3, seed=4)
+    expected = grow_search(model, BLOCK.target(), score=score, rounds=3, seed=4)
     assert found == expected
     result = expected.run().best
     assert result.log_score == one.grown.outcomes[0].log_score

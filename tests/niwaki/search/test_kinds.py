@@ -12,7 +12,7 @@ import niwaki as nw
 import pytest
 from niwaki import gallery, model
 from niwaki.lang.compiled import task
-from niwaki.search.worth import SearchWarning
+from niwaki.search.warnings import SearchWarning
 from niwaki.words import Bernoulli, Categorical, Delta, Gaussian, Mixture, Poisson, Uniform
 
 

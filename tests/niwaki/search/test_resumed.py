@@ -17,7 +17,7 @@ import niwaki as nw
 import pytest
 import resumed
 from niwaki.errors import InputError
-from niwaki.search.keeping import Keeper
+from niwaki.search.keeper import Keeper
 
 SUBJECT = Path(resumed.__file__)
 

@@ -21,7 +21,7 @@ from niwaki.shell.main import app
 from PIL import Image
 from typer.testing import CliRunner
 
-pytestmark = pytest.mark.filterwarnings("ignore::niwaki.search.worth.SearchWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::niwaki.search.warnings.SearchWarning")
 
 MODEL = """
 import os, signal

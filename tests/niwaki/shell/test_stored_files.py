@@ -30,7 +30,7 @@ from niwaki.shell import resume
 from niwaki.shell.main import app
 from typer.testing import CliRunner
 
-pytestmark = pytest.mark.filterwarnings("ignore::niwaki.search.worth.SearchWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::niwaki.search.warnings.SearchWarning")
 
 #: Mutations of each kind of file in the long form.
 MANY = 3000

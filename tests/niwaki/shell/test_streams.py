@@ -22,7 +22,7 @@ from typer.testing import CliRunner
 
 pytestmark = [
     pytest.mark.skipif(os.name == "nt", reason="devices of Unix"),
-    pytest.mark.filterwarnings("ignore::niwaki.search.worth.SearchWarning"),
+    pytest.mark.filterwarnings("ignore::niwaki.search.warnings.SearchWarning"),
 ]
 
 MODEL = """

@@ -254,16 +254,3 @@ fn a_chain_is_the_same_on_any_number_of_threads() {
     assert_eq!(run(1), run(2));
     assert_eq!(run(1), run(5));
 }
-
-#[test]
-fn settings_without_a_law_are_refused() {
-    let task = task(PROGRAMS[0].1);
-    let refused = |own: &Settings| {
-        particle_gibbs(&task, own, Ancestors::Kept, 1, None, &mut |_| true).is_err()
-            && pimh(&task, own, 1, &mut |_| true).is_err()
-    };
-    assert!(refused(&Settings { weights: Weights::Absolute, ..Settings::default() }));
-    assert!(refused(&Settings { anneal: Anneal::Adaptive(0.5), ..Settings::default() }));
-    let alone = Settings { particles: 1, ..Settings::default() };
-    assert!(particle_gibbs(&task, &alone, Ancestors::Kept, 1, None, &mut |_| true).is_err());
-}

@@ -142,23 +142,3 @@ fn threads_change_nothing_under_a_forecast_and_the_forecast_changes_much() {
     assert_eq!(run(1, own.clone()), run(3, own.clone()));
     assert_ne!(run(1, own.clone()).0, run(1, Settings { look_ahead: None, ..own }).0);
 }
-
-#[test]
-fn what_cannot_look_ahead_is_refused() {
-    let own = ahead(4, Order::Stochastic, Resampling::Systematic);
-    let moved = |at| {
-        let kernel = niwaki_chain::kernel::Kernel::PRIOR;
-        Some(Rejuvenation { kernel, moves: 1, at, final_chains: None })
-    };
-    let weak = |strength| Some(LookAhead { strength, forecast: Arc::new(Wave) });
-    for bad in [
-        Settings { weights: Weights::Absolute, ..own.clone() },
-        Settings { rejuvenate: moved(Moment::Every(1)), ..own.clone() },
-        Settings { rejuvenate: moved(Moment::Resampled), ..own.clone() },
-        Settings { look_ahead: weak(0.0), ..own.clone() },
-        Settings { look_ahead: weak(f64::NAN), ..own.clone() },
-    ] {
-        assert_eq!(bad.check().unwrap_err().code, "bad-setting");
-    }
-    assert!(Settings { rejuvenate: moved(Moment::End), ..own }.check().is_ok());
-}

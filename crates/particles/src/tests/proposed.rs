@@ -280,9 +280,6 @@ fn what_a_proposal_cannot_be_is_refused() {
     let user = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(old)).unwrap())));
     assert_eq!(user.proposal().unwrap_err().code, "bad-proposal");
     assert_eq!(Kernel::PRIOR.proposal().unwrap_err().code, "bad-proposal");
-    let (_, proposal) = guided(text, &[("b", "(params) (return (dist bernoulli 0.5))")]);
-    let absolute = Settings { weights: Weights::Absolute, ..with(&Arc::new(proposal), Order::Stochastic, 8) };
-    assert_eq!(absolute.check().unwrap_err().code, "bad-setting");
 }
 
 /// A draw outside of the prior's support has weight zero; where all draws are outside, they are counted.

@@ -234,19 +234,3 @@ fn threads_change_nothing_with_moves() {
     };
     assert_eq!(run(1), run(8));
 }
-
-#[test]
-fn what_no_move_could_keep_is_refused() {
-    let task = task(PROGRAMS[0].1);
-    let annealed = Kernel::Anneal { start: 0.5, end: 1.0, steps: 5, kernel: Box::new(Kernel::PRIOR) };
-    let bad = [
-        Settings {
-            weights: Weights::Absolute,
-            rejuvenate: rejuvenation(Kernel::PRIOR, 1, Moment::End),
-            ..Settings::default()
-        },
-        Settings { rejuvenate: rejuvenation(annealed, 1, Moment::End), ..Settings::default() },
-        Settings { rejuvenate: rejuvenation(Kernel::PRIOR, 0, Moment::End), ..Settings::default() },
-    ];
-    assert!(bad.iter().all(|settings| smc(&task, settings, &mut |_| true).is_err()));
-}

@@ -148,10 +148,3 @@ fn threads_change_nothing_by_tempered_weights() {
         assert!(serial != run(1, Resampling::Systematic));
     }
 }
-
-#[test]
-fn absolute_weights_are_refused() {
-    let own = Settings { weights: Weights::Absolute, ..tempered(4, Order::Stochastic) };
-    let failure = smc(&task(PROGRAMS[0].1), &own, &mut |_| true).err().unwrap();
-    assert!(failure.to_string().contains("absolute weights"), "{failure}");
-}

@@ -50,21 +50,20 @@ pub enum Powers {
 }
 
 impl Powers {
-    /// The powers after 0, in rising order; the last is 1.
-    ///
-    /// # Errors
-    /// No rungs; powers that do not rise from above 0 to 1.
-    pub fn ladder(&self) -> Result<Vec<f64>, Fault> {
-        let powers = match self {
+    /// The powers after 0, in order, the last 1.
+    pub fn ladder(&self) -> Vec<f64> {
+        match self {
             Powers::Rungs(n) => (1..=*n).map(|k| (k as f64 / *n as f64).powi(BEND)).collect(),
             Powers::List(powers) => powers.clone(),
-        };
-        let rises = powers.windows(2).all(|pair| pair[0] < pair[1]);
-        match (powers.first(), powers.last()) {
-            (Some(first), Some(last)) if rises && *first > 0.0 && *last == 1.0 => Ok(powers),
-            _ => Err(Fault::new("bad-setting", "`powers` do not rise from above 0 to 1")
-                .with_help("use a number of rungs, or a list such as [0.01, 0.1, 1]")),
         }
+    }
+
+    /// Whether the powers rise from above 0 to 1.
+    pub(crate) fn rise(&self) -> bool {
+        let powers = self.ladder();
+        powers.is_sorted_by(|low, high| low < high)
+            && powers.first() > Some(&0.0)
+            && powers.last() == Some(&1.0)
     }
 }
 
@@ -83,21 +82,6 @@ pub struct Settings {
     pub tries: u64,
     /// The seed of all random numbers.
     pub seed: u64,
-}
-
-impl Settings {
-    /// Refuses settings that make no sense.
-    fn check(&self) -> Result<(), Fault> {
-        if self.particles < 2 || self.moves == 0 {
-            let message = "fewer than two particles, or no moves";
-            return Err(Fault::new("bad-setting", message).with_help("use 100 particles and 10 moves"));
-        }
-        if self.kernel.any(&|part| matches!(part, Kernel::Anneal { .. })) {
-            return Err(Fault::new("bad-kernel", "an annealing kernel has powers of its own")
-                .with_help("move by the kernel inside `anneal`: the powers are those of the ladder"));
-        }
-        Ok(())
-    }
 }
 
 /// The result of annealed importance sampling.
@@ -131,13 +115,12 @@ struct Arrival {
 /// it returns false, unfinished particles are dropped.
 ///
 /// # Errors
-/// Settings that make no sense, no possible first state, a fault of the program, or a stop before the first particle is finished.
+/// No possible first state, a fault of the program, or a stop before the first particle is finished.
 pub fn annealed(
     task: &Task,
     settings: &Settings,
     watch: &(dyn Fn(f64) -> bool + Sync),
 ) -> Result<Annealed, Failure> {
-    settings.check()?;
     let climb = Climb {
         task,
         settings,

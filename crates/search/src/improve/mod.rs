@@ -20,6 +20,7 @@ mod stored;
 
 pub use rounds::{Kind, Round};
 
+use crate::method::BrokenRule;
 use niwaki_chain::form::Form;
 use niwaki_math::RngCore;
 use niwaki_particles::distinct::Choices;
@@ -29,9 +30,9 @@ use niwaki_run::checkpoint::Checkpoint;
 use niwaki_run::failure::Attempt;
 use niwaki_run::losses::Lost;
 use niwaki_run::run::{Run, Shown};
+use niwaki_run::setting::{COUNT, POSITIVE, Range, Ranges, whole};
 use niwaki_run::streams::Reserved;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::fault::Fault;
 use rounds::Search;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -97,21 +98,19 @@ pub struct Improved {
 }
 
 impl Improve {
-    fn check(&self) -> Result<(), Fault> {
-        let wrong = |message: String, help: &str| Err(Fault::new("bad-setting", message).with_help(help));
-        if self.particles == 0 || self.regrow < 2 {
-            return wrong(
-                "`particles` is 0, or `regrow` is below 2".into(),
-                "use at least one particle, and two to grow a part again",
-            );
-        }
-        if !(self.power > 0.0 && self.power.is_finite()) {
-            return wrong(format!("the power is {}", self.power), "use a positive number");
-        }
-        if self.diverse.is_some() && self.seconds.is_some() {
-            return wrong("several results have no time limit".into(), "use a number of rounds");
-        }
-        Ok(())
+    /// Ranges of its settings.
+    pub(crate) const RANGES: Ranges = &[
+        ("particles", COUNT),
+        ("regrow", whole(2)),
+        ("power", POSITIVE),
+        ("rounds", Range::Optional(&COUNT)),
+        ("seconds", Range::Optional(&POSITIVE)),
+        ("diverse", Range::Optional(&COUNT)),
+    ];
+
+    /// A setting and the rule that it breaks.
+    pub(crate) fn broken_rule(&self) -> Option<BrokenRule> {
+        (self.diverse.is_some() && self.seconds.is_some()).then_some(("seconds", "seconds-diverse"))
     }
 
     /// Searches for the best run, or for several different runs, best first. If there is a `proposal`, populations and parts that are
@@ -119,7 +118,7 @@ impl Improve {
     /// is `shown`; when it returns false, the search ends with its best so far. Each search is a part of the `checkpoint`.
     ///
     /// # Errors
-    /// Settings that make no sense, a fault of the program, or first populations that all died.
+    /// A fault of the program, or first populations that all died.
     pub fn search(
         &self,
         task: &Task,
@@ -128,7 +127,6 @@ impl Improve {
         outputs: Outputs<'_>,
         watch: &mut Watch<'_>,
     ) -> Result<(Vec<Run>, Improved), Failure> {
-        self.check()?;
         let improve = Improve { drawn_by: proposal, ..self.clone() };
         match improve.diverse {
             None => improve.single(task, seed, 0, outputs, watch).map(|(best, info)| (vec![best], info)),

@@ -10,7 +10,7 @@ use super::programs::{leaf, task};
 use super::regrown::PROGRAMS;
 use niwaki_agreement::compare;
 use niwaki_chain::kernel::Kernel;
-use niwaki_chain::regrow::{Afresh, afresh};
+use niwaki_chain::leaf::regrow::{Afresh, afresh};
 use niwaki_chain::{Chain, Settings as ChainSettings};
 use niwaki_math::log_sums::log_sum_exp;
 use niwaki_math::{Dist, Stream};

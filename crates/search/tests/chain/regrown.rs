@@ -9,7 +9,7 @@
 
 use super::programs::{leaf, task};
 use niwaki_chain::kernel::Kernel;
-use niwaki_chain::regrow::is_apart;
+use niwaki_chain::leaf::regrow::is_apart;
 use niwaki_chain::{Chain, Settings};
 use niwaki_geom::{Aabb, no_overshoot, vec3};
 use niwaki_math::Stream;

@@ -89,18 +89,14 @@ fn a_ladder_makes_weights_equal() {
             .expect("a search")
             .effective
     };
-    let of = |rungs| effective(&Powers::Rungs(rungs).ladder().expect("a ladder"));
+    let of = |rungs| effective(&Powers::Rungs(rungs).ladder());
     let found = [1, 6, 60].map(of);
     assert!(found.is_sorted_by(|a, b| a < b), "{found:?}");
 }
 
 #[test]
 fn a_ladder_rises_to_one() {
-    assert_eq!(Powers::Rungs(2).ladder().expect("a ladder"), [1.0 / 16.0, 1.0]);
-    for bad in [vec![], vec![0.0, 1.0], vec![0.5, 0.4, 1.0], vec![0.5], vec![0.5, 2.0], vec![f64::NAN, 1.0]] {
-        assert!(Powers::List(bad).ladder().is_err());
-    }
-    assert!(Powers::Rungs(0).ladder().is_err());
+    assert_eq!(Powers::Rungs(2).ladder(), [1.0 / 16.0, 1.0]);
 }
 
 #[test]

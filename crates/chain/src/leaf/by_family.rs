@@ -2,7 +2,7 @@
 //! the family of the choice: a coin is always flipped, a Gaussian number drifts by its own distribution's standard
 //! deviation, anything else is drawn from its distribution. Flips and drifts are symmetric.
 
-use crate::drift::normal;
+use crate::leaf::drift::normal;
 use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Stream};
 use niwaki_vm::fault::Fault;

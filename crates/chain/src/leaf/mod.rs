@@ -1,20 +1,35 @@
-//! The proposals that there are: the leaves of a kernel. Each is a file with its settings, which are read as data, and what
-//! it adapts; [`Proposer`] names them all. A leaf is applied to the kept run of a chain or to the partial run of a particle.
+//! Proposals: the leaves of a kernel. Each is a file with its settings, which are read as data, and what it adapts;
+//! [`Proposer`] lists them. A leaf is applied to the kept run of a chain or to the partial run of a particle.
+//!
+//! * a new value for one choice: from the prior, [`drift`], [`neighbour`], `by_family`, by the [`user`]'s function,
+//!   by a guide ([`guided`]);
+//! * [`block`], `regenerate`, [`regrow`]: proposals that change many choices;
+//! * [`trajectory`]: the continuous choices move together along their gradient.
 
-use crate::block::Block;
-use crate::by_family::ByFamily;
-use crate::drift::{Drift, Step};
-use crate::guided::Guided;
-use crate::neighbour::Neighbour;
-use crate::regenerate::Regenerate;
-use crate::regrow::Regrow;
-use crate::trajectory;
-use crate::trajectory::Trajectory;
-use crate::user::UserMove;
+pub mod block;
+mod by_family;
+pub mod drift;
+pub mod guided;
+pub mod neighbour;
+mod regenerate;
+pub mod regrow;
+pub mod trajectory;
+pub mod user;
+
+use crate::leaf::block::Block;
+use crate::leaf::by_family::ByFamily;
+use crate::leaf::drift::{Drift, Step};
+use crate::leaf::guided::Guided;
+use crate::leaf::neighbour::Neighbour;
+use crate::leaf::regenerate::Regenerate;
+use crate::leaf::regrow::Regrow;
+use crate::leaf::trajectory::Trajectory;
+use crate::leaf::user::UserMove;
 use crate::walk::ChainMove;
 use crate::walk::proposal::{FromPrior, Move};
 use niwaki_propose::user::User;
 use niwaki_run::select::Selection;
+use niwaki_run::setting::Ranges;
 use niwaki_run::{Failure, Task};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -52,6 +67,20 @@ pub enum Proposer {
 }
 
 impl Proposer {
+    /// Ranges of the settings of a leaf, by its name.
+    pub(crate) fn ranges(name: &str) -> Ranges {
+        match name {
+            "drift" => Drift::RANGES,
+            "neighbour" => Neighbour::RANGES,
+            "block" => Block::RANGES,
+            "regenerate" => Regenerate::RANGES,
+            "regrow" => Regrow::RANGES,
+            "hmc_step" => trajectory::HMC_RANGES,
+            "nuts_step" => trajectory::NUTS_RANGES,
+            _ => &[],
+        }
+    }
+
     /// Makes one proposal.
     ///
     /// # Errors
@@ -120,7 +149,7 @@ pub(crate) enum Learnt {
     /// Leaves that do not learn.
     Nothing,
     /// Steps.
-    Steps(Vec<crate::drift::Learnt>),
+    Steps(Vec<crate::leaf::drift::Learnt>),
     /// Of trajectories.
     Travels(Box<trajectory::Learnt>),
 }

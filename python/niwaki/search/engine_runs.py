@@ -1,4 +1,4 @@
-"""One run of a search on the engine, timed, by its method; chains that go on from it, and parts grown again."""
+"""Runs of a search on the engine, with their times: by any method, by chains from a sample, by growing a part again."""
 
 from __future__ import annotations
 
@@ -28,45 +28,45 @@ from niwaki.result.normals import ViInfo
 from niwaki.result.progress import EngineWatch
 from niwaki.result.search_like import SearchLike
 from niwaki.search.checks import check_polish, check_seed, check_threads
-from niwaki.search.keeping import Stage
-from niwaki.search.worth import SearchWarning, check_reach
+from niwaki.search.keeper import Stage
+from niwaki.search.warnings import SearchWarning, check_reach
 
 
-def starts(method: Method) -> bool:
-    """Whether a method starts from a run whose choices are given."""
+def has_start(method: Method) -> bool:
+    """Whether a method starts from a run with known choices."""
     return isinstance(method, Mh | Hmc | Nuts | Vi | ParticleGibbs)
 
 
-def given(search: SearchLike, seed: int | None = None) -> Result:
-    """The one run whose choices are given; missing ones are drawn if there is a seed."""
+def replay_choices(search: SearchLike, seed: int | None = None) -> Result:
+    """Replay the run with the choices of a search; a seed draws missing choices."""
     with translated(search.model.name, choices=search.choices):
         trace = search.task.replay(dict(search.choices or {}), seed)
     return Result(search, [Sample.of_trace(trace, search)], search.seed)
 
 
 def _start(search: SearchLike, seed: int) -> _engine.Run | None:
-    """The run that chains start from."""
+    """The run from which chains start."""
     if search.choices is None:
         return None
     with translated(search.model.name, choices=search.choices):
         return search.task.replay(dict(search.choices), seed).run
 
 
-def searched(
+def run_once(
     search: SearchLike, seed: int, threads: int | None, watch: EngineWatch, stage: Stage | None = None
 ) -> Result:
-    """One run of a search, with one seed."""
+    """Make one run of a search, with one seed."""
     check_method(search.method)
     if stage is not None:
         watch = stage.watched(watch)
     start = _start(search, seed)
     if isinstance(search.method, Mh):
-        return chains_of(search, search.method, seed, threads, watch, start, stage=stage)
+        return run_chains(search, search.method, seed, threads, watch, start, stage=stage)
     if isinstance(search.method, Hmc | Nuts):
-        return trajectories(search, search.method, seed, threads, watch, start)
+        return run_trajectories(search, search.method, seed, threads, watch, start)
     if isinstance(search.method, Vi):
-        return normals(search, search.method, seed, threads, watch, start)
-    method, attached = _written(search.method)
+        return fit_normals(search, search.method, seed, threads, watch, start)
+    method, attached = engine_form(search.method)
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
         runs, interrupted, counters = counted.search(
@@ -81,53 +81,54 @@ def searched(
     info = INFOS.get(search.method.NAME, Info)(**counters)
     diverse = getattr(search.method, "diverse", None)
     if diverse is not None:
-        runs = different(runs, diverse, info)
+        runs = distinct(runs, diverse, info)
     seconds = clock.read()
     if stage is not None:
         stage.collect()
         seconds = seconds[0] + stage.before[0], seconds[1] + stage.before[1]
     samples = [Sample(run, search, seed, *seconds) for run in runs]
-    invalid = [Invalid(*one) for one in counted.invalid()]
+    invalid = [Invalid(*fields) for fields in counted.invalid()]
     return Result(search, samples, seed, info=info, interrupted=interrupted, invalid=invalid, seconds=seconds)
 
 
-def _written(method: Method) -> tuple[str, list[_engine.Task | _engine.Guide]]:
-    """A method as the engine reads it, and the users' proposals and guides that it names."""
-    text, attached = method.text()
+def engine_form(method: Method) -> tuple[str, list[_engine.Task | _engine.Guide]]:
+    """A method as text for the engine, and the users' proposals and guides that the text names by number."""
+    text, functions = method.text()
     return text, [
-        one._engine if isinstance(one, Guide) else _engine.Task(as_model(one).program()) for one in attached
+        function._engine if isinstance(function, Guide) else _engine.Task(as_model(function).program())
+        for function in functions
     ]
 
 
 class Clock:
-    """Wall and processor time since its creation."""
+    """Clock of wall and processor time since its creation."""
 
     def __init__(self) -> None:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
 
     def read(self) -> tuple[float, float]:
-        """Seconds so far, of the wall and of the processor."""
+        """Seconds so far, by the wall clock and of the processor."""
         return time.perf_counter() - self._wall, time.process_time() - self._cpu
 
 
-def different(runs: list[_engine.Run], wanted: int, info: Info) -> list[_engine.Run]:
-    """The best of those that differ; runs that did not end or are impossible are none."""
-    ended = [one for one in runs if one.has_ended and one.cause is None]
-    ranked = sorted(ended, key=lambda one: -one.log_score)
-    chosen = [ranked[place] for place in _engine.different(ranked, wanted)]
-    if len(chosen) < wanted:
+def distinct(runs: list[_engine.Run], number: int, info: Info) -> list[_engine.Run]:
+    """The best runs that differ from one another; runs that did not end or are impossible are left out."""
+    ended = [run for run in runs if run.has_ended and run.cause is None]
+    ranked = sorted(ended, key=lambda run: -run.log_score)
+    chosen = [ranked[place] for place in _engine.different(ranked, number)]
+    if len(chosen) < number:
         if isinstance(info, PopulationInfo):
             count, cure = len(info.plan), "give more `populations`"
             where = f"{count} population{'' if count == 1 else 's'}"
         else:
             count = info.searches if isinstance(info, ImproveInfo) else 1
-            cure = "give another `seed`, or accept that the model has few"
+            cure = "give another `seed`, or accept that the model has few results"
             where = f"{count} search{'' if count == 1 else 'es'}"
-        warn(f"{len(chosen)} of {wanted} results that differ are in {where}; {cure}", SearchWarning)
+        warn(f"only {len(chosen)} of {number} results in {where} differ; {cure}", SearchWarning)
     return chosen
 
 
-def chains_of(
+def run_chains(
     search: SearchLike,
     method: Mh,
     seed: int,
@@ -137,17 +138,20 @@ def chains_of(
     spent: tuple[float, float] = (0.0, 0.0),
     stage: Stage | None = None,
 ) -> Result:
-    """Chains in their first states, and their first proposals; `spent` are the seconds of the search before.
+    """Start chains, or resume those of a stage, and make their proposals.
 
-    Chains of a stage that was begun go on from where they were.
+    Parameters
+    ----------
+    spent
+        Wall and processor seconds of the search before the chains.
     """
     check_reach(search.task, method.kernel, seed)
-    text, attached = _written(method)
+    text, attached = engine_form(method)
     counted = search.task.uncounted()
-    kept = None if stage is None else stage.engine
+    part = None if stage is None else stage.engine
     with translated(search.model.name, f"seed={seed}"):
         chains = _engine.Chains(
-            counted, text, seed, attached=attached, start=start, threads=threads, checkpoint=kept
+            counted, text, seed, attached=attached, start=start, threads=threads, checkpoint=part
         )
     running = Running(chains, counted, watch, threads, stage)
     info = MhInfo(search=search, method=method, seed=seed, _running=running)
@@ -158,7 +162,7 @@ def chains_of(
     return result
 
 
-def trajectories(
+def run_trajectories(
     search: SearchLike,
     method: Hmc | Nuts,
     seed: int,
@@ -166,19 +170,19 @@ def trajectories(
     watch: EngineWatch,
     start: _engine.Run | None,
 ) -> Result:
-    """Chains that follow the gradient."""
+    """Run chains that follow the gradient."""
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        found = _engine.Trajectories(
+        chains = _engine.Trajectories(
             counted, method.text()[0], seed, start=start, threads=threads, watch=watch
         )
-    info = HmcInfo.of(search, seed, found)
-    result = _drawn(counted, info, found.interrupted, clock)
+    info = HmcInfo.of(search, seed, chains)
+    result = _result_of_draws(counted, info, chains.interrupted, clock)
     info.warn(method)
     return result
 
 
-def normals(
+def fit_normals(
     search: SearchLike,
     method: Vi,
     seed: int,
@@ -186,18 +190,18 @@ def normals(
     watch: EngineWatch,
     start: _engine.Run | None,
 ) -> Result:
-    """Normals near the model's distribution."""
+    """Fit normals to the model's distribution."""
     counted, clock = search.task.uncounted(), Clock()
     with translated(search.model.name, f"seed={seed}"):
-        found = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
-    info = ViInfo.of(search, seed, found)
-    result = _drawn(counted, info, found.interrupted, clock)
-    info.warn(method, found.interrupted)
+        normals = _engine.Normals(counted, method.text()[0], seed, start=start, threads=threads, watch=watch)
+    info = ViInfo.of(search, seed, normals)
+    result = _result_of_draws(counted, info, normals.interrupted, clock)
+    info.warn(method, normals.interrupted)
     return result
 
 
-def _drawn(counted: _engine.Task, info: DrawnInfo, interrupted: bool, clock: Clock) -> Result:
-    """The result of a method whose draws are kept as numbers."""
+def _result_of_draws(counted: _engine.Task, info: DrawnInfo, interrupted: bool, clock: Clock) -> Result:
+    """The result of a method that stores draws as numbers."""
     seconds = clock.read()
     return Result(
         info.search,
@@ -206,12 +210,12 @@ def _drawn(counted: _engine.Task, info: DrawnInfo, interrupted: bool, clock: Clo
         info=info,
         sizes=info.sizes,
         interrupted=interrupted,
-        invalid=[Invalid(*one) for one in counted.invalid()],
+        invalid=[Invalid(*fields) for fields in counted.invalid()],
         seconds=seconds,
     )
 
 
-def regrown(
+def regrow(
     search: SearchLike,
     sample: Sample,
     part: str,
@@ -220,7 +224,7 @@ def regrown(
     seed: int | None,
     threads: int | None,
 ) -> Result:
-    """One part of a sample grown again by particles, with everything outside of it as it is."""
+    """Grow one part of a sample again by particles; everything outside of the part stays as it is."""
     if seed is None:
         seed = search.seed if sample.seed is None else sample.seed
     check_seed(seed)
@@ -231,14 +235,14 @@ def regrown(
     if not sample.has_ended:
         expected = "a run that has ended"
         raise bad("sample", sample, expected, "more time or particles")
-    clock, own = Clock(), replace(search, runs=1, keep="all", polish=None)
+    clock, single = Clock(), replace(search, runs=1, keep="all", polish=None)
     with translated(search.model.name, f"seed={seed}"):
         runs = search.task.regrow(sample._run, part, particles, power, seed, threads)
     seconds = clock.read()
-    return Result(own, [Sample(run, own, seed, *seconds) for run in runs], seed, seconds=seconds)
+    return Result(single, [Sample(run, single, seed, *seconds) for run in runs], seed, seconds=seconds)
 
 
-def polished(
+def polish(
     result: Result,
     method: Mh,
     seed: int,
@@ -246,10 +250,10 @@ def polished(
     watch: EngineWatch,
     stage: Stage | None = None,
 ) -> Result:
-    """Chains from the best sample of a result; their time is added to that of the search.
+    """Run chains from the best sample of a result; their time is added to the time of the search.
 
-    A population compares many runs, each built once. A proposal of a chain changes one choice of one run, and costs
-    only what depends on it. So chains improve the best of a population.
+    A population compares many runs, each built once. A proposal of a chain changes one choice of one run, and
+    recomputes only what depends on that choice. So chains improve the best run of a population.
     """
     check_polish(method)
     check_method(method)
@@ -261,4 +265,4 @@ def polished(
         raise bad("polish", best, expected, "more time or particles")
     spent = result.seconds, result.cpu_seconds
     watch = watch if stage is None else stage.watched(watch)
-    return chains_of(result.search, method, seed, threads, watch, best._run, spent, stage)
+    return run_chains(result.search, method, seed, threads, watch, best._run, spent, stage)

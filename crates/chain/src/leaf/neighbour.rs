@@ -5,6 +5,7 @@
 
 use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Space, Stream, Support};
+use niwaki_run::setting::{COUNT, Ranges};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
@@ -18,6 +19,11 @@ use std::num::NonZeroU64;
 pub struct Neighbour {
     /// How far at most.
     reach: NonZeroU64,
+}
+
+impl Neighbour {
+    /// Ranges of its settings.
+    pub(crate) const RANGES: Ranges = &[("reach", COUNT)];
 }
 
 impl Move for Neighbour {
@@ -82,7 +88,7 @@ fn shifted(all: &[Value], reach: u64, rng: &mut Stream) -> Option<Value> {
 }
 
 /// A whole number at most `reach` from another, and not the same.
-pub(super) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
+pub(crate) fn near(k: i64, reach: u64, rng: &mut Stream) -> i64 {
     let at = crate::walk::streams::below(rng, 2 * reach);
     let by = (at / 2 + 1) as i64;
     k.saturating_add(if at.is_multiple_of(2) { by } else { -by })

@@ -8,12 +8,13 @@
 //! A discrete choice that takes part moves to a neighbour or stays, each with probability 1/2. If all of them always moved, what
 //! two of them have in common could never change: two truth values that are equal would stay equal.
 
-use crate::drift::{Step, normal};
-use crate::neighbour::near;
+use crate::leaf::drift::{Step, normal};
+use crate::leaf::neighbour::near;
 use crate::walk::Walk;
 use crate::walk::accept::Decision;
 use niwaki_math::{Family, Space, Stream};
 use niwaki_run::fresh::Fresh;
+use niwaki_run::setting::{BETWEEN, POSITIVE, Range, Ranges};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::machine::Machine;
@@ -34,6 +35,13 @@ pub struct Block {
 }
 
 impl Block {
+    /// Ranges of its settings.
+    pub(crate) const RANGES: Ranges = &[
+        ("step", POSITIVE),
+        ("share", Range::Real { low: 0.0, high: 1.0, ends: "(]" }),
+        ("target", BETWEEN),
+    ];
+
     /// The step so far, in spreads of each choice's first distribution.
     pub fn size(&self) -> f64 {
         self.step.size
@@ -71,7 +79,7 @@ pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<
 
 impl Walk {
     /// One proposal for a whole block.
-    pub(super) fn block(
+    pub(crate) fn block(
         &mut self,
         task: &Task,
         machine: &mut Machine<'_>,
@@ -115,7 +123,7 @@ impl Walk {
         Ok(())
     }
 
-    pub(super) fn count_many(&mut self, decision: Decision) {
+    pub(crate) fn count_many(&mut self, decision: Decision) {
         self.counts.many.proposed += 1;
         self.counts.many.accepted += u64::from(decision.accepted);
     }

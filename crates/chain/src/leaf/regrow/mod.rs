@@ -42,6 +42,7 @@ use niwaki_math::{RngCore, Stream, Total};
 use niwaki_propose::proposal::Proposal;
 use niwaki_run::fresh::Fresh;
 use niwaki_run::select::Selection;
+use niwaki_run::setting::{Ranges, SHARE, whole};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
@@ -78,6 +79,9 @@ pub struct Regrow {
 }
 
 impl Regrow {
+    /// Ranges of its settings.
+    pub(crate) const RANGES: Ranges = &[("particles", whole(2)), ("turn", SHARE)];
+
     /// From now on a proposal draws the values of the particles.
     pub(crate) fn draw_by(&mut self, proposal: Arc<Proposal>) {
         self.proposal = Some(proposal);
@@ -96,20 +100,12 @@ impl Regrow {
     /// Takes the choices that may change.
     ///
     /// # Errors
-    /// Fewer than two particles, a share outside of 0 to 1, selection weights.
+    /// Selection weights.
     pub(crate) fn prepare(&mut self, selection: &Selection) -> Result<(), Failure> {
-        let wrong = |what: String, help: &str| Err(Fault::new("bad-kernel", what).with_help(help).into());
-        if self.particles < 2 {
-            return wrong("regrowth needs a particle beside the present one".into(), "use at least two");
-        }
-        if !(0.0..=1.0).contains(&self.turn) {
-            return wrong(format!("`turn` is {}", self.turn), "use a share between 0 and 1");
-        }
         if !selection.is_by_pattern() {
-            return wrong(
-                "regrowth takes which choices may change, not how often".into(),
-                "use patterns in `on`, and no weights",
-            );
+            return Err(Fault::new("bad-kernel", "`regrow` has no selection weights")
+                .with_help("put it under `on` with patterns, not under `weighted`")
+                .into());
         }
         self.selection = selection.clone();
         Ok(())

@@ -10,8 +10,10 @@ use crate::walk::streams::Streams;
 use niwaki_math::RngCore;
 use niwaki_run::run::Run;
 use niwaki_run::select::Selection;
+use niwaki_run::setting::COUNT;
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
+use niwaki_vm::refusal::Expected;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -37,8 +39,7 @@ pub struct Afresh<'a> {
 /// program.
 pub fn afresh(task: &Task, known: &HashMap<u128, Value>, with: &Afresh<'_>) -> Result<Vec<Run>, Failure> {
     if with.particles == 0 {
-        let fault = Fault::new("no-particles", "the number of particles is 0").with_help("use at least one");
-        return Err(fault.into());
+        return Err(Fault::refused("particles", "0".into(), Expected::Range(COUNT)).into());
     }
     let (program, streams) = (&*task.program, Streams::new(with.seed, 0));
     refuse_memoised(program)?;

@@ -1,7 +1,7 @@
-"""Keeping a checkpoint while a search goes on: when it is written, and what an earlier process left.
+"""Checkpoints of running searches: when they are written, and the stages that they store.
 
 A search consists of stages, such as the third run, or the chains that polish it. A stage runs on the engine, which
-stores its parts at its own borders (crates/run/src/checkpoint.rs). A stage that is done leaves its result.
+stores its parts at its own borders (crates/run/src/checkpoint.rs). A finished stage is replaced by its result.
 """
 
 from __future__ import annotations
@@ -17,26 +17,26 @@ from niwaki.errors import FileError
 from niwaki.errors.schema import fitted
 from niwaki.errors.warned import warn
 from niwaki.result.progress import EngineWatch
-from niwaki.search.checkpoint import Checkpoint, opened, understood
+from niwaki.search.checkpoint import Checkpoint, open_file, reading
 
-#: The time between two writes is at least so many times that of one.
+#: The time between two writes is at least this many times the time that a write takes.
 SHARE = 50.0
 
-#: So many seconds after it was asked the engine has mostly stored all parts that run.
+#: Seconds in which the engine has usually stored all running parts after a request.
 GRACE = 0.1
 
 
 class Keeper:
-    """A checkpoint that is written now and then.
+    """Checkpoint file that is written at intervals.
 
     Parameters
     ----------
     checkpoint
-        Its file, and how often it is written.
+        The path of the file, and the interval.
     kind, about
-        What it is of, as for `opened`.
+        The kind and the settings of the search or training, as for `open_file`.
     search
-        A search as plain data, to be written with it.
+        A search as plain data, which is written to the file.
 
     Raises
     ------
@@ -48,44 +48,50 @@ class Keeper:
         self, checkpoint: Checkpoint, kind: str, about: Mapping[str, Any], search: Any = None
     ) -> None:
         self.checkpoint, self.path = checkpoint, Path(checkpoint.path)
-        self.stored = opened(self.path, kind, about)
+        self.stored = open_file(self.path, kind, about)
         self.stored.note = {"own": checkpoint.note, "search": search}
         self.next = time.monotonic() + checkpoint.every
         self.is_written, self._has_failed = False, False
 
     def put(self, name: str, data: Any) -> None:
-        """Keep plain data as a part."""
+        """Store plain data as a part."""
         self.stored.parts[name] = json.dumps(data).encode()
 
     def get(self, name: str) -> Any:
-        """A part that was put; None where there is none."""
+        """Read a part; None if there is none."""
         part = self.stored.parts.get(name)
-        with understood(self.path):
+        with reading(self.path):
             return None if part is None else json.loads(part)
 
     def drop(self, name: str) -> None:
-        """Forget the parts of a stage."""
-        for one in [one for one in self.stored.parts if one.startswith(name)]:
-            del self.stored.parts[one]
+        """Remove the parts of a stage."""
+        for part in [part for part in self.stored.parts if part.startswith(name)]:
+            del self.stored.parts[part]
 
     def stage(self, name: str) -> Stage:
-        """A stage, which goes on where it was."""
+        """A stage, resumed from its stored parts."""
         return Stage(self, name)
 
     @property
     def is_due(self) -> bool:
-        """Whether it is time to write the file."""
+        """Whether the interval since the last write is over."""
         return time.monotonic() >= self.next
 
     def write_if_due(self) -> None:
-        """Write the file, if it is time."""
+        """Write the file if it is due."""
         if self.is_due:
             self.write()
 
     def write(self, cost: float = 0.0) -> None:
-        """Write the file; storing its parts took `cost` seconds.
+        """Write the file.
 
-        A file that was written once and now cannot be is a warning: the search is worth more.
+        A file that cannot be written for the first time is an error. Later it is a warning, because the search is
+        worth more than its checkpoint.
+
+        Parameters
+        ----------
+        cost
+            Seconds that the engine took to store the parts.
         """
         began = time.monotonic()
         try:
@@ -97,12 +103,12 @@ class Keeper:
             if not self._has_failed:
                 self._has_failed = True
                 first = str(error).splitlines()[0]
-                warn(f"the checkpoint `{self.path}` is not written any more: {first}", UserWarning)
+                warn(f"the checkpoint `{self.path}` can no longer be written: {first}", UserWarning)
         now = time.monotonic()
         self.next = now + max(self.checkpoint.every, SHARE * (now - began + cost))
 
     def finish(self, interrupted: bool) -> None:
-        """Write or remove the file of a search that has ended."""
+        """Write or remove the file at the end of a search."""
         if interrupted or self.checkpoint.keep:
             self.write()
         else:
@@ -110,32 +116,32 @@ class Keeper:
 
 
 class Stage:
-    """A stage of a search, with its part of the checkpoint.
+    """Stage of a search, with its parts of the checkpoint.
 
     Attributes
     ----------
     engine : Checkpoint
-        What the engine stores into.
+        The engine's part of the checkpoint.
     """
 
     def __init__(self, keeper: Keeper, name: str) -> None:
         self.keeper, self.name = keeper, name
-        own = f"{name}/part/"
-        with understood(keeper.path):
-            left = {
-                int(one.removeprefix(own)): part.decode()
-                for one, part in keeper.stored.parts.items()
-                if one.startswith(own)
+        prefix = f"{name}/part/"
+        with reading(keeper.path):
+            parts = {
+                int(key.removeprefix(prefix)): part.decode()
+                for key, part in keeper.stored.parts.items()
+                if key.startswith(prefix)
             }
-            self.engine = _engine.Checkpoint(left)
+            self.engine = _engine.Checkpoint(parts)
             self.before: tuple[float, float] = fitted(
                 keeper.get(f"{name}/seconds") or (0.0, 0.0), tuple[float, float]
             )
         self._began = time.perf_counter(), time.process_time()
-        self._asked: float | None = None
+        self._requested: float | None = None
 
     def watched(self, watch: EngineWatch) -> EngineWatch:
-        """A function for the engine to call, which also keeps the checkpoint."""
+        """Wrap a callback of the engine, so that each call also writes the checkpoint when it is due."""
 
         def watching(done: int, ended: int, best: float, run: _engine.Run | None) -> None:
             self._tick()
@@ -144,23 +150,23 @@ class Stage:
         return watching
 
     def finish(self, interrupted: bool) -> None:
-        """Write or remove the file of a search that has ended with this stage."""
+        """Write or remove the file at the end of a search of this one stage."""
         self.keeper.finish(interrupted)
 
     def _tick(self) -> None:
         now = time.monotonic()
-        if self._asked is None:
+        if self._requested is None:
             if self.keeper.is_due:
                 self.engine.ask()
-                self._asked = now
-        elif now >= self._asked + GRACE:
+                self._requested = now
+        elif now >= self._requested + GRACE:
             cost = self.collect()
             if cost > 0.0 or not self.keeper.is_written:
-                self._asked = None
+                self._requested = None
                 self.keeper.write(cost)
 
     def collect(self) -> float:
-        """Take what the engine has stored; the seconds that this took it, 0 where there is nothing."""
+        """Collect the parts that the engine has stored; the seconds that it took to store them, 0 without parts."""
         parts, cost = self.engine.collect()
         for number, text in parts.items():
             self.keeper.stored.parts[f"{self.name}/part/{number}"] = text.encode()

@@ -9,6 +9,7 @@ use crate::walk::streams::below;
 use crate::walk::{ChainMove, Proposing};
 use niwaki_run::Failure;
 use niwaki_run::fresh::Fresh;
+use niwaki_run::setting::{Ranges, whole};
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::state::NodeId;
 use serde::Deserialize;
@@ -19,6 +20,11 @@ use serde::Deserialize;
 pub struct Regenerate {
     /// How many levels the call is above the picked choice.
     levels: usize,
+}
+
+impl Regenerate {
+    /// Ranges of its settings.
+    pub(crate) const RANGES: Ranges = &[("levels", whole(0))];
 }
 
 impl ChainMove for Regenerate {

@@ -7,6 +7,7 @@ use crate::walk::accept::Decision;
 use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_run::fresh::spread;
+use niwaki_run::setting::{BETWEEN, POSITIVE, Ranges};
 use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -31,13 +32,16 @@ pub struct Drift {
 }
 
 impl Drift {
+    /// Ranges of its settings.
+    pub(crate) const RANGES: Ranges = &[("step", POSITIVE), ("target", BETWEEN)];
+
     /// What it has learnt: its steps, by number of the site.
-    pub(super) fn learnt(&self) -> Vec<Learnt> {
+    pub(crate) fn learnt(&self) -> Vec<Learnt> {
         self.steps.iter().map(Step::learnt).collect()
     }
 
     /// Takes what it had learnt.
-    pub(super) fn know(&mut self, steps: &[Learnt]) {
+    pub(crate) fn know(&mut self, steps: &[Learnt]) {
         self.steps = steps.iter().map(|step| Step::known(*step)).collect();
     }
 
@@ -121,7 +125,7 @@ impl Move for Drift {
 }
 
 /// A standard Gaussian number.
-pub(super) fn normal(rng: &mut Stream) -> f64 {
+pub(crate) fn normal(rng: &mut Stream) -> f64 {
     match (Dist::Gaussian { mean: 0.0, sd: 1.0 }).sample(rng) {
         Draw::Real(x) => x,
         _ => 0.0,

@@ -29,6 +29,7 @@ use niwaki_grad::{Continuous, Model, Transform};
 use niwaki_propose::gradient;
 use niwaki_propose::gradient::follow::reason;
 use niwaki_run::fresh::Fresh;
+use niwaki_run::setting::{BETWEEN, POSITIVE, Range, Ranges, SHARE, SMALL_COUNT};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use scales::Scales;
@@ -54,8 +55,18 @@ pub(crate) struct Learnt {
     recorded: (u64, u64),
 }
 
+/// Ranges of the settings of one of fixed length.
+pub(crate) const HMC_RANGES: Ranges =
+    &[("steps", SMALL_COUNT), ("step", POSITIVE), ("jitter", SHARE), ("target", BETWEEN)];
+
+/// Ranges of the settings of one without a U-turn.
+pub(crate) const NUTS_RANGES: Ranges = &[("max_depth", DOUBLINGS), ("step", POSITIVE), ("target", BETWEEN)];
+
+/// Most doublings of a trajectory without a U-turn.
+pub const DOUBLINGS: Range = Range::Whole { least: 1, most: 20 };
+
 /// One of fixed length, from its settings.
-pub(super) fn hmc_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
+pub(crate) fn hmc_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Settings {
@@ -69,7 +80,7 @@ pub(super) fn hmc_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Traject
 }
 
 /// One without a U-turn, from its settings.
-pub(super) fn nuts_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
+pub(crate) fn nuts_step<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Trajectory>, D::Error> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Settings {
@@ -123,13 +134,13 @@ impl Trajectory {
     }
 
     /// What it has learnt and counted.
-    pub(super) fn learnt(&self) -> Learnt {
+    pub(crate) fn learnt(&self) -> Learnt {
         let (counts, recorded) = (self.counts.clone(), self.recorded());
         Learnt { scales: self.scales.stored(), counts, recorded }
     }
 
     /// Takes what it had learnt and counted. Graphs are recorded anew, and count again.
-    pub(super) fn know(&mut self, learnt: Learnt) {
+    pub(crate) fn know(&mut self, learnt: Learnt) {
         self.scales = Scales::restored(learnt.scales);
         self.counts = learnt.counts;
         self.structures.count_from(learnt.recorded);
