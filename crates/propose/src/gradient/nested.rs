@@ -24,7 +24,6 @@ use niwaki_run::enumeration::{not_enumerable, too_many};
 use niwaki_run::forward::named;
 use niwaki_run::inside::{fault_of, limits_inside, too_long};
 use niwaki_run::record::{AllInvalid, check_factor};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::FunctionId;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -98,7 +97,7 @@ impl Answers<Var> for Branching<'_> {
         for draw in draws {
             let log = dist.log_density(&draw);
             if !is_never(log) {
-                self.open.push((draw_to_value(draw), log));
+                self.open.push((draw.into(), log));
             }
         }
         Ok(Answer::Pause)

@@ -19,7 +19,6 @@ use niwaki_run::log::Entry;
 use niwaki_run::record::Record;
 use niwaki_run::replay::{by_address, picks};
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::Value;
@@ -250,9 +249,7 @@ pub(super) fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) ->
         rows.trace();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
-            let lesson =
-                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
-            if let Some(lesson) = lesson {
+            if let Some(lesson) = bound.lesson(site, dist, value) {
                 let (window, features) = sight.inputs();
                 rows.push(site, window, features, &lesson);
             }
@@ -276,9 +273,7 @@ pub fn losses(examples: &[Example], guide: &Arc<Guide>) -> Result<Vec<(usize, f6
         let bound = BoundGuide::new(guide.clone(), &example.task)?;
         let (mut sight, mut sum) = (Sight::default(), (0, 0.0));
         follow(example, &mut |at, dist, seen, value| {
-            if let (Some(site), Some(draw)) =
-                (bound.look(at, dist, seen, &mut sight, 0), value_to_draw(value))
-            {
+            if let (Some(site), Some(draw)) = (bound.look(at, dist, seen, &mut sight, 0), value.draw()) {
                 sum.0 += 1;
                 sum.1 += dist.log_density(&draw) - bound.log_of(site, dist, &draw, &mut sight);
             }
