@@ -251,18 +251,15 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let (trace, record) = (Trace::default(), Record::start(&task.sketches));
     let chooser = Sourced { source, missing };
     let mut answers = Replay { task, chooser, trace, record, written: HashMap::new(), named: 0 };
-    if missing == Missing::Stop {
-        let mut stuck = Vec::new();
-        while answers.record.cause.is_none() {
-            let next = state.runnable().iter().find(|future| !stuck.contains(future));
-            let Some(next) = next else { break };
-            if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {
-                stuck.push(next);
-            }
+    let mut stuck = Vec::new();
+    machine.drive(&mut state, &mut answers, |answers, state, last| {
+        if missing != Missing::Stop {
+            return Some(0);
         }
-    } else {
-        machine.finish(&mut state, &mut answers)?;
-    }
+        stuck.extend(last.filter(|(_, stop)| *stop == Stop::Paused).map(|(future, _)| future));
+        let is_possible = answers.record.cause.is_none();
+        state.runnable().iter().position(|future| is_possible && !stuck.contains(&future))
+    })?;
     let Replay { mut trace, record, .. } = answers;
     let value = if state.has_ended() { state.result() } else { Value::None };
     trace.sums = (record.log_prior.clone(), record.score());

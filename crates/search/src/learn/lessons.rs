@@ -21,6 +21,7 @@ use niwaki_run::replay::{by_address, picks};
 use niwaki_run::{Failure, Task};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::state::State;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -66,12 +67,9 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     start.note_parts();
     let mut record = Record::start(&task.sketches);
     record.sketches.expect_windows();
-    let mut one = Particle::start(start, record, 0, 0);
-    while one.is_running() {
-        let pick = |own: &Particle| next(&own.state).unwrap_or(0);
-        one.advance_by(&mut machine, task, pick, Shown { values: &values, each })?;
-    }
-    Ok(())
+    let pick = |state: &State| next(state).unwrap_or(0);
+    let shown = Shown { values: &values, each };
+    Particle::start(start, record, 0, 0).finish_by(&mut machine, task, pick, shown)
 }
 
 /// How a guide is made.
