@@ -1,14 +1,14 @@
 //! What each strategy does for one proposal: which activations it creates, invokes, unwinds into, skips and removes
 //! (dissertation figure 3.1, for any program).
 
+use crate::walk::proposal::{FromPrior, Move};
 use crate::walk::state::State;
 use crate::walk::streams::Streams;
-use niwaki_math::{Dist, StreamKey, grid};
+use niwaki_math::{Dist, StreamKey};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::glob::matches;
 use niwaki_run::select::no_choice;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::inspect::Activation;
@@ -72,13 +72,12 @@ impl Propose<f64> for Draws {
         &mut self,
         at: &At<'_, f64>,
         dist: &Dist,
-        _: &Value,
+        old: &Value,
         log: f64,
     ) -> Result<Proposed<f64>, Fault> {
-        let (draw, forward) = dist.sample_and_score(&mut self.key.at(at.address()));
-        let value = draw_to_value(draw);
-        self.drawn = Some(value.clone());
-        Ok(Proposed { value, forward: grid(forward), backward: log })
+        let proposed = FromPrior.propose(at, 0, dist, old, log, &mut self.key.at(at.address()))?;
+        self.drawn = Some(proposed.value.clone());
+        Ok(proposed)
     }
 }
 

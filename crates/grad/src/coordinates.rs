@@ -21,7 +21,6 @@ use crate::operation::apply;
 use crate::record::{Recorded, Recorder, no_coordinates};
 use crate::scalar::Var;
 use niwaki_math::{COORDINATES, Dist, Draw, Family, Interval, LEAST, Scalar, Space, Support, logistic};
-use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::value::Value;
 use std::f64::consts::{PI, TAU};
@@ -54,6 +53,19 @@ impl Transform {
             Transform::Simplex => "simplex",
             Transform::Vector => "vector",
         }
+    }
+
+    /// Whether a value is a list of numbers rather than a number.
+    pub fn is_vector(self) -> bool {
+        matches!(self, Transform::Simplex | Transform::Vector)
+    }
+
+    /// The value of a choice that has these numbers.
+    ///
+    /// # Panics
+    /// Without numbers, for a value that is one.
+    pub fn value<S: Scalar>(self, numbers: &[S]) -> Value<S> {
+        if self.is_vector() { Draw::Vector(numbers.into()).into() } else { Value::Real(numbers[0]) }
     }
 }
 
@@ -140,11 +152,6 @@ impl Continuous {
         (is_open && v <= COORDINATES.0 + 1e-6)
             .then_some(-1.0)
             .or((is_open && v >= high - 1e-3).then_some(1.0))
-    }
-
-    /// Whether the value is a list of numbers.
-    pub fn is_vector(&self) -> bool {
-        matches!(self.transform, Transform::Simplex | Transform::Vector)
     }
 }
 
@@ -371,7 +378,7 @@ impl Recorded {
         let mut x = self.start.clone();
         let mut nodes: Vec<f64> = Vec::new();
         for choice in &self.choices {
-            let draw = value_to_draw(value(choice)?)?;
+            let draw = value(choice)?.draw()?;
             let place = choice.first..choice.first + choice.coordinates;
             let mut edge = |edge: Edge| match edge {
                 Edge::Open => None,

@@ -10,13 +10,12 @@
 
 use crate::graph::{Graph, Id};
 use crate::operation::Op;
-use crate::record::HostCall;
+use crate::record::{HostCall, known};
 use crate::reverse;
 use crate::scalar::{Var, with_notes};
 use crate::tape::{Lanes, Tape};
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw, Scalar, Support};
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At};
@@ -156,17 +155,9 @@ fn keeping_its_place(dist: &Dist<Var>, x: f64) -> Option<Var> {
 impl Answers<Var> for Placer<'_> {
     fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
         if let Dist::Delta(value) = dist {
-            return Ok(Answer::Go(draw_to_value(value.clone())));
+            return Ok(Answer::Go(value.clone().into()));
         }
-        let Some(value) = self.run.choices.get(&at.address()) else {
-            let path = at.path();
-            return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
-                .about(path)
-                .with_help("record with the model that the choices are from"));
-        };
-        let Some(draw) = value_to_draw(value) else {
-            return Err(Fault::type_mismatch(format!("no distribution draws {}", value.described())));
-        };
+        let (_, draw) = known(self.run.choices, at)?;
         if let Draw::Real(x) = draw
             && let Some(moving) = self.moving(at, dist, x)
         {
@@ -178,7 +169,7 @@ impl Answers<Var> for Placer<'_> {
             self.followed.push((at.address(), shifted));
             return Ok(Answer::Go(Value::Real(shifted.at(x))));
         }
-        Ok(Answer::Go(draw_to_value(draw.convert(&Var::from_f64))))
+        Ok(Answer::Go(draw.convert(&Var::from_f64).into()))
     }
 
     fn emit(&mut self, at: &At<'_, Var>, shapes: &[Shape]) -> Result<Answer<()>, Fault> {

@@ -4,14 +4,13 @@
 //! belong to the density. Scores of a scene do not belong to it; the caller adds them. A [`Scope`] names the continuous
 //! choices that also keep their values, and the power of the score.
 
-use crate::coordinates::{Continuous, Edge, Placed, Transform};
+use crate::coordinates::{Continuous, Edge, Placed};
 use crate::density::Density;
 use crate::graph::Id;
 use crate::scalar::{Var, with_sheet};
 use crate::tape::{Lanes, Tape};
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Draw, Scalar};
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::address::join;
@@ -20,6 +19,7 @@ use niwaki_vm::machine::held::Held;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::Value;
+use niwaki_vm::value::draw::not_drawn;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -160,22 +160,32 @@ fn impossible(cause: &str) -> Fault {
         .with_help("start from a run that is possible, for example a result of particles or of rejection")
 }
 
+/// The value of a choice that is recorded, and as a draw.
+///
+/// # Errors
+/// There is none, or no distribution draws it.
+pub(crate) fn known<'c>(
+    choices: &'c HashMap<u128, Value>,
+    at: &At<'_, Var>,
+) -> Result<(&'c Value, Draw), Fault> {
+    let Some(value) = choices.get(&at.address()) else {
+        let path = at.path();
+        return Err(Fault::new("missing-choice", format!("there is no value for the choice `{path}`"))
+            .about(path)
+            .with_help("record with the model that the choices are from"));
+    };
+    Ok((value, value.draw().ok_or_else(|| not_drawn(value))?))
+}
+
 impl Answers<Var> for Recorder<'_> {
     fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
         let address = at.address();
         if let Dist::Delta(value) = dist {
             // The distribution may vary with other choices.
             self.mix(address);
-            return Ok(Answer::Go(draw_to_value(value.clone())));
+            return Ok(Answer::Go(value.clone().into()));
         }
-        let Some(stored) = self.choices.get(&address) else {
-            let path = at.path();
-            return Err(Fault::new("missing-choice", format!("there is no stored for the choice `{path}`"))
-                .about(path)
-                .with_help("record with the model that the choices are from"));
-        };
-        let unfit = || Fault::type_mismatch(format!("no distribution draws {}", stored.described()));
-        let draw = value_to_draw(stored).ok_or_else(unfit)?;
+        let (stored, draw) = known(self.choices, at)?;
         self.mix(address);
         let (first, family) = (self.start.len(), dist.family());
         let is_held = self.run.scope.held.as_ref().is_some_and(|held| held.contains(&address));
@@ -207,15 +217,12 @@ impl Answers<Var> for Recorder<'_> {
         self.add(placed.log)?;
         self.slope = self.slope + placed.slope;
         let coordinates = self.start.len() - first;
-        let draw = match transform {
-            Transform::Simplex | Transform::Vector => Draw::Vector(placed.values.clone().into()),
-            _ => Draw::Real(placed.values[0]),
-        };
+        let value = transform.value(&placed.values);
         let (path, unit, values, edges) = (at.path(), placed.unit, vec![], [Edge::Open; 2]);
         let choice =
             Continuous { address, path, family, transform, first, coordinates, unit, is_held, values, edges };
         self.continuous.push((choice, placed));
-        Ok(Answer::Go(draw_to_value(draw)))
+        Ok(Answer::Go(value))
     }
 
     fn score(&mut self, _: &At<'_, Var>, factor: Factor, log: Var) -> Result<Answer<()>, Fault> {
@@ -345,11 +352,7 @@ impl Recorded {
             let n = choice.width();
             let part = &numbers[at..at + n];
             at += n;
-            let draw = match choice.transform {
-                Transform::Simplex | Transform::Vector => Draw::Vector(part.into()),
-                _ => Draw::Real(part[0]),
-            };
-            all.insert(choice.address, draw_to_value(draw));
+            all.insert(choice.address, choice.transform.value(part));
         }
         all
     }

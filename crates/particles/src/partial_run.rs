@@ -10,7 +10,7 @@ use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, Family, StreamKey, Total, grid};
 use niwaki_propose::guide::bound::Sight;
 use niwaki_propose::look_ahead::LookAhead;
-use niwaki_propose::particle::Particle;
+use niwaki_propose::particle::{Particle, Turn};
 use niwaki_propose::proposal::{Proposal, as_if_drawn};
 use niwaki_run::chooser::{Chooser, Chosen, Context, Known, Prior, Refuse};
 use niwaki_run::log::{Entry, Log};
@@ -151,32 +151,20 @@ impl PartialRun {
         let (log_prior, log_factors, steps) = (Total::default(), Total::default(), vec![]);
         let skeleton = before.map(|before| before.steps.iter());
         let mut recorder = Recorder { chooser, with, skeleton, steps, log_prior, log_factors, lost: false };
-        let mut met = 0;
-        while met < barriers && !state.has_ended() {
-            past.look(machine.program(), &state);
-            let runnable = state.runnable();
-            let mut picked = None;
-            if runnable.len() > 1 {
-                let hash = |hash, future: FutureId| join(hash, state.path_of(future));
-                let among = runnable.iter().fold(runnable.len() as u128, hash);
-                let logs = past.logs(&state).unwrap_or_default();
-                let among = logs.iter().fold(among, |hash, log| join(hash, u128::from(log.to_bits())));
-                let which = match recorder.next_mark() {
-                    None => pick(&state, &past),
-                    Some(Some(Step::Ran { pick: Some((which, then)), .. })) if *then == among => *which,
-                    Some(_) => return Ok(None),
-                };
-                picked = Some((which, among));
+        let (program, mut met) = (machine.program(), 0);
+        machine.drive(&mut state, &mut recorder, |recorder, state, last| {
+            if let Some((future, stop)) = last {
+                met += usize::from(stop == Stop::Paused);
+                past.ran(future, state);
             }
-            let Some(future) = runnable.get(picked.map_or(0, |(which, _)| which)) else {
-                return Err(Box::new(machine.waiting_cycle(&state)).into());
-            };
-            recorder.steps.push(Step::Ran { path: state.path_of(future), pick: picked });
-            met += usize::from(machine.resume(&mut state, future, &mut recorder)? == Stop::Paused);
-            past.ran(future, &state);
-            if recorder.lost {
-                return Ok(None);
+            if met == barriers || recorder.lost {
+                return None;
             }
+            past.look(program, state);
+            recorder.next(state, &past, pick)
+        })?;
+        if recorder.lost {
+            return Ok(None);
         }
         let Recorder { steps, log_prior, log_factors, .. } = recorder;
         Ok(Some(PartialRun { steps, log_prior, log_factors, state }))
@@ -273,6 +261,37 @@ impl<C> Recorder<'_, C> {
     fn next_mark(&mut self) -> Option<Option<&Step>> {
         let is_mark = |step: &&Step| matches!(step, Step::Ran { pick: Some(_), .. } | Step::Met { .. });
         self.skeleton.as_mut().map(|steps| steps.find(is_mark))
+    }
+
+    /// The place of the future that runs next: of a kept skeleton, else by `pick`.
+    fn next(
+        &mut self,
+        state: &State,
+        past: &Past,
+        pick: &mut dyn FnMut(&State, &Past) -> usize,
+    ) -> Option<usize> {
+        let runnable = state.runnable();
+        let mut picked = None;
+        if runnable.len() > 1 {
+            let hash = |hash, future: FutureId| join(hash, state.path_of(future));
+            let among = runnable.iter().fold(runnable.len() as u128, hash);
+            let logs = past.logs(state).unwrap_or_default();
+            let among = logs.iter().fold(among, |hash, log| join(hash, u128::from(log.to_bits())));
+            let which = match self.next_mark() {
+                None => pick(state, past),
+                Some(Some(Step::Ran { pick: Some((which, then)), .. })) if *then == among => *which,
+                Some(_) => {
+                    self.lost = true;
+                    return None;
+                }
+            };
+            picked = Some((which, among));
+        }
+        let place = picked.map_or(0, |(which, _)| which);
+        if let Some(future) = runnable.get(place) {
+            self.steps.push(Step::Ran { path: state.path_of(future), pick: picked });
+        }
+        Some(place)
     }
 
     fn barrier(&mut self, address: u128, shapes: Option<&[Shape]>) -> Answer<()> {
@@ -393,17 +412,23 @@ pub(crate) fn follow(
     look_ahead: Option<&LookAhead>,
 ) -> Result<Option<f64>, Failure> {
     let mut follow = Follow { steps: segment.iter(), proposal, sight: Sight::default(), lost: false };
-    let (mut log_order, mut paused) = (0.0, false);
-    while particle.is_running() && !paused {
-        let Some(Step::Ran { path, .. }) = follow.steps.next() else { return Ok(None) };
-        let Some(which) = place(&particle.state, *path) else { return Ok(None) };
-        particle.past.look(machine.program(), &particle.state);
-        if particle.state.runnable().len() > 1 {
-            log_order += particle.past.log_probability(&particle.state, which);
+    let mut log_order = 0.0;
+    let pick = |follow: &mut &mut Follow<'_>, Turn { state, past, .. }: Turn<'_>| {
+        let which = match follow.steps.next() {
+            Some(Step::Ran { path, .. }) => place(state, *path),
+            _ => None,
+        };
+        follow.lost |= which.is_none();
+        if state.runnable().len() > 1 {
+            log_order += past.log_probability(state, which?);
         }
-        paused = particle.run(machine, task, which, &mut follow)?;
+        which
+    };
+    let paused = particle.advance_by(machine, task, pick, &mut follow)?;
+    if follow.lost {
+        return Ok(None);
     }
     particle.foresee(look_ahead, task, machine, &mut follow.sight);
     let arrived = if last { particle.state.has_ended() } else { paused && particle.record.cause.is_none() };
-    Ok((arrived && !follow.lost && follow.steps.len() == 0).then_some(log_order))
+    Ok((arrived && follow.steps.len() == 0).then_some(log_order))
 }

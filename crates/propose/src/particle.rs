@@ -9,7 +9,7 @@ use niwaki_run::order::Past;
 use niwaki_run::record::Record;
 use niwaki_run::task::Task;
 use niwaki_run::weights::log_step;
-use niwaki_vm::machine::state::{FutureId, State};
+use niwaki_vm::machine::state::State;
 use niwaki_vm::machine::{Machine, Stop};
 use niwaki_vm::value::Census;
 
@@ -50,6 +50,31 @@ pub struct Particle {
     pub bytes: isize,
 }
 
+/// The moment before one of the futures of a particle runs.
+#[derive(Clone, Copy)]
+pub struct Turn<'a> {
+    /// The particle's activations.
+    pub state: &'a State,
+    /// What the order policy has seen of its run.
+    pub past: &'a Past,
+    /// How many order choices it has drawn.
+    pub picks: u64,
+}
+
+impl Turn<'_> {
+    /// The place of a future drawn by the order policy, for the particle with this random stream.
+    #[inline(always)]
+    pub fn pick(self, seed: u64, lineage: u64) -> usize {
+        match self.state.runnable().len() {
+            0 | 1 => 0,
+            _ => {
+                let u = Stream::new(seed, lineage, u128::from(self.picks + 1), ORDER).uniform();
+                self.past.pick(self.state, u)
+            }
+        }
+    }
+}
+
 impl Particle {
     /// A particle that has not begun, of weight one: it has the score of its scene so far.
     pub fn start(state: State, record: Record, lineage: u64, seed: u64) -> Particle {
@@ -87,57 +112,61 @@ impl Particle {
         chooser: impl Chooser,
     ) -> Result<bool, Failure> {
         self.was_ended = self.state.has_ended();
-        self.advance_by(machine, task, |own| own.pick(seed), chooser)
+        let lineage = self.lineage;
+        let pick = |_: &mut _, turn: Turn<'_>| Some(turn.pick(seed, lineage));
+        self.advance_by(machine, task, pick, chooser)
     }
 
-    /// The same, where `pick` gives the place of the future that runs next among several.
+    /// Like [`Particle::advance`], but `pick` gives the place of the future that runs next; `None` leaves the particle where it
+    /// is.
     #[inline(always)]
-    pub fn advance_by(
+    pub fn advance_by<C: Chooser>(
         &mut self,
         machine: &mut Machine<'_>,
         task: &Task,
-        mut pick: impl FnMut(&Particle) -> usize,
-        mut chooser: impl Chooser,
+        mut pick: impl FnMut(&mut C, Turn<'_>) -> Option<usize>,
+        chooser: C,
     ) -> Result<bool, Failure> {
-        while self.is_running() {
-            self.past.look(machine.program(), &self.state);
-            let which = match self.state.runnable().len() {
-                0 => return Err(Box::new(machine.waiting_cycle(&self.state)).into()),
-                1 => 0,
-                _ => pick(self),
-            };
-            if self.run(machine, task, which, &mut chooser)? {
-                return Ok(true);
+        let (past, picks, program) = (&mut self.past, &mut self.picks, machine.program());
+        let (record, hosts, log_ratio) = (&mut self.record, &*task.hosts, self.pending);
+        let mut answers = Forward { record, chooser, log_ratio, hosts, barriers: true, complete: false };
+        let mut has_paused = false;
+        let driven = machine.drive(&mut self.state, &mut answers, |answers, state, last| {
+            if let Some((future, stop)) = last {
+                has_paused = stop == Stop::Paused;
+                past.ran(future, state);
             }
-        }
-        Ok(false)
-    }
-
-    /// Runs the future at this place among the runnable ones; a chooser gives the new choices. Returns whether it paused.
-    #[inline(always)]
-    pub fn run(
-        &mut self,
-        machine: &mut Machine<'_>,
-        task: &Task,
-        which: usize,
-        chooser: impl Chooser,
-    ) -> Result<bool, Failure> {
-        let runnable = self.state.runnable();
-        let future = runnable.get(which).unwrap_or(FutureId::NONE);
-        if runnable.len() > 1 {
-            self.picks += 1;
-            self.record.log.push_order(self.state.path_of(future), which);
-        }
-        let (record, hosts) = (&mut self.record, &*task.hosts);
-        let mut answers =
-            Forward { record, chooser, log_ratio: self.pending, hosts, barriers: true, complete: false };
-        let stop = machine.resume(&mut self.state, future, &mut answers);
+            if has_paused || answers.record.cause.is_some() {
+                return None;
+            }
+            past.look(program, state);
+            let which = pick(&mut answers.chooser, Turn { state, past, picks: *picks })?;
+            if state.runnable().len() > 1 {
+                *picks += 1;
+                let future = state.runnable().get(which)?;
+                answers.record.log.push_order(state.path_of(future), which);
+            }
+            Some(which)
+        });
         self.pending = answers.log_ratio;
-        self.past.ran(future, &self.state);
-        match stop {
-            Ok(stop) => Ok(stop == Stop::Paused),
+        match driven {
+            Ok(()) => Ok(has_paused),
             Err(met) => self.record.forgive(task, met).map(|()| false),
         }
+    }
+
+    /// Runs to the end, over all barriers.
+    pub fn finish_by<C: Chooser>(
+        &mut self,
+        machine: &mut Machine<'_>,
+        task: &Task,
+        mut pick: impl FnMut(&State) -> usize,
+        mut chooser: C,
+    ) -> Result<(), Failure> {
+        while self.is_running() {
+            self.advance_by(machine, task, |_, turn| Some(pick(turn.state)), &mut chooser)?;
+        }
+        Ok(())
     }
 
     /// The log weight of its step from the score weighed before at a power to a score at the next power, nats: its forecast is
@@ -151,12 +180,6 @@ impl Particle {
     pub fn count<'v>(&'v self, census: &mut Census<'v>) {
         self.state.count(census);
         self.record.log.count(census);
-    }
-
-    /// A draw among the runnable futures, by the order policy.
-    pub fn pick(&self, seed: u64) -> usize {
-        let u = Stream::new(seed, self.lineage, u128::from(self.picks + 1), ORDER).uniform();
-        self.past.pick(&self.state, u)
     }
 
     /// A copy for a trial. It has the same lineage, so it must not draw random numbers.

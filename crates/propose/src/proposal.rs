@@ -7,14 +7,12 @@ use crate::user::User;
 use niwaki_math::{Dist, StreamKey};
 use niwaki_run::chooser::{Chooser, Chosen, Context};
 use niwaki_run::glob::{last, matches};
-use niwaki_run::record::log_density;
 use niwaki_run::select::Selection;
 use niwaki_run::select::{labels, no_choice};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
-use niwaki_vm::value::{Value, repr};
+use niwaki_vm::value::{Value, log_density, repr};
 use std::sync::Arc;
 
 /// From a proposal, at the choices that it is for; else another chooser.
@@ -154,7 +152,7 @@ impl Proposal {
             Some((_, Drawer::User(user))) => {
                 let own = of_user(user, at, dist)?;
                 let (draw, log_drawn) = own.sample_and_score(&mut stream.at(seen.address));
-                Ok(Some(Chosen { log_drawn, ..Chosen::given(draw_to_value(draw), dist)? }))
+                Ok(Some(Chosen { log_drawn, ..Chosen::given(draw.into(), dist)? }))
             }
         }
     }

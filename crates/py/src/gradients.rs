@@ -39,7 +39,7 @@ impl PyCoordinates {
             first: choice.first,
             count: choice.coordinates,
             width: choice.width(),
-            is_vector: choice.is_vector(),
+            is_vector: choice.transform.is_vector(),
         }
     }
 }

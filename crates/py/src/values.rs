@@ -11,9 +11,8 @@
 //!
 //! Both directions are guarded against nesting deeper than [`DEPTH`].
 
-use crate::distributions;
 use crate::geometry::PyShape;
-use niwaki_math::{Dist, Draw, Param};
+use niwaki_math::{Dist, Param};
 use niwaki_vm::value::{Class, ClassKind, Dict, Range, Record, Value};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -247,7 +246,7 @@ fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>
             let inner = dists.iter().map(|d| distribution(py, d)).collect::<PyResult<Vec<_>>>()?;
             Ok(PyTuple::new(py, inner)?.into_any())
         }
-        Param::Draw(draw) => drawn(py, draw),
+        Param::Draw(draw) => Classes::default().object(py, &draw.clone().into()),
     };
     let parts = dist.params().iter().map(part).collect::<PyResult<Vec<_>>>()?;
     let camel: String = dist.family().name().split('_').map(capital).collect();
@@ -257,15 +256,6 @@ fn distribution<'py>(py: Python<'py>, dist: &Dist) -> PyResult<Bound<'py, PyAny>
 fn capital(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map(|first| first.to_ascii_uppercase().to_string() + letters.as_str()).unwrap_or_default()
-}
-
-fn drawn<'py>(py: Python<'py>, draw: &Draw) -> PyResult<Bound<'py, PyAny>> {
-    match draw {
-        Draw::Vector(xs) => Ok(PyTuple::new(py, xs.iter())?.into_any()),
-        Draw::Counts(xs) => Ok(PyTuple::new(py, xs.iter())?.into_any()),
-        Draw::Truths(xs) => Ok(PyTuple::new(py, xs.iter())?.into_any()),
-        other => Ok(distributions::to_python(py, other)?.into_bound(py)),
-    }
 }
 
 /// Puts this part into the module.

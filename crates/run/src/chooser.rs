@@ -10,14 +10,12 @@
 //! [`Prior`] draws from `p` itself, [`Known`] uses given values, `ByProposal` (in `niwaki-propose`) draws from a
 //! user's proposal or a guide; the last two pass other choices to another chooser. A chooser may look at the scene so far ([`Context`]).
 
-use crate::record::log_density;
 use niwaki_geom::Aabb;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_math::{Dist, StreamKey};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
-use niwaki_vm::value::Value;
+use niwaki_vm::value::{Value, log_density};
 use std::collections::HashMap;
 
 /// A value for a choice.
@@ -32,6 +30,12 @@ pub struct Chosen {
 }
 
 impl Chosen {
+    /// A value from the prior with its log density, nats.
+    #[inline(always)]
+    pub fn from_prior(value: impl Into<Value>, log: f64) -> Chosen {
+        Chosen { value: value.into(), log_prior: log, log_drawn: log }
+    }
+
     /// A given value.
     ///
     /// # Errors
@@ -111,12 +115,12 @@ impl Chooser for Prior {
     #[inline(always)]
     fn choose(&mut self, _: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let (draw, log) = dist.sample_and_score(&mut self.0.at(seen.address));
-        Ok(Some(Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log }))
+        Ok(Some(Chosen::from_prior(draw, log)))
     }
 
     #[inline(always)]
     fn draw(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Option<Value>, Fault> {
-        Ok(Some(draw_to_value(dist.sample(&mut self.0.at(at.address())))))
+        Ok(Some(dist.sample(&mut self.0.at(at.address())).into()))
     }
 }
 

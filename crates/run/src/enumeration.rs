@@ -15,8 +15,7 @@ use crate::record::{AllInvalid, Record};
 use crate::task::Task;
 use frontier::{Branch, Frontier, Next};
 use niwaki_math::log_sums::log_sum_exp;
-use niwaki_math::{Dist, Draw, Support};
-use niwaki_vm::builtins::draw_to_value;
+use niwaki_math::{Dist, Support};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::{Value, repr};
@@ -73,11 +72,7 @@ impl Chooser for Branching {
         for draw in draws {
             let log = dist.log_density(&draw);
             if log > f64::NEG_INFINITY {
-                self.open.push(Next::Value(Chosen {
-                    value: draw_to_value(draw),
-                    log_prior: log,
-                    log_drawn: log,
-                }));
+                self.open.push(Next::Value(Chosen::from_prior(draw, log)));
             }
         }
         Ok(None)
@@ -139,9 +134,8 @@ pub fn visit(task: &Task, what: Visit, watch: &mut dyn FnMut(usize) -> bool) -> 
             Next::Start => None,
             Next::Value(chosen) => Some(chosen),
             Next::From { dist, value, left } => {
-                let draw = Draw::Int(value);
-                let log = dist.log_density(&draw);
-                let chosen = Chosen { value: draw_to_value(draw), log_prior: log, log_drawn: log };
+                let log = dist.log_density_of_int(value);
+                let chosen = Chosen::from_prior(Value::Int(value), log);
                 let others = left - log.exp();
                 if let (true, Some(value)) = (others > 0.0, value.checked_add(1)) {
                     let next = Next::From { dist, value, left: others };
@@ -291,7 +285,7 @@ mod tests {
         let mut left = 1.0;
         for (value, log) in &found.outcomes {
             let Value::Int(n) = value else { panic!("{value:?}") };
-            assert!((log - law.log_density(&Draw::Int(*n))).abs() < 1e-9);
+            assert!((log - law.log_density_of_int(*n)).abs() < 1e-9);
             left -= log.exp();
         }
         assert!(found.outcomes.len() == 12 && (found.unseen - left).abs() < 1e-9 && left > 0.0);

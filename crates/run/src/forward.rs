@@ -35,18 +35,14 @@ impl<C: Chooser> Forward<'_, C> {
     /// # Errors
     /// A fault of the program, or of the chooser.
     pub fn run(&mut self, task: &Task, machine: &mut Machine<'_>, state: &mut State) -> Result<(), Failure> {
-        while !state.has_ended() && (self.complete || self.record.cause.is_none()) {
-            let Some(next) = state.runnable().first() else {
-                return Err(Box::new(machine.waiting_cycle(state)).into());
-            };
-            match machine.resume(state, next, self) {
-                Ok(Stop::Paused) => break,
-                Ok(_) => {}
-                Err(met) if self.complete => return Err(met.into()),
-                Err(met) => self.record.forgive(task, met)?,
-            }
+        let driven = machine.drive(state, self, |own, _, last| {
+            let has_paused = matches!(last, Some((_, Stop::Paused)));
+            (!has_paused && (own.complete || own.record.cause.is_none())).then_some(0)
+        });
+        match driven {
+            Err(met) if !self.complete => self.record.forgive(task, met),
+            driven => Ok(driven?),
         }
-        Ok(())
     }
 
     #[inline(always)]

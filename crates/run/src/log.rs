@@ -4,7 +4,6 @@
 //! the entries since the last fork, not the length of the run.
 
 use niwaki_math::Draw;
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::value::{Census, Value};
 use serde::ser::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -180,6 +179,21 @@ enum Plain {
     Order(u32),
 }
 
+impl Plain {
+    fn of(value: &Value) -> Option<Plain> {
+        Some(match value {
+            Value::Future(which) => Plain::Order(*which),
+            Value::Bool(b) => Plain::Bool(*b),
+            Value::Int(i) => Plain::Int(*i),
+            Value::Real(x) => Plain::Real(x.to_bits()),
+            row => match of_one_kind(row) {
+                Some(plain) => plain,
+                None => Plain::Vector(row.draw()?.as_vector()?.iter().map(|x| x.to_bits()).collect()),
+            },
+        })
+    }
+}
+
 /// A list of whole numbers, or of truth values, which as a draw would be real numbers.
 fn of_one_kind(value: &Value) -> Option<Plain> {
     let Value::Tuple(all) = value else { return None };
@@ -192,20 +206,8 @@ fn of_one_kind(value: &Value) -> Option<Plain> {
 impl Serialize for Log {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let plain = |entry: &Entry| {
-            if let Some(list) = of_one_kind(&entry.value) {
-                return Ok((entry.address(), list));
-            }
-            let value = match (&entry.value, value_to_draw(&entry.value)) {
-                (Value::Future(which), _) => Plain::Order(*which),
-                (_, Some(Draw::Bool(b))) => Plain::Bool(b),
-                (_, Some(Draw::Int(i))) => Plain::Int(i),
-                (_, Some(Draw::Real(x))) => Plain::Real(x.to_bits()),
-                (_, Some(Draw::Vector(xs))) => Plain::Vector(xs.iter().map(|x| x.to_bits()).collect()),
-                (_, Some(Draw::Counts(all))) => Plain::Counts(all.to_vec()),
-                (_, Some(Draw::Truths(all))) => Plain::Truths(all.to_vec()),
-                (other, None) => return Err(S::Error::custom(format!("a choice of {}", other.described()))),
-            };
-            Ok((entry.address(), value))
+            let unfit = || S::Error::custom(format!("a choice of {}", entry.value.described()));
+            Ok((entry.address(), Plain::of(&entry.value).ok_or_else(unfit)?))
         };
         to.collect_seq(self.entries().iter().map(plain).collect::<Result<Vec<_>, _>>()?)
     }
@@ -217,9 +219,9 @@ impl<'de> Deserialize<'de> for Log {
             Plain::Bool(b) => Value::Bool(b),
             Plain::Int(i) => Value::Int(i),
             Plain::Real(bits) => Value::Real(f64::from_bits(bits)),
-            Plain::Vector(xs) => draw_to_value(Draw::Vector(xs.into_iter().map(f64::from_bits).collect())),
-            Plain::Counts(all) => draw_to_value(Draw::Counts(all.into())),
-            Plain::Truths(all) => draw_to_value(Draw::Truths(all.into())),
+            Plain::Vector(xs) => Draw::Vector(xs.into_iter().map(f64::from_bits).collect()).into(),
+            Plain::Counts(all) => Draw::Counts(all.into()).into(),
+            Plain::Truths(all) => Draw::Truths(all.into()).into(),
             Plain::Order(which) => Value::Future(which),
         };
         let entries: Vec<(u128, Plain)> = Vec::deserialize(from)?;

@@ -106,16 +106,10 @@ fn run(task: &Task, key: StreamKey) -> Option<(HashMap<u128, Kinds>, u64)> {
         complete: false,
     };
     let mut watch = Watch { forward, kinds: HashMap::new() };
-    while !state.has_ended() && watch.forward.record.cause.is_none() {
-        let next = state.runnable().first()?;
-        if let Err(met) = machine.resume(&mut state, next, &mut watch) {
-            if !met.is_invalid() {
-                return None;
-            }
-            break;
-        }
-    }
-    Some((watch.kinds, state.steps()))
+    let possible = |watch: &mut Watch<'_>| watch.forward.record.cause.is_none();
+    let driven = machine.drive(&mut state, &mut watch, |watch, _, _| possible(watch).then_some(0));
+    let is_usable = driven.err().is_none_or(|met| met.is_invalid());
+    is_usable.then(|| (watch.kinds, state.steps()))
 }
 
 /// A forward run that notes the kinds of its observations.

@@ -8,8 +8,7 @@ use crate::{Failure, Task};
 use niwaki_geom::sketch::SketchSpec;
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Primitive, Shape};
-use niwaki_math::{Dist, Total, grid};
-use niwaki_vm::builtins::value_to_draw;
+use niwaki_math::{Total, grid};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::value::Value;
@@ -160,16 +159,6 @@ impl AllInvalid {
         invalid.for_each(|met| all.note(met));
         all.check()
     }
-}
-
-/// The log density of a value, nats.
-///
-/// # Errors
-/// A value that no distribution can draw.
-pub fn log_density(dist: &Dist, value: &Value) -> Result<f64, Fault> {
-    let draw = value_to_draw(value)
-        .ok_or_else(|| Fault::new("type-mismatch", format!("no distribution draws {}", value.described())))?;
-    Ok(dist.log_density(&draw))
 }
 
 /// The log score of sketches, nats.

@@ -11,7 +11,6 @@ use crate::run::Run;
 use crate::task::Task;
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, StreamKey, Total};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::Stop;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -97,19 +96,20 @@ impl Chooser for Sourced<'_> {
             Source::Addresses(map) => map.get(&seen.address),
             Source::Paths(map) => map.get(&at.path()),
         };
-        let value = match (known, self.missing) {
-            (Some(value), _) => value.clone(),
-            // A choice with one value is not part of a density.
-            (None, _) if let Dist::Delta(value) = dist => draw_to_value(value.clone()),
+        match (known, self.missing) {
+            (Some(value), _) => Chosen::given(value.clone(), dist).map(Some),
             (None, Missing::Draw { seed, stream }) => {
-                return Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, seen);
+                Prior(StreamKey::new(seed, stream, 0)).choose(at, dist, seen)
             }
-            (None, Missing::Stop) => return Ok(None),
+            // A choice with one value is not part of a density.
+            (None, _) if matches!(dist, Dist::Delta(_)) => {
+                Prior(StreamKey::new(0, 0, 0)).choose(at, dist, seen)
+            }
+            (None, Missing::Stop) => Ok(None),
             (None, Missing::Refuse) => {
-                return Refuse("replay with the model that the choices are from").choose(at, dist, seen);
+                Refuse("replay with the model that the choices are from").choose(at, dist, seen)
             }
-        };
-        Chosen::given(value, dist).map(Some)
+        }
     }
 }
 
@@ -251,18 +251,15 @@ pub fn replay(task: &Task, source: Source<'_>, missing: Missing) -> Result<Trace
     let (trace, record) = (Trace::default(), Record::start(&task.sketches));
     let chooser = Sourced { source, missing };
     let mut answers = Replay { task, chooser, trace, record, written: HashMap::new(), named: 0 };
-    if missing == Missing::Stop {
-        let mut stuck = Vec::new();
-        while answers.record.cause.is_none() {
-            let next = state.runnable().iter().find(|future| !stuck.contains(future));
-            let Some(next) = next else { break };
-            if machine.resume(&mut state, next, &mut answers)? == Stop::Paused {
-                stuck.push(next);
-            }
+    let mut stuck = Vec::new();
+    machine.drive(&mut state, &mut answers, |answers, state, last| {
+        if missing != Missing::Stop {
+            return Some(0);
         }
-    } else {
-        machine.finish(&mut state, &mut answers)?;
-    }
+        stuck.extend(last.filter(|(_, stop)| *stop == Stop::Paused).map(|(future, _)| future));
+        let is_possible = answers.record.cause.is_none();
+        state.runnable().iter().position(|future| is_possible && !stuck.contains(&future))
+    })?;
     let Replay { mut trace, record, .. } = answers;
     let value = if state.has_ended() { state.result() } else { Value::None };
     trace.sums = (record.log_prior.clone(), record.score());

@@ -97,8 +97,7 @@ mod tests {
     #[test]
     fn a_run_comes_back_from_its_data() {
         let mut log = Log::default();
-        let vector =
-            niwaki_vm::builtins::draw_to_value(niwaki_math::Draw::Vector([0.1, f64::INFINITY].into()));
+        let vector = Value::tuple(vec![Value::Real(0.1), Value::Real(f64::INFINITY)]);
         let values = [Value::Bool(true), Value::Int(-3), Value::Real(-0.0), Value::Real(f64::NAN), vector];
         for (i, value) in values.into_iter().enumerate() {
             log.push(u128::MAX - i as u128, value);

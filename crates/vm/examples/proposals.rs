@@ -5,7 +5,6 @@
 //! With `PROPOSALS=N` it makes N proposals instead of running for `SECONDS`, so that instructions can be counted.
 
 use niwaki_math::{Dist, Stream, grid};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At};
@@ -18,7 +17,7 @@ struct Draws(u64);
 
 impl Answers<f64> for Draws {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
-        Ok(Answer::Go(draw_to_value(dist.sample(&mut Stream::new(1, 0, at.address(), self.0)))))
+        Ok(Answer::Go(Value::from(dist.sample(&mut Stream::new(1, 0, at.address(), self.0)))))
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())
@@ -41,13 +40,13 @@ impl Propose<f64> for Steps {
         if let (Dist::Gaussian { .. }, Value::Real(x)) = (dist, old) {
             let step = Dist::Gaussian { mean: *x, sd: 0.2 };
             return Ok(Proposed {
-                value: draw_to_value(step.sample(&mut stream)),
+                value: Value::from(step.sample(&mut stream)),
                 forward: 0.0,
                 backward: 0.0,
             });
         }
         let (draw, log) = dist.sample_and_score(&mut stream);
-        Ok(Proposed { value: draw_to_value(draw), forward: grid(log), backward: log_density })
+        Ok(Proposed { value: Value::from(draw), forward: grid(log), backward: log_density })
     }
 }
 

@@ -16,7 +16,6 @@ use niwaki_math::{Family, Space, Stream};
 use niwaki_run::fresh::Fresh;
 use niwaki_run::setting::{BETWEEN, POSITIVE, Range, Ranges};
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::kept::{Changed, Proposed};
 use niwaki_vm::value::Value;
@@ -68,13 +67,13 @@ pub fn step(family: Family, old: &Value, size: f64, rng: &mut Stream) -> Option<
         }
         return Some(Proposed { value, forward: 0.0, backward: 0.0 });
     }
-    let (old, coordinates) = (value_to_draw(old)?, space.coordinates()?);
+    let (old, coordinates) = (old.draw()?, space.coordinates()?);
     let (new, forward, backward) = coordinates.moved(&old, || size * normal(rng))?;
     // How much the last number inside stands for depends on parameters: a block moves between the others.
     if !(coordinates.has_inside(&old) && coordinates.has_inside(&new)) {
         return None;
     }
-    Some(Proposed { value: draw_to_value(new), forward, backward })
+    Some(Proposed { value: new.into(), forward, backward })
 }
 
 impl Walk {

@@ -8,7 +8,6 @@ use crate::walk::proposal::{FromPrior, Move};
 use niwaki_math::{Dist, Draw, Stream};
 use niwaki_run::fresh::spread;
 use niwaki_run::setting::{BETWEEN, POSITIVE, Ranges};
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
@@ -109,10 +108,10 @@ impl Move for Drift {
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault> {
         let size = self.step(site) * spread(dist);
-        let moved = value_to_draw(old).and_then(|old| dist.moved(&old, size, rng));
+        let moved = old.draw().and_then(|old| dist.moved(&old, size, rng));
         self.drifted = moved.is_some();
         match moved {
-            Some((draw, forward, backward)) => Ok(Proposed { value: draw_to_value(draw), forward, backward }),
+            Some((draw, forward, backward)) => Ok(Proposed { value: draw.into(), forward, backward }),
             None => FromPrior.propose(at, site, dist, old, log_density, rng),
         }
     }

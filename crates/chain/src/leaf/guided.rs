@@ -20,7 +20,7 @@
 //!
 //! A scene that a sketch forbids shows nothing: which sketches have seen all of it depends on how it came about.
 
-use crate::walk::proposal::Move;
+use crate::walk::proposal::{FromPrior, Move};
 use crate::walk::state::State;
 use crate::walk::{ChainMove, Proposing};
 use niwaki_geom::sketch::product::Sketches;
@@ -29,7 +29,6 @@ use niwaki_math::{Dist, Draw, Stream, grid};
 use niwaki_propose::guide::bound::{BoundGuide, Sight};
 use niwaki_run::Failure;
 use niwaki_run::chooser::Context;
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -129,7 +128,7 @@ impl Move for Guided {
     fn propose(
         &mut self,
         at: &At<'_, f64>,
-        _: usize,
+        site: usize,
         dist: &Dist,
         old: &Value,
         log_density: f64,
@@ -137,12 +136,11 @@ impl Move for Guided {
     ) -> Result<Proposed<f64>, Fault> {
         let sketches = self.scene.as_ref().and_then(Scene::seen);
         let seen = Context { address: at.address(), sketches, primitives: 0, part: self.part };
-        let old = value_to_draw(old).filter(|_| !matches!(dist, Dist::Delta(_)));
-        let site = old.as_ref().and_then(|_| self.guide.look(at, dist, seen, &mut self.sight, 0));
+        let draw = old.draw().filter(|_| !matches!(dist, Dist::Delta(_)));
+        let guided = draw.as_ref().and_then(|_| self.guide.look(at, dist, seen, &mut self.sight, 0));
         self.drew = None;
-        let (Some(site), Some(old)) = (site, old) else {
-            let (draw, log) = dist.sample_and_score(rng);
-            return Ok(Proposed { value: draw_to_value(draw), forward: grid(log), backward: log_density });
+        let (Some(site), Some(old)) = (guided, draw) else {
+            return FromPrior.propose(at, site, dist, old, log_density, rng);
         };
         let drawn = self.guide.answer(site, dist, &mut self.sight, rng);
         let backward = self.guide.log_of(site, dist, &old, &mut self.sight);

@@ -7,7 +7,6 @@
 use crate::walk::proposal::Move;
 use niwaki_math::{Dist, Stream, grid};
 use niwaki_propose::user::User;
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::kept::Proposed;
@@ -28,7 +27,7 @@ impl Move for UserMove<'_> {
     ) -> Result<Proposed<f64>, Fault> {
         let there = self.0.dist(at, Some(old))?;
         let draw = there.sample(rng);
-        let value = draw_to_value(draw.clone());
+        let value = Value::from(draw.clone());
         if value.kind() != old.kind() {
             let (name, family) = (self.0.name(), dist.family());
             let problem = format!(
@@ -41,7 +40,7 @@ impl Move for UserMove<'_> {
         }
         // A function that does not need the value before gives the same distribution for both directions.
         let back = if self.0.needs_old() { self.0.dist(at, Some(&value))? } else { there.clone() };
-        let backward = value_to_draw(old).map_or(f64::NEG_INFINITY, |old| back.log_density(&old));
+        let backward = old.draw().map_or(f64::NEG_INFINITY, |old| back.log_density(&old));
         Ok(Proposed { value, forward: grid(there.log_density(&draw)), backward: grid(backward) })
     }
 }

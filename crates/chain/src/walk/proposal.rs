@@ -4,7 +4,6 @@ use crate::walk::accept::Decision;
 use crate::walk::state::State;
 use niwaki_math::first_blocks::FirstBlock;
 use niwaki_math::{Dist, Stream, grid};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -60,7 +59,7 @@ impl Move for FromPrior {
         rng: &mut Stream,
     ) -> Result<Proposed<f64>, Fault> {
         let (draw, log) = dist.sample_and_score(rng);
-        Ok(Proposed { value: draw_to_value(draw), forward: grid(log), backward: log_density })
+        Ok(Proposed { value: draw.into(), forward: grid(log), backward: log_density })
     }
 }
 

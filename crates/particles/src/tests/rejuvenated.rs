@@ -9,6 +9,7 @@
 use super::*;
 use crate::population::Population;
 use niwaki_chain::kernel::Kernel;
+use niwaki_propose::particle::Turn;
 use niwaki_run::chooser::Prior;
 use serde_json::json;
 
@@ -91,14 +92,13 @@ pub(super) fn moved_draws(task: &Task, settings: &Settings, barriers: usize) -> 
     for _ in 0..barriers {
         for (p, log_order) in population.swarm.alone().iter_mut().zip(&mut log_orders) {
             p.was_ended = p.state.has_ended();
-            while p.is_running() {
-                p.past.look(machine.program(), &p.state);
-                let which = if p.state.runnable().len() > 1 { p.pick(settings.seed) } else { 0 };
-                *log_order += p.past.log_probability(&p.state, which);
-                if p.run(&mut machine, task, which, Prior(p.stream)).unwrap() {
-                    break;
-                }
-            }
+            let (prior, lineage) = (Prior(p.stream), p.lineage);
+            let pick = |_: &mut Prior, turn: Turn<'_>| {
+                let which = turn.pick(settings.seed, lineage);
+                *log_order += turn.past.log_probability(turn.state, which);
+                Some(which)
+            };
+            p.advance_by(&mut machine, task, pick, prior).unwrap();
         }
         population.barriers += 1;
     }

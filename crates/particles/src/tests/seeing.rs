@@ -76,7 +76,7 @@ fn a_chooser_sees_the_scene_so_far() {
     let mut machine = task.machine();
     let mut next = |p: &mut Particle, seen: &mut Vec<Option<f64>>| {
         let chooser = Noting { prior: Prior(p.stream), seen };
-        p.run(&mut machine, &task, 0, chooser).unwrap();
+        p.advance_by(&mut machine, &task, |_, _| Some(0), chooser).unwrap();
     };
     let mut seen = vec![vec![]; 20];
     for (p, seen) in population.swarm.alone().iter_mut().zip(&mut seen) {

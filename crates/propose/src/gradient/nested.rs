@@ -24,7 +24,6 @@ use niwaki_run::enumeration::{not_enumerable, too_many};
 use niwaki_run::forward::named;
 use niwaki_run::inside::{fault_of, limits_inside, too_long};
 use niwaki_run::record::{AllInvalid, check_factor};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::FunctionId;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -83,12 +82,6 @@ fn is_never(log: Var) -> bool {
     log == Var::from_f64(f64::NEG_INFINITY)
 }
 
-impl Branching<'_> {
-    fn is_impossible(&self) -> bool {
-        self.cause.is_some()
-    }
-}
-
 impl Answers<Var> for Branching<'_> {
     fn choice(&mut self, at: &At<'_, Var>, dist: &Dist<Var>) -> Result<Answer<Value<Var>>, Fault> {
         if let Some(value) = self.next.take() {
@@ -98,7 +91,7 @@ impl Answers<Var> for Branching<'_> {
         for draw in draws {
             let log = dist.log_density(&draw);
             if !is_never(log) {
-                self.open.push((draw_to_value(draw), log));
+                self.open.push((draw.into(), log));
             }
         }
         Ok(Answer::Pause)
@@ -171,19 +164,14 @@ fn runs(
     while let Some(Branch { mut state, joint, next }) = open.pop() {
         let mut answers = Branching { hosted: inside, joint, next, open: vec![], cause: None };
         let mut fault = None;
-        while !state.has_ended() && !answers.is_impossible() {
-            let Some(next) = state.runnable().first() else {
-                return Err(Box::new(machine.waiting_cycle(&state)).into());
-            };
-            match machine.resume(&mut state, next, &mut answers) {
-                Ok(Stop::Paused) => break,
-                Ok(_) => {}
-                Err(met) => {
-                    let Some(place) = invalid.count(&met) else { return Err(met.into()) };
-                    answers.cause = Some(place.to_string());
-                    fault = Some(Arc::new(*met));
-                }
-            }
+        let driven = machine.drive(&mut state, &mut answers, |answers, _, last| {
+            let has_paused = matches!(last, Some((_, Stop::Paused)));
+            (!has_paused && answers.cause.is_none()).then_some(0)
+        });
+        if let Err(met) = driven {
+            let Some(place) = invalid.count(&met) else { return Err(met.into()) };
+            answers.cause = Some(place.to_string());
+            fault = Some(Arc::new(*met));
         }
         let Branching { joint, open: values, cause, .. } = answers;
         if cause.is_none() && !state.has_ended() {

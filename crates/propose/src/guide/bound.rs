@@ -7,11 +7,10 @@ use super::{Guide, Network};
 use niwaki_geom::sketch::product::Sketches;
 use niwaki_geom::{Aabb, Place, Vec3, WindowForm, vec3};
 use niwaki_guide::filtered::View;
-use niwaki_guide::{Net, Scratch};
+use niwaki_guide::{Lesson, Net, Scratch};
 use niwaki_math::{Dist, Draw, MOST_NUMBERS, Stream};
 use niwaki_run::Task;
 use niwaki_run::chooser::{Chosen, Context};
-use niwaki_vm::builtins::{draw_to_value, value_to_draw};
 use niwaki_vm::code::SiteKind;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
@@ -303,13 +302,18 @@ impl BoundGuide {
     pub fn answer(&self, site: usize, dist: &Dist, sight: &mut Sight, rng: &mut Stream) -> Chosen {
         let form = &self.guide.form;
         let drawn = form.sites[site].head.draw(self.outputs(site, dist, sight), dist, form.share, rng);
-        Chosen { value: draw_to_value(drawn.value), log_prior: drawn.log_prior, log_drawn: drawn.log_drawn }
+        Chosen { value: drawn.value.into(), log_prior: drawn.log_prior, log_drawn: drawn.log_drawn }
     }
 
     /// The log density with which it draws a value there, nats.
     pub fn log_of(&self, site: usize, dist: &Dist, value: &Draw, sight: &mut Sight) -> f64 {
         let form = &self.guide.form;
         form.sites[site].head.log_drawn(self.outputs(site, dist, sight), dist, form.share, value)
+    }
+
+    /// A value of the guide's `site`-th choice as something to learn; `None` where the head cannot draw it.
+    pub fn lesson(&self, site: usize, dist: &Dist, value: &Value) -> Option<Lesson> {
+        self.guide.form.sites[site].head.lesson(dist, &value.draw()?)
     }
 
     /// A value for a choice with its densities; `None` where the guide draws nothing.
@@ -336,7 +340,7 @@ impl BoundGuide {
         sight: &mut Sight,
         owner: usize,
     ) -> Option<f64> {
-        let draw = value_to_draw(value)?;
+        let draw = value.draw()?;
         let site = self.look(at, dist, seen, sight, owner)?;
         Some(self.log_of(site, dist, &draw, sight))
     }

@@ -25,7 +25,6 @@ use niwaki_run::chooser::{Chooser, Chosen, Context, Prior};
 use niwaki_run::forward::{forward, forward_by};
 use niwaki_run::record::AllInvalid;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::machine::stack::RunFault;
@@ -90,8 +89,7 @@ impl Chooser for Noting<'_> {
             return Prior(self.stream).choose(at, dist, seen);
         };
         let chosen = self.guide.answer(site, dist, self.sight, &mut self.stream.at(seen.address));
-        let head = &self.guide.guide().form.sites[site].head;
-        if let Some(lesson) = value_to_draw(&chosen.value).and_then(|draw| head.lesson(dist, &draw)) {
+        if let Some(lesson) = self.guide.lesson(site, dist, &chosen.value) {
             let (window, features) = self.sight.inputs();
             self.rows.push(site, window, features, &lesson);
         }

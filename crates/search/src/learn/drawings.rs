@@ -9,7 +9,6 @@ use niwaki_propose::guide::form::{GuideForm, ImageForm};
 use niwaki_propose::guide::images::OF_PLACE;
 use niwaki_propose::guide::{Guide, Network, bad};
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -69,9 +68,7 @@ fn traces(examples: &[&Example], guide: &Arc<Guide>) -> Result<Vec<Trace>, Failu
         let mut sight = Sight::default();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
-            let lesson =
-                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
-            if let Some(lesson) = lesson {
+            if let Some(lesson) = bound.lesson(site, dist, value) {
                 if trace.images.last() != Some(&sight.bits) {
                     trace.images.push(sight.bits.clone());
                 }

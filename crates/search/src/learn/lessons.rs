@@ -19,9 +19,9 @@ use niwaki_run::log::Entry;
 use niwaki_run::record::Record;
 use niwaki_run::replay::{by_address, picks};
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::value_to_draw;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
+use niwaki_vm::machine::state::State;
 use niwaki_vm::value::Value;
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -67,12 +67,9 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     start.note_parts();
     let mut record = Record::start(&task.sketches);
     record.sketches.expect_windows();
-    let mut one = Particle::start(start, record, 0, 0);
-    while one.is_running() {
-        let pick = |own: &Particle| next(&own.state).unwrap_or(0);
-        one.advance_by(&mut machine, task, pick, Shown { values: &values, each })?;
-    }
-    Ok(())
+    let pick = |state: &State| next(state).unwrap_or(0);
+    let shown = Shown { values: &values, each };
+    Particle::start(start, record, 0, 0).finish_by(&mut machine, task, pick, shown)
 }
 
 /// How a guide is made.
@@ -250,9 +247,7 @@ pub(super) fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) ->
         rows.trace();
         follow(example, &mut |at, dist, seen, value| {
             let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
-            let lesson =
-                value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
-            if let Some(lesson) = lesson {
+            if let Some(lesson) = bound.lesson(site, dist, value) {
                 let (window, features) = sight.inputs();
                 rows.push(site, window, features, &lesson);
             }
@@ -276,9 +271,7 @@ pub fn losses(examples: &[Example], guide: &Arc<Guide>) -> Result<Vec<(usize, f6
         let bound = BoundGuide::new(guide.clone(), &example.task)?;
         let (mut sight, mut sum) = (Sight::default(), (0, 0.0));
         follow(example, &mut |at, dist, seen, value| {
-            if let (Some(site), Some(draw)) =
-                (bound.look(at, dist, seen, &mut sight, 0), value_to_draw(value))
-            {
+            if let (Some(site), Some(draw)) = (bound.look(at, dist, seen, &mut sight, 0), value.draw()) {
                 sum.0 += 1;
                 sum.1 += dist.log_density(&draw) - bound.log_of(site, dist, &draw, &mut sight);
             }

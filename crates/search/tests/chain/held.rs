@@ -26,7 +26,6 @@ use niwaki_run::replay::{Missing, Source, by_address, replay};
 use niwaki_run::resampling::Resampling;
 use niwaki_run::run::Run;
 use niwaki_run::{Failure, Task};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::{Value, identical, repr};
@@ -65,7 +64,7 @@ impl Chooser for &mut Scripted {
         let which = self.script.get(self.widths.len()).copied().unwrap_or(0);
         self.widths.push(draws.len());
         let log = dist.log_density(&draws[which]);
-        let value = draw_to_value(draws.swap_remove(which));
+        let value = Value::from(draws.swap_remove(which));
         self.met.push((at.path(), value.clone()));
         Ok(Some(Chosen { value, log_prior: log, log_drawn: log }))
     }

@@ -6,7 +6,6 @@ use niwaki_math::Dist;
 use niwaki_run::Task;
 use niwaki_run::chooser::{Chooser, Chosen, Context};
 use niwaki_run::forward::forward_by;
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use niwaki_vm::value::{Value, repr};
@@ -30,7 +29,7 @@ type Visited<'a> = Box<dyn Fn(usize) -> (Value, f64) + 'a>;
 /// How many values of a choice are visited, and each of them.
 fn values(dist: &Dist) -> (usize, Visited<'_>) {
     if let Some(draws) = dist.enumerate() {
-        let all = draws.into_iter().map(|draw| (draw_to_value(draw.clone()), dist.log_density(&draw)));
+        let all = draws.into_iter().map(|draw| (Value::from(draw.clone()), dist.log_density(&draw)));
         let all: Vec<(Value, f64)> = all.collect();
         return (all.len(), Box::new(move |at| all[at].clone()));
     }

@@ -1,11 +1,8 @@
-//! Distributions from values, and draws to and from values.
-
-use std::sync::Arc;
+//! Distributions from values.
 
 use crate::fault::Fault;
-use crate::value::index::{iter_get, iter_len};
-use crate::value::numbers::Number;
-use crate::value::{Dist, Draw, Family, Param, Scalar, Value};
+use crate::value::draw::{elements, reals};
+use crate::value::{Dist, Family, Param, Scalar, Value, iter_get};
 
 /// The most components of one mixture after nested mixtures are flattened.
 const MAX_COMPONENTS: usize = 1 << 16;
@@ -43,7 +40,7 @@ pub fn quick_dist<S: Scalar>(family: Family, a: &Value<S>, b: &Value<S>) -> Opti
 #[inline]
 fn to_param<S: Scalar>(family: Family, at: usize, value: &Value<S>) -> Result<Param<S>, Fault> {
     if family == Family::Delta {
-        return value_to_draw(value).map(Param::Draw).ok_or_else(|| unusable(family, at, value));
+        return value.draw().map(Param::Draw).ok_or_else(|| unusable(family, at, value));
     }
     match value {
         Value::Real(x) => Ok(Param::Real(*x)),
@@ -68,22 +65,6 @@ fn unusable<S: Scalar>(family: Family, at: usize, value: &Value<S>) -> Fault {
     Fault::bad_parameter(message)
 }
 
-fn elements<S: Scalar>(value: &Value<S>) -> Option<impl Iterator<Item = Value<S>>> {
-    let count = iter_len(value).ok()?;
-    Some((0..count).map(move |at| iter_get(value, at)))
-}
-
-fn numbers<S: Scalar>(value: &Value<S>) -> Option<Vec<S>> {
-    match value {
-        Value::Vector(v) => Some(v.components().to_vec()),
-        Value::Tuple(tuple) => tuple.items().iter().map(|item| Number::of(item).map(Number::real)).collect(),
-        Value::List(_) | Value::Record(_) => {
-            elements(value)?.map(|item| Number::of(&item).map(Number::real)).collect()
-        }
-        _ => None,
-    }
-}
-
 fn to_sequence_param<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
     match iter_get(value, 0) {
         Value::Dist(_) => {
@@ -91,9 +72,9 @@ fn to_sequence_param<S: Scalar>(value: &Value<S>) -> Option<Param<S>> {
             elements(value)?.map(dist).collect::<Option<_>>().map(Param::Dists)
         }
         Value::Tuple(_) | Value::List(_) | Value::Vector(_) => {
-            elements(value)?.map(|row| numbers(&row)).collect::<Option<_>>().map(Param::Matrix)
+            elements(value)?.map(|row| reals(&row)).collect::<Option<_>>().map(Param::Matrix)
         }
-        _ => numbers(value).map(Param::Vector),
+        _ => reals(value).map(Param::Vector),
     }
 }
 
@@ -127,53 +108,12 @@ fn flattened<S: Scalar>(params: [Param<S>; 2]) -> Result<[Param<S>; 2], Fault> {
     Ok([Param::Vector(flat_weights), Param::Dists(flat)])
 }
 
-/// Converts a draw to a value; a vector becomes a tuple.
-#[inline(always)]
-pub fn draw_to_value<S: Scalar>(draw: Draw<S>) -> Value<S> {
-    match draw {
-        Draw::Int(n) => Value::Int(n),
-        Draw::Real(x) => Value::Real(x),
-        other => other_draw(other),
-    }
-}
-
-#[inline(never)]
-fn other_draw<S: Scalar>(draw: Draw<S>) -> Value<S> {
-    match draw {
-        Draw::Bool(b) => Value::Bool(b),
-        Draw::Int(n) => Value::Int(n),
-        Draw::Real(x) => Value::Real(x),
-        Draw::Vector(xs) => vector_value(&xs),
-        Draw::Counts(xs) => Value::tuple(xs.iter().copied().map(Value::Int).collect()),
-        Draw::Truths(xs) => Value::tuple(xs.iter().copied().map(Value::Bool).collect()),
-    }
-}
-
-#[inline(never)]
-fn vector_value<S: Scalar>(xs: &[S]) -> Value<S> {
-    Value::tuple(xs.iter().copied().map(Value::Real).collect())
-}
-
-/// Converts a value to a draw; `None` for a value that no distribution yields.
-#[inline(always)]
-pub fn value_to_draw<S: Scalar>(value: &Value<S>) -> Option<Draw<S>> {
-    match value {
-        Value::Bool(b) => Some(Draw::Bool(*b)),
-        Value::Int(n) => Some(Draw::Int(*n)),
-        Value::Real(x) => Some(Draw::Real(*x)),
-        other => vector_draw(other),
-    }
-}
-
-#[inline(never)]
-fn vector_draw<S: Scalar>(value: &Value<S>) -> Option<Draw<S>> {
-    numbers(value).map(|xs| Draw::Vector(Arc::from(xs)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::builtins::tests::{V, ints, reals};
+    use crate::value::Draw;
+    use std::sync::Arc;
 
     fn fault(family: Family, args: &[V]) -> (&'static str, String) {
         let fault = make_dist(family, args).expect_err("a parameter is wrong");
@@ -242,13 +182,5 @@ mod tests {
             }
         }
         panic!("a mixture of 2^41 components was accepted");
-    }
-
-    #[test]
-    fn draws_survive_a_conversion_to_values_and_back() {
-        for draw in [Draw::Bool(true), Draw::Int(-4), Draw::Real(0.5), Draw::Vector([0.25, 0.75].into())] {
-            assert_eq!(value_to_draw(&draw_to_value(draw.clone())), Some(draw));
-        }
-        assert_eq!(value_to_draw(&V::str("a")), None);
     }
 }

@@ -35,7 +35,7 @@ use crate::fault::Fault;
 use crate::value::{Scalar, Value, index, ops};
 
 pub use answer::Answer;
-pub use dist::{draw_to_value, make_dist, quick_dist, value_to_draw};
+pub use dist::{make_dist, quick_dist};
 
 /// A built-in function.
 pub struct Builtin<S: Scalar = f64> {

@@ -35,18 +35,19 @@ impl Held {
     /// The first of them that no run of the program can have.
     pub fn new(program: &Program, choices: Vec<(String, Value)>) -> Result<Held, String> {
         let (mut numbers, mut below, mut at_once) = (HashMap::new(), HashMap::new(), HashMap::new());
+        let mut addresses = Addresses::new(program);
         for (number, (path, _)) in (0..).zip(&choices) {
-            let found = addresses(program, path);
+            let found = addresses.find(path);
             if found.is_empty() {
                 return Err(path.clone());
             }
-            for (path, is_at_once) in common(&found) {
+            for (path, is_at_once) in addresses.common(&found) {
                 below.entry(path).or_insert_with(Vec::new).push(number);
                 if is_at_once {
                     at_once.entry(path).or_insert_with(Vec::new).push(number);
                 }
             }
-            numbers.extend(found.into_iter().map(|found| (found.address, number)));
+            numbers.extend(found.into_iter().map(|(address, _)| (address, number)));
         }
         Ok(Held { choices, numbers, below, at_once })
     }
@@ -94,115 +95,167 @@ impl<S: Scalar> Held<S> {
     }
 }
 
-/// An address that a choice may have, and the activations that it is in.
-struct Found {
-    address: u128,
-    inside: Vec<Inside>,
-}
-
-/// An activation: its path, and whether it may begin later than where it is called, as a future.
+/// An activation that an address leads into.
 #[derive(Clone, Copy)]
-struct Inside {
+struct Activation {
     path: u128,
-    is_future: bool,
-}
-
-/// The activations that all of these addresses are in, each with whether it lasts until the choice is met: no future is
-/// between them.
-fn common(found: &[Found]) -> Vec<(u128, bool)> {
-    let Some((first, others)) = found.split_first() else { return vec![] };
-    let mut all = vec![];
-    let mut is_at_once = true;
-    for Inside { path, is_future } in first.inside.iter().rev() {
-        if others.iter().all(|other| other.inside.iter().any(|own| own.path == *path)) {
-            all.push((*path, is_at_once));
-        }
-        is_at_once &= !is_future;
-    }
-    all
-}
-
-/// Where a readable address may go on: the activations so far, the function of the last (`None` where a value was called, so
-/// that it may be any), and what is left of the text.
-struct Front<'a> {
-    inside: Vec<Inside>,
+    /// Its function; `None` where a value was called, so that it may be any.
     function: Option<FunctionId>,
-    rest: &'a str,
+    /// Whether it may begin later than where it is called, as a future.
+    is_future: bool,
+    /// The number of the activation around it.
+    parent: Option<usize>,
 }
 
-/// The addresses that choices with this readable address may have. There are several where different functions may be
-/// called at one place, or where a function gives one name to several choices.
-fn addresses(program: &Program, path: &str) -> Vec<Found> {
-    let mut found = Vec::new();
-    let root = Inside { path: ROOT, is_future: true };
-    let mut fronts = vec![Front { inside: vec![root], function: Some(program.entry), rest: path }];
-    // Memoised functions of modules, which belong to no activation.
-    let sites = program.functions.iter().flat_map(|f| &f.sites);
-    let of_module = sites.flat_map(|site| match site.kind {
-        SiteKind::Memoise { of: Some(of) } => remembered(program, of, &site.label, &fronts[0]),
-        _ => vec![],
-    });
-    let of_module: Vec<Front<'_>> = of_module.collect();
-    fronts.extend(of_module);
-    while let Some(front) = fronts.pop() {
-        let functions = match &front.function {
-            Some(id) => std::slice::from_ref(program.function(*id)),
-            None => &program.functions[..],
+/// The activations that readable addresses lead into. Addresses with a common beginning share the search for it.
+struct Addresses<'p> {
+    program: &'p Program,
+    activations: Vec<Activation>,
+    /// The activations of each address, by number: several where different functions may be called at one place.
+    numbers: HashMap<&'p str, Vec<usize>>,
+    /// Memoised functions of modules, which belong to no activation, each with its name in addresses.
+    of_modules: Vec<(u128, &'p str)>,
+}
+
+impl<'p> Addresses<'p> {
+    fn new(program: &'p Program) -> Addresses<'p> {
+        let root = Activation { path: ROOT, function: Some(program.entry), is_future: true, parent: None };
+        let sites = program.functions.iter().flat_map(|f| &f.sites);
+        let of_modules = sites.filter_map(|site| match site.kind {
+            SiteKind::Memoise { of } => Some((of?, &*site.label)),
+            _ => None,
+        });
+        Addresses {
+            program,
+            activations: vec![root],
+            numbers: HashMap::from([("", vec![0])]),
+            of_modules: of_modules.collect(),
+        }
+    }
+
+    /// The addresses that choices with this readable address may have, each with its activation: several, too, where a
+    /// function gives one name to several choices.
+    fn find(&mut self, path: &'p str) -> Vec<(u128, usize)> {
+        let (above, label) = split(path);
+        // No component is empty; the empty beginning is the root.
+        if path.starts_with('/') {
+            return vec![];
+        }
+        self.enter(above);
+        let mut found = Vec::new();
+        for number in &self.numbers[above] {
+            for site in self.sites(*number) {
+                if matches!(site.kind, SiteKind::Sample(_)) && *site.label == *label {
+                    found.push((join(self.activations[*number].path, site.key), *number));
+                }
+            }
+        }
+        found.sort_unstable();
+        found.dedup_by_key(|(address, _)| *address);
+        found
+    }
+
+    /// The sites of an activation.
+    fn sites(&self, number: usize) -> impl Iterator<Item = &'p Site> + use<'p> {
+        let functions = match self.activations[number].function {
+            Some(id) => std::slice::from_ref(self.program.function(id)),
+            None => &self.program.functions[..],
         };
-        for site in functions.iter().flat_map(|f| &f.sites) {
-            if matches!(site.kind, SiteKind::Sample(_)) && *site.label == *front.rest {
-                let address = join(front.path(), site.key);
-                found.push(Found { address, inside: front.inside.clone() });
+        functions.iter().flat_map(|f| &f.sites)
+    }
+
+    /// Finds the activations of a readable address, component by component from the longest beginning that is known.
+    fn enter(&mut self, path: &'p str) {
+        let mut begin = path;
+        while !self.numbers.contains_key(begin) {
+            begin = split(begin).0;
+        }
+        while begin.len() < path.len() {
+            let start = if begin.is_empty() { 0 } else { begin.len() + 1 };
+            let end = path[start..].find('/').map_or(path.len(), |length| start + length);
+            let component = &path[start..end];
+            let mut numbers = Vec::new();
+            for parent in self.numbers[begin].clone() {
+                let of_modules = if begin.is_empty() { self.of_modules.clone() } else { vec![] };
+                for (place, label) in of_modules {
+                    self.remembered(place, label, component, &mut numbers);
+                }
+                for site in self.sites(parent) {
+                    match site.kind {
+                        SiteKind::Memoise { of: None } => {
+                            let place = join(self.activations[parent].path, site.key);
+                            self.remembered(place, &site.label, component, &mut numbers);
+                        }
+                        _ => numbers.extend(self.below(parent, site, component)),
+                    }
+                }
             }
-            if let SiteKind::Memoise { of: None } = site.kind {
-                fronts.extend(remembered(program, join(front.path(), site.key), &site.label, &front));
-            }
-            fronts.extend(below(site, &front));
+            begin = &path[..end];
+            self.numbers.insert(begin, numbers);
         }
     }
-    found.sort_unstable_by_key(|found| found.address);
-    found.dedup_by_key(|found| found.address);
-    found
-}
 
-impl Front<'_> {
-    /// The path of the activation that was entered last.
-    fn path(&self) -> u128 {
-        self.inside.last().map_or(ROOT, |inside| inside.path)
+    /// Adds the calls of a memoised function, if they are called so: `color(3)`. Which function was memoised at that place is not
+    /// known.
+    fn remembered(&mut self, place: u128, label: &str, component: &str, numbers: &mut Vec<usize>) {
+        let Some(text) = component.strip_prefix(label).filter(|text| text.starts_with('(')) else { return };
+        for function in (0..self.program.functions.len()).map(|number| FunctionId(number as u32)) {
+            // It lasts as long as somebody may ask for it; what is inside of it is met before it is left.
+            let path = path_of(identity(place, self.program, function), text);
+            let function = Some(function);
+            numbers.push(self.add(Activation { path, function, is_future: true, parent: Some(0) }));
+        }
+    }
+
+    /// Adds the activation below a site, if it is called so.
+    fn below(&mut self, parent: usize, site: &Site, component: &str) -> Option<usize> {
+        let path = join(self.activations[parent].path, site.key);
+        let is_future = matches!(site.kind, SiteKind::Future { .. } | SiteKind::FutureApply { .. });
+        let function = match &site.kind {
+            SiteKind::Call { function } | SiteKind::Future { function, .. } => Some(*function),
+            SiteKind::Apply | SiteKind::FutureApply { .. } => None,
+            SiteKind::Loop(l) => {
+                let (name, behind) = site.label.split_once("[]")?;
+                let number = component.strip_prefix(name)?.strip_prefix('[')?.strip_suffix(behind)?;
+                let iteration = iteration_key(number.strip_suffix(']')?.parse().ok()?);
+                let whole = Activation { path, function: None, is_future: false, parent: Some(parent) };
+                let parent = Some(self.add(whole));
+                let (path, function) = (join(path, iteration), Some(l.body));
+                return Some(self.add(Activation { path, function, is_future: false, parent }));
+            }
+            _ => return None,
+        };
+        let parent = Some(parent);
+        (*site.label == *component).then(|| self.add(Activation { path, function, is_future, parent }))
+    }
+
+    fn add(&mut self, activation: Activation) -> usize {
+        self.activations.push(activation);
+        self.activations.len() - 1
+    }
+
+    /// The activations around a place, from the inside out.
+    fn around(&self, number: usize) -> impl Iterator<Item = Activation> {
+        let first = Some(self.activations[number]);
+        std::iter::successors(first, |inner| inner.parent.map(|number| self.activations[number]))
+    }
+
+    /// The paths of the activations that all of these places are in, each with whether it lasts until the choice is met: no
+    /// future is between them.
+    fn common(&self, found: &[(u128, usize)]) -> Vec<(u128, bool)> {
+        let Some(((_, first), others)) = found.split_first() else { return vec![] };
+        let (mut all, mut is_at_once) = (vec![], true);
+        for Activation { path, is_future, .. } in self.around(*first) {
+            if others.iter().all(|(_, other)| self.around(*other).any(|around| around.path == path)) {
+                all.push((path, is_at_once));
+            }
+            is_at_once &= !is_future;
+        }
+        all
     }
 }
 
-/// Where the address goes on below a call of a memoised function, if that is its next component: `color(3)`. Which function
-/// was memoised at that place is not known.
-fn remembered<'a>(program: &Program, place: u128, label: &str, front: &Front<'a>) -> Vec<Front<'a>> {
-    let next = front.rest.strip_prefix(label).and_then(|text| text.split_once('/'));
-    let Some((text, rest)) = next.filter(|(text, _)| text.starts_with('(')) else { return vec![] };
-    let of = |function: FunctionId| {
-        // It lasts as long as somebody may ask for it; what is inside of it is met before it is left.
-        let own = Inside { path: path_of(identity(place, program, function), text), is_future: true };
-        Front { inside: vec![front.inside[0], own], function: Some(function), rest }
-    };
-    (0..program.functions.len()).map(|number| of(FunctionId(number as u32))).collect()
-}
-
-/// Where the address goes on below a site, if its next component is that of the site.
-fn below<'a>(site: &Site, front: &Front<'a>) -> Option<Front<'a>> {
-    let path = join(front.path(), site.key);
-    let after = |label: &str, text: &'a str| text.strip_prefix(label)?.strip_prefix('/');
-    let (more, function, rest) = match &site.kind {
-        SiteKind::Call { function } | SiteKind::Future { function, .. } => {
-            (None, Some(*function), after(&site.label, front.rest)?)
-        }
-        SiteKind::Apply | SiteKind::FutureApply { .. } => (None, None, after(&site.label, front.rest)?),
-        SiteKind::Loop(l) => {
-            let (name, behind) = site.label.split_once("[]")?;
-            let (number, rest) = front.rest.strip_prefix(name)?.strip_prefix('[')?.split_once(']')?;
-            let path = join(path, iteration_key(number.parse().ok()?));
-            (Some(Inside { path, is_future: false }), Some(l.body), after(behind, rest)?)
-        }
-        _ => return None,
-    };
-    let is_future = matches!(site.kind, SiteKind::Future { .. } | SiteKind::FutureApply { .. });
-    let own = [Inside { path, is_future }].into_iter().chain(more);
-    Some(Front { inside: front.inside.iter().copied().chain(own).collect(), function, rest })
+/// The address of the call around a component, and the component.
+fn split(path: &str) -> (&str, &str) {
+    path.rsplit_once('/').unwrap_or(("", path))
 }

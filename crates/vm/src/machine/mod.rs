@@ -112,21 +112,38 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Runs every future in the order of creation, until none is left. For answers that never pause.
+    /// Runs futures one after another until the run has ended. Before each, `next` gives the place of the future among those
+    /// that can run; it sees which future ran last and how that stopped. `None` leaves the run where it is.
     ///
     /// # Errors
     /// A fault of the program, or futures that wait for each other.
+    #[inline(always)]
+    pub fn drive<A: Answers<S>>(
+        &mut self,
+        state: &mut State<S>,
+        answers: &mut A,
+        mut next: impl FnMut(&mut A, &State<S>, Option<(FutureId, Stop)>) -> Option<usize>,
+    ) -> Result<(), Box<RunFault>> {
+        let mut last = None;
+        while !state.has_ended() {
+            let Some(place) = next(answers, state, last) else { break };
+            let Some(future) = state.runnable().get(place) else {
+                return Err(Box::new(self.waiting_cycle(state)));
+            };
+            last = Some((future, self.resume(state, future, answers)?));
+        }
+        Ok(())
+    }
+
+    /// Runs every future in the order of creation, until none is left. For answers that never pause.
+    ///
+    /// # Errors
+    /// As [`Machine::drive`].
     pub fn finish<A: Answers<S>>(
         &mut self,
         state: &mut State<S>,
         answers: &mut A,
     ) -> Result<(), Box<RunFault>> {
-        while !state.has_ended() {
-            let Some(next) = state.runnable().first() else {
-                return Err(Box::new(self.waiting_cycle(state)));
-            };
-            self.resume(state, next, answers)?;
-        }
-        Ok(())
+        self.drive(state, answers, |_, _, _| Some(0))
     }
 }

@@ -11,10 +11,10 @@ use super::keep::Dropped;
 use super::outcome::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
-use crate::builtins::{make_dist, quick_dist, value_to_draw};
+use crate::builtins::{make_dist, quick_dist};
 use crate::code::{Args, Site, SiteKind, Source};
 use crate::fault::Fault;
-use crate::value::{Value, index, ops};
+use crate::value::{Value, index, log_density, ops};
 use niwaki_math::{Dist, Family, Scalar};
 
 /// Bytes of a choice in a log: its address and value, and a share of the blocks that they are stored in.
@@ -23,11 +23,6 @@ pub(super) const LOGGED: usize = 36;
 #[cold]
 fn no_dist<S: Scalar>(value: &Value<S>) -> Fault {
     Fault::new("not-a-distribution", format!("expected a distribution, found {}", value.described()))
-}
-
-#[cold]
-fn no_draw<S: Scalar>(value: &Value<S>) -> Fault {
-    Fault::new("type-mismatch", format!("no distribution draws {}", value.described()))
 }
 
 #[cold]
@@ -52,24 +47,6 @@ pub(super) fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
         Value::Int(i) => Ok(S::from_f64(*i as f64)),
         Value::Bool(b) => Ok(S::from_f64(f64::from(u8::from(*b)))),
         other => Err(no_number(other)),
-    }
-}
-
-/// The log density of a value: of numbers directly, of anything else through a `Draw`.
-#[inline(always)]
-pub(super) fn log_density<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
-    match value {
-        Value::Real(x) => Ok(dist.log_density_of_real(*x)),
-        Value::Int(k) => Ok(dist.log_density_of_int(*k)),
-        other => log_density_of_other(dist, other),
-    }
-}
-
-#[inline(never)]
-fn log_density_of_other<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> Result<S, Fault> {
-    match value_to_draw(value) {
-        Some(draw) => Ok(dist.log_density(&draw)),
-        None => Err(no_draw(value)),
     }
 }
 

@@ -2,7 +2,6 @@
 
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Stream};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
@@ -24,7 +23,7 @@ impl Answers<f64> for Draws {
         if let Some(value) = self.known.get(&at.address()) {
             return Ok(Answer::Go(value.clone()));
         }
-        Ok(Answer::Go(draw_to_value(dist.sample(&mut Stream::new(self.seed, 0, at.address(), self.visit)))))
+        Ok(Answer::Go(Value::from(dist.sample(&mut Stream::new(self.seed, 0, at.address(), self.visit)))))
     }
     fn score(&mut self, _: &At<'_, f64>, _: Factor, _: f64) -> Result<Answer<()>, Fault> {
         unreachable!("a kept run keeps its own scores")
@@ -50,7 +49,7 @@ impl Propose<f64> for Draws {
     ) -> Result<Proposed<f64>, Fault> {
         let draw = dist.sample(&mut Stream::new(self.seed, 1, at.address(), self.visit));
         let forward = niwaki_math::grid(dist.log_density(&draw));
-        Ok(Proposed { value: draw_to_value(draw), forward, backward: log_density })
+        Ok(Proposed { value: Value::from(draw), forward, backward: log_density })
     }
 }
 

@@ -4,7 +4,6 @@
 mod programs;
 
 use niwaki_math::{Dist, Draw};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At};
@@ -152,7 +151,7 @@ impl Answers<f64> for First {
             Some(values) if !values.is_empty() => values[self.0 as usize % values.len()].clone(),
             _ => Draw::Real(0.5),
         };
-        Ok(Answer::Go(draw_to_value(draw)))
+        Ok(Answer::Go(Value::from(draw)))
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args.first().cloned().unwrap_or_default())

@@ -3,7 +3,6 @@
 
 use niwaki_geom::{Aabb, Shape};
 use niwaki_math::Dist;
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At};
@@ -54,7 +53,7 @@ impl Answers<f64> for Noted {
         let (label, part) = (at.site.label.to_string(), at.part().copied());
         self.order.push((label.clone(), part.map_or(0.0, |part| part.center().x)));
         assert!(self.parts.insert(at.address(), (label, part)).is_none());
-        Ok(Answer::Go(draw_to_value(dist.enumerate().expect("a finite choice")[0].clone())))
+        Ok(Answer::Go(Value::from(dist.enumerate().expect("a finite choice")[0].clone())))
     }
     fn emit(&mut self, _: &At<'_, f64>, _: &[Shape]) -> Result<Answer<()>, Fault> {
         Ok(Answer::Pause)

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_math::{Dist, Draw};
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::{Function, Program, SiteKind};
 use niwaki_vm::core::parse::parse;
 use niwaki_vm::fault::Fault;
@@ -36,7 +35,7 @@ impl Answers<f64> for Script {
             Some(values) => values[self.count as usize % values.len()].clone(),
             None => Draw::Real(self.count as f64),
         };
-        Ok(Answer::Go(draw_to_value(draw)))
+        Ok(Answer::Go(Value::from(draw)))
     }
     fn score(&mut self, _: &At<'_, f64>, _: Factor, log: f64) -> Result<Answer<()>, Fault> {
         self.score += log;
@@ -413,7 +412,7 @@ impl Answers<f64> for Scopes {
         self.seen.push((at.site.label.to_string(), names.join(" "), look));
         self.count += 1;
         let values = dist.enumerate().expect("a finite choice");
-        Ok(Answer::Go(draw_to_value(values[self.count as usize % values.len()].clone())))
+        Ok(Answer::Go(Value::from(values[self.count as usize % values.len()].clone())))
     }
     fn host(&mut self, _: u16, args: &[Value], _: &mut u64) -> Result<Value, Fault> {
         Ok(args[0].clone())

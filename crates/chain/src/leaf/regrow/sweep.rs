@@ -189,11 +189,9 @@ impl Block<'_> {
                 Chosen::given(value.clone(), dist).map(Some)
             }
         }
-        let mut one = Particle::start(self.start.clone(), Record::default(), 0, 0);
         let mut all = Turnable { block: self, met: vec![] };
-        while one.is_running() {
-            one.run(machine, self.task, 0, &mut all)?;
-        }
+        let mut particle = Particle::start(self.start.clone(), Record::default(), 0, 0);
+        particle.finish_by(machine, self.task, |_| 0, &mut all)?;
         if all.met.is_empty() {
             return Ok(None);
         }

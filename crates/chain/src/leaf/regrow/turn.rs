@@ -5,10 +5,9 @@
 
 use super::sweep::Seen;
 use niwaki_math::{Dist, Stream, Support};
-use niwaki_run::record::log_density;
 use niwaki_run::weights::index;
 use niwaki_vm::fault::Fault;
-use niwaki_vm::value::{Value, identical};
+use niwaki_vm::value::{Value, identical, log_density};
 
 /// A longer list of values counts as whole numbers.
 const SHORT: i64 = 64;

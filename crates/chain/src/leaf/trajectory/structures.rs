@@ -10,9 +10,8 @@ use crate::walk::state::choices;
 use niwaki_continuous::hamiltonian::potential::evaluate;
 use niwaki_continuous::hamiltonian::{Phase, Potential, Stop};
 use niwaki_grad::{Continuous, Live, Model, Rolling, Scope};
-use niwaki_math::{Draw, Family, Stream};
+use niwaki_math::{Family, Stream};
 use niwaki_run::Failure;
-use niwaki_vm::builtins::draw_to_value;
 use niwaki_vm::code::Program;
 use niwaki_vm::machine::kept::Trace;
 use niwaki_vm::value::Value;
@@ -299,8 +298,7 @@ impl Target {
             let part = &numbers[at..at + choice.width()];
             at += choice.width();
             if !choice.is_held {
-                let draw = if choice.is_vector() { Draw::Vector(part.into()) } else { Draw::Real(part[0]) };
-                values.push((place, draw_to_value(draw)));
+                values.push((place, choice.transform.value(part)));
             }
         }
         (log_density - slope, values)

@@ -208,7 +208,8 @@ fn futures_are_foreseen_together() {
     let guide = blank(&task);
     let start = task.start(&task.machine(), false).unwrap();
     let mut one = Particle::start(start, niwaki_run::record::Record::start(&[]), 0, 1);
-    one.run(&mut task.machine(), &task, 0, Prior(one.stream)).unwrap();
+    let prior = Prior(one.stream);
+    one.advance_by(&mut task.machine(), &task, |_, _| Some(0), prior).unwrap();
     let run = Paused { task: &task, record: &one.record, state: &one.state };
     assert_eq!(run.state.runnable().len(), 4);
     let mut sight = Sight::default();

@@ -15,14 +15,11 @@ use super::journal::Birth;
 use super::readers::Reader;
 use super::slot::Slot;
 use super::trace::{ChoiceAt, Kept};
-use crate::builtins::value_to_draw;
 use crate::code::{Args, Operand, Site, SiteId, SiteKind, Source};
 use crate::fault::Fault;
-use crate::value::{Value, identical, ops};
+use crate::value::{Value, identical, log_density, ops};
 use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, Family, Scalar, grid};
-
-pub(super) use super::super::question::log_density;
 
 /// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
 /// counts the right sum, and the one value of a delta is drawn again.
@@ -33,7 +30,7 @@ pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
         // Counts of another number of trials are never values: kept, they would hold that number for ever.
         other => match dist {
             Dist::Multinomial(m) => {
-                let counts = value_to_draw(other).and_then(|draw| draw.as_counts());
+                let counts = other.draw().and_then(|draw| draw.as_counts());
                 counts.is_some_and(|all| all.len() == m.len() && all.iter().sum::<i64>() == m.n)
             }
             _ => dist.dimension().is_none_or(|n| crate::value::iter_len(other).is_ok_and(|len| len == n)),

@@ -5,13 +5,12 @@ use super::super::stack::RunFault;
 use super::super::state::NodeId;
 use super::super::workspace::Here;
 use super::super::{Machine, Stop};
-use super::questions::log_density;
 use super::slot::Slot;
 use super::strategy::{Change, Step, Strategy, Totals};
 use super::trace::{ChoiceAt, Kept, Trace};
 use crate::code::Program;
 use crate::fault::Fault;
-use crate::value::{Value, identical};
+use crate::value::{Value, identical, log_density};
 use niwaki_geom::Primitive;
 use niwaki_math::{Dist, Scalar, Total, grid};
 

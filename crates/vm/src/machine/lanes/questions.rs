@@ -10,8 +10,8 @@ use crate::machine::answers::{Answer, At, Factor};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
 use crate::machine::outcome::After;
-use crate::machine::question::{LOGGED, as_dist, as_real, log_density};
-use crate::value::{Dist, Family, Value, index, ops};
+use crate::machine::question::{LOGGED, as_dist, as_real};
+use crate::value::{Dist, Family, Value, index, log_density, ops};
 
 /// The distributions of a choice, one for each lane.
 #[derive(Clone, Copy)]
