@@ -690,7 +690,7 @@ impl Smc {
     fn broken_rule(&self) -> Option<BrokenRule> {
         let common = &self.common;
         let (is_absolute, has_sizes) =
-            (common.settings.weights == Weights::Absolute, matches!(self.particles, Sizes::Own(_)));
+            (common.settings.weights == Weights::Absolute, matches!(self.particles, Sizes::List(_)));
         let moved = self.rejuvenate.as_ref();
         let rules = [
             (self.seconds.is_some() && self.populations.is_some(), "populations", "seconds-alone"),
