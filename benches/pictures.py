@@ -2,7 +2,7 @@
 
     python benches/pictures.py docs/pictures
 
-ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
+solids.png: one of each solid; ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
 growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
 `LARGEST` bytes.
 """
@@ -10,10 +10,13 @@ growth.gif: the best of the ships, growing; letters.png: a word in vines and one
 from __future__ import annotations
 
 import io
+import math
 import sys
 from pathlib import Path
 from typing import Any
 
+import niwaki as nw
+import numpy as np
 from niwaki import letters
 from niwaki.draw.scene import Scene
 from niwaki.draw.sheet import sheet
@@ -48,11 +51,38 @@ def draw(folder: Path) -> list[Path]:
     ships = grow(spaceship, targets.ship(), particles=300, voxel=SHIP_VOXEL, runs=10, seed=1)
     trees = grow(niwaki_tree, targets.niwaki(), particles=1000, voxel=TREE_VOXEL, runs=10, seed=1)
     return [
+        written(folder / "solids.png", solids()),
         written(folder / "ships.png", fleet(ships)),
         written(folder / "tree.png", garden(trees)),
         written(folder / "letters.png", words()),
         ships.best.animate(folder / "growth.gif", seconds=3.0, size=(320, 200), elevation=30.0, margin=0.03),
     ]
+
+
+def solids() -> Image.Image:
+    """One of each word that makes a solid."""
+    origin = (0.0, 0.0, 0.0)
+    low, middle, high = ((0.0, y, 0.0) for y in (-1.0, 0.2, 1.0))
+    forward, up = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    turned = nw.rotation((1.0, 0.0, 0.0), -math.pi / 2)
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.4]])
+    examples = [
+        nw.box(origin, (1.6, 1.2, 1.0)),
+        nw.box(origin, (1.6, 1.2, 1.6), taper=0.4, taper_axis="y"),
+        nw.wedge(origin, (2.0, 1.0, 1.4)),
+        nw.cylinder(origin, 0.7, 1.4),
+        nw.cylinder(origin, 0.8, 1.4, top_radius=0.4),
+        nw.cone(origin, 0.8, 1.5),
+        nw.sphere(origin, 0.8),
+        nw.ellipsoid(origin, (2.0, 1.0, 1.2)),
+        nw.torus(origin, 0.8, 0.25),
+        nw.arch(origin, (1.8, 1.7, 0.6), 0.35),
+        nw.limb(low, high, 0.5, 0.3, end_normal=(0.5, 1.0, 0.0)),
+        nw.segment(*((at, forward, up, radius) for at, radius in ((low, 0.5), (middle, 0.4), (high, 0.3)))),
+        nw.mesh(square, [[0, 3, 2], [0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], rotation=turned),
+    ]
+    scenes = [Scene([(shape.kind, [shape])]) for shape in examples]
+    return sheet(scenes, columns=5, size=(200, 160), elevation=24.0)
 
 
 def fleet(ships: Result) -> Image.Image:

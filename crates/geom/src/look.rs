@@ -41,8 +41,8 @@ impl Paint {
         if let Some(b) = bevel.filter(|b| !(*b >= 0.0 && b.is_finite())) {
             return bad(format!("the bevel is {b}, expected zero or more"));
         }
-        if let Some(c) = color.filter(|c| !c.iter().all(|c| c.is_finite())) {
-            return bad(format!("the color is {c:?}, expected three finite numbers"));
+        if let Some(c) = color.filter(|c| !c.iter().all(|c| (0.0..=1.0).contains(c))) {
+            return bad(format!("the color is {c:?}, expected three numbers from 0 to 1"));
         }
         for (name, given) in [("metalness", metalness), ("roughness", roughness)] {
             if let Some(share) = given.filter(|share| !(0.0..=1.0).contains(share)) {

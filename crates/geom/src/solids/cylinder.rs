@@ -2,7 +2,7 @@
 
 use super::measured::{Checks, Measured, Tone};
 use super::word::kinds::{Axis, Length, Point, Turn};
-use super::word::{Either, Word, direction, placed, plain};
+use super::word::{Either, Word, direction, laid_along, placed, plain};
 use crate::convex::Coarse;
 use crate::error::GeomError;
 use crate::fine::{FineMesh, revolve};
@@ -142,12 +142,36 @@ impl<S: Scalar> Word<S> for CylinderWord<S> {
     }
 
     fn at(&self) -> [[S; 3]; 4] {
-        let (axis, unit) = (self.axis, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-        let norm = axis.iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt();
-        let turn = self.rotation.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64)));
-        let length = self.length / norm;
-        let along = turn.map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * length);
-        let zero = [S::from_f64(0.0); 3];
-        [self.center, zero, along, zero]
+        laid_along(self.center, self.axis, self.rotation, self.length)
+    }
+}
+
+word! {
+    /// A cone.
+    "cone" ConeWord {
+        /// The middle between its base and its tip.
+        center: Point,
+        /// Radius of the base, greater than 0.
+        radius: Length,
+        /// Length along its axis, greater than 0.
+        length: Length,
+        /// "x", "y", "z" or a direction: towards the tip.
+        axis: Axis = "y",
+        /// Turns it about its middle.
+        rotation: Option<Turn>,
+        ..BEVELLED
+    }
+}
+
+impl<S: Scalar> Word<S> for ConeWord<S> {
+    type Solid = Either<Cylinder, TaperedCylinder>;
+
+    fn solid(&self) -> Result<(Self::Solid, Placement), GeomError> {
+        let (solid, laid) = along(self.radius.value(), self.length.value(), plain(self.axis), Some(0.0))?;
+        Ok((solid, placed(self.center, laid, self.rotation)))
+    }
+
+    fn at(&self) -> [[S; 3]; 4] {
+        laid_along(self.center, self.axis, self.rotation, self.length)
     }
 }

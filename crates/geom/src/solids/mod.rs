@@ -10,9 +10,11 @@
 #[macro_use]
 pub mod word;
 
+pub mod arch;
 pub mod cuboid;
 pub mod cylinder;
 pub mod ellipse;
+pub mod ellipsoid;
 pub mod limb;
 pub mod measured;
 pub mod mesh;
@@ -23,6 +25,8 @@ pub mod shape;
 pub mod stroke;
 #[cfg(test)]
 pub(crate) mod testing;
+pub mod torus;
+pub mod wedge;
 pub mod words;
 
 use crate::bounds::Aabb;
@@ -32,14 +36,18 @@ use crate::fine::FineMesh;
 use crate::mesh::TriMesh;
 use crate::placement::Placement;
 use crate::tube::Tube;
+pub use arch::Arch;
 pub use cuboid::{Cuboid, TaperedCuboid};
 pub use cylinder::{Cylinder, TaperedCylinder};
 pub use ellipse::Ellipse;
+pub use ellipsoid::Ellipsoid;
 pub use limb::Limb;
 pub use measured::{Checks, Form, Measured, Tone};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 pub use stroke::Stroke;
+pub use torus::Torus;
+pub use wedge::Wedge;
 use word::{Called, Description, Either};
 
 /// Declares [`Solid`] and the list of words. A row is the name of the kind in stored scenes (in snake case), the type of its
@@ -137,7 +145,7 @@ solids! {
     /// A box whose +z face is scaled about its middle.
     TaperedBox(TaperedCuboid);
     /// A prism along +y over a regular polygon.
-    Cylinder(Cylinder) [cylinder::CylinderWord];
+    Cylinder(Cylinder) [cylinder::CylinderWord, cylinder::ConeWord];
     /// A cylinder with two radii.
     TaperedCylinder(TaperedCylinder);
     /// Convex hull of two rings: a bent, tapered segment.
@@ -150,6 +158,14 @@ solids! {
     Stroke(Stroke) [stroke::StrokeWord];
     /// Flat: an ellipse on a plane parallel to z = 0.
     Ellipse(Ellipse) [ellipse::EllipseWord, ellipse::DiscWord];
+    /// An ellipsoid, such as a sphere.
+    Ellipsoid(Ellipsoid) [ellipsoid::SphereWord, ellipsoid::EllipsoidWord];
+    /// A gable roof.
+    Wedge(Wedge) [wedge::WedgeWord];
+    /// A ring.
+    Torus(Torus) [torus::TorusWord];
+    /// A half ring on two legs.
+    Arch(Arch) [arch::ArchWord];
 }
 
 impl Solid {

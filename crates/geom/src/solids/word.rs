@@ -135,6 +135,20 @@ pub fn turned<S: Scalar>(center: [S; 3], rotation: Option<[[S; 3]; 3]>, size: [S
     [center, along(0), along(1), along(2)]
 }
 
+/// Around `center` along `axis` (any length), then turned: the only direction is the axis, `length` long.
+pub fn laid_along<S: Scalar>(
+    center: [S; 3],
+    axis: [S; 3],
+    rotation: Option<[[S; 3]; 3]>,
+    length: S,
+) -> [[S; 3]; 4] {
+    let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let norm = axis.iter().fold(S::from_f64(0.0), |sum, x| sum + *x * *x).sqrt();
+    let turn = rotation.unwrap_or_else(|| unit.map(|row| row.map(S::from_f64)));
+    let (zero, scale) = ([S::from_f64(0.0); 3], length / norm);
+    [center, zero, turn.map(|row| (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]) * scale), zero]
+}
+
 /// Between two points, and from the one to the other.
 pub fn between<S: Scalar>(start: [S; 3], end: [S; 3]) -> [[S; 3]; 4] {
     let (half, zero) = (S::from_f64(0.5), [S::from_f64(0.0); 3]);
