@@ -2,7 +2,8 @@
 
     python benches/pictures.py docs/pictures
 
-solids.png: one of each solid; ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
+solids.png: each word that makes a solid;
+ships.png: ten ships in one target; tree.png: three trees in one target and, below, three without a target;
 growth.gif: the best of the ships, growing; letters.png: a word in vines and one in lightning. Each stays below
 `LARGEST` bytes.
 """

@@ -138,7 +138,7 @@ impl<S: Scalar> Dist<S> {
             Family::Multinomial => Dist::Multinomial(Arc::new(Multinomial::read(&r)?)),
             Family::MultivariateBernoulli => {
                 let unity = S::from_f64(1.0);
-                let expected = "numbers from 0 to 1, at least unity";
+                let expected = "numbers from 0 to 1, at least one";
                 let ps = r.vector_where(0, expected, |p| p >= S::from_f64(0.0) && p <= unity)?;
                 Dist::MultivariateBernoulli(ps.into())
             }
