@@ -58,6 +58,7 @@ from .targets.sketches import no_self_intersection as no_self_intersection
 from .targets.sketches import overshoot as overshoot
 from .targets.target import Receiver as Receiver
 from .targets.target import Target as Target
+from .words import arch as arch
 from .words import beta as beta
 from .words import binomial as binomial
 from .words import box as box
@@ -65,6 +66,7 @@ from .words import categorical as categorical
 from .words import cauchy as cauchy
 from .words import choose as choose
 from .words import condition as condition
+from .words import cone as cone
 from .words import cross as cross
 from .words import cylinder as cylinder
 from .words import diagonal_gaussian as diagonal_gaussian
@@ -74,6 +76,7 @@ from .words import discrete_uniform as discrete_uniform
 from .words import distance as distance
 from .words import dot as dot
 from .words import ellipse as ellipse
+from .words import ellipsoid as ellipsoid
 from .words import emit as emit
 from .words import exponential as exponential
 from .words import factor as factor
@@ -107,9 +110,12 @@ from .words import segment as segment
 from .words import soft_at_least as soft_at_least
 from .words import soft_at_most as soft_at_most
 from .words import softeq as softeq
+from .words import sphere as sphere
 from .words import stroke as stroke
 from .words import student_t as student_t
+from .words import torus as torus
 from .words import truncated_gaussian as truncated_gaussian
 from .words import uniform as uniform
 from .words import vec as vec
 from .words import von_mises as von_mises
+from .words import wedge as wedge

@@ -14,7 +14,22 @@ from typing import Any
 from niwaki.words.measures import Axis, Bark, Color, Frame, Rotation, make
 from niwaki.words.vectors import VecLike
 
-__all__ = ["box", "cylinder", "disc", "ellipse", "limb", "mesh", "segment", "stroke"]
+__all__ = [
+    "arch",
+    "box",
+    "cone",
+    "cylinder",
+    "disc",
+    "ellipse",
+    "ellipsoid",
+    "limb",
+    "mesh",
+    "segment",
+    "sphere",
+    "stroke",
+    "torus",
+    "wedge",
+]
 
 
 def box(
@@ -94,6 +109,43 @@ def cylinder(
     return make(
         "cylinder", center, radius, length, axis, top_radius, rotation, bevel, color, metalness, roughness
     )
+
+
+def cone(
+    center: VecLike,
+    radius: float,
+    length: float,
+    axis: Axis = "y",
+    rotation: Rotation | None = None,
+    bevel: float | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A cone.
+
+    Parameters
+    ----------
+    center
+        The middle between its base and its tip.
+    radius
+        Radius of the base, greater than 0.
+    length
+        Length along its axis, greater than 0.
+    axis
+        "x", "y", "z" or a direction: towards the tip.
+    rotation
+        Turns it about its middle.
+    bevel
+        Width of the bevelled edges, drawn only.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("cone", center, radius, length, axis, rotation, bevel, color, metalness, roughness)
 
 
 def limb(
@@ -246,5 +298,169 @@ def disc(center: VecLike, radius: float, color: Color | None = None) -> Any:
     return make("disc", center, radius, color)
 
 
+def sphere(
+    center: VecLike,
+    radius: float,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A sphere.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    radius
+        Greater than 0.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("sphere", center, radius, color, metalness, roughness)
+
+
+def ellipsoid(
+    center: VecLike,
+    size: VecLike,
+    rotation: Rotation | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """An ellipsoid: a sphere with a length along each axis.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    size
+        Its three full lengths, greater than 0.
+    rotation
+        Turns it about its middle.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("ellipsoid", center, size, rotation, color, metalness, roughness)
+
+
+def wedge(
+    center: VecLike,
+    size: VecLike,
+    rotation: Rotation | None = None,
+    ridge: float = 0.0,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A wedge: a gable roof whose ridge runs along x.
+
+    Parameters
+    ----------
+    center
+        The middle of the box around it.
+    size
+        The side lengths of this box, greater than 0.
+    rotation
+        Turns it about its middle.
+    ridge
+        Place of the ridge across: 0 in the middle, -1 and 1 above the edges at -z and +z (a ramp).
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("wedge", center, size, rotation, ridge, color, metalness, roughness)
+
+
+def torus(
+    center: VecLike,
+    radius: float,
+    tube: float,
+    axis: Axis = "y",
+    rotation: Rotation | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """A ring.
+
+    Parameters
+    ----------
+    center
+        Its middle.
+    radius
+        From the axis to the middle of the tube, greater than 0.
+    tube
+        Radius of the tube, greater than 0 and less than `radius`.
+    axis
+        The axis of the ring: "x", "y", "z" or a direction.
+    rotation
+        Turns it about its middle.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("torus", center, radius, tube, axis, rotation, color, metalness, roughness)
+
+
+def arch(
+    center: VecLike,
+    size: VecLike,
+    thickness: float,
+    rotation: Rotation | None = None,
+    color: Color | None = None,
+    metalness: float | None = None,
+    roughness: float | None = None,
+) -> Any:
+    """An arch: a half ring on two legs, as of a bridge or a door.
+
+    Parameters
+    ----------
+    center
+        The middle of the box around it.
+    size
+        The side lengths of this box, greater than 0: across, up, deep.
+    thickness
+        Width of the legs and height of the middle stone, greater than 0 and less than half of the width.
+    rotation
+        Turns it about its middle.
+    color
+        `(r, g, b)` in [0, 1].
+    metalness
+        From 0 (paint, wood, stone) to 1 (metal); 0 when left out.
+    roughness
+        From 0 (a mirror) to 1 (chalk); that of the palette when left out.
+    """
+    return make("arch", center, size, thickness, rotation, color, metalness, roughness)
+
+
 #: The functions for shapes; the engine has one of the same name for each.
-SHAPES = (box, cylinder, limb, segment, mesh, stroke, ellipse, disc)
+SHAPES = (
+    box,
+    cylinder,
+    cone,
+    limb,
+    segment,
+    mesh,
+    stroke,
+    ellipse,
+    disc,
+    sphere,
+    ellipsoid,
+    wedge,
+    torus,
+    arch,
+)

@@ -24,5 +24,5 @@ def test_arguments_go_by_position_or_name_and_others_are_refused() -> None:
     with pytest.raises(ValueError, match="argument 2 of `box` cannot be None") as missing:
         shape("box", (0, 0, 0))
     assert missing.value.code == "bad-argument"  # type: ignore[attr-defined]
-    with pytest.raises(TypeError, match="no shape `sphere`"):
-        shape("sphere")
+    with pytest.raises(TypeError, match="no shape `blob`"):
+        shape("blob")
