@@ -132,6 +132,8 @@ const FAMILIES: &[&str] = &[
     "mixture (list 0.3 0.7) (list (dist gaussian -1 0.8) (dist gaussian 1.5 1.2))",
     "mixture (list 0.3 0.7) (list (dist uniform -1 2) (dist uniform 0 3))",
     "mixture (list 0.3 0.7) (list (dist gamma 2 1) (dist exponential 1))",
+    // Bounded below alone, and not open there as a whole.
+    "mixture (list 0.3 0.7) (list (dist gamma 2 1) (dist uniform 0 3))",
 ];
 
 #[test]
