@@ -56,9 +56,9 @@ def first_arm(azimuth):
         start = vec(RIM * cos(azimuth), 0.8, RIM * sin(azimuth))
         way, rise = gaussian(azimuth, 0.4), uniform(0.6, 1.5)
         ahead = vec(cos(rise) * cos(way), sin(rise), cos(rise) * sin(way))
-        end = stretch(start, ahead, thick)
-        emit(skinned(start, UP, thick, end))
-        future(arm, end[0], end[1], end[2])
+        one = stretch(start, ahead, thick)
+        emit(skinned(start, UP, thick, one))
+        future(arm, one[0], one[1], one[2])
 
 
 @model
@@ -69,18 +69,18 @@ def arm(tip, ahead, thick):
             across = rotate(side(ahead), ahead, uniform(0.0, 2.0 * pi))
             opening = uniform(0.9, 1.3)
             share = uniform(0.35, 0.65)
-            left = stretch(tip, lift(rotate(ahead, across, share * opening)), thick)
-            right = stretch(tip, lift(rotate(ahead, across, (share - 1.0) * opening)), thick)
-            emit(skinned(tip, ahead, thick, left), skinned(tip, ahead, thick, right))
-            future(arm, left[0], left[1], left[2])
-            future(arm, right[0], right[1], right[2])
+            one = stretch(tip, lift(rotate(ahead, across, share * opening)), thick)
+            two = stretch(tip, lift(rotate(ahead, across, (share - 1.0) * opening)), thick)
+            emit(skinned(tip, ahead, thick, one), skinned(tip, ahead, thick, two))
+            future(arm, one[0], one[1], one[2])
+            future(arm, two[0], two[1], two[2])
         else:
             bent = rotate(
                 rotate(ahead, side(ahead), gaussian(0.0, 0.2)), cross(ahead, side(ahead)), gaussian(0.0, 0.2)
             )
-            end = stretch(tip, lift(bent), thick)
-            emit(skinned(tip, ahead, thick, end))
-            future(arm, end[0], end[1], end[2])
+            one = stretch(tip, lift(bent), thick)
+            emit(skinned(tip, ahead, thick, one))
+            future(arm, one[0], one[1], one[2])
 
 
 @model

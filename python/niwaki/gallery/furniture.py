@@ -71,12 +71,12 @@ def layout():
     covered = 0.0
     factor(fullness(covered))
     for _ in range(count):
-        group = table(placed)
-        more = floor_under(group)
+        one = table(placed)
+        more = floor_under(one)
         # The sum is the factor of the whole room; adding it table by table guides a search.
         factor(fullness(covered + more) - fullness(covered))
         covered = covered + more
-        placed = placed + [group]
+        placed = placed + [one]
     return placed
 
 
@@ -101,8 +101,8 @@ def chair(place, angle, placed):
     inside(seat, CHAIR_RADIUS)
     for other, _, chairs in placed:
         apart(seat, other, TABLE_RADIUS + 2.0 * CHAIR_RADIUS)
-        for neighbour, _ in chairs:
-            apart(seat, neighbour, 2.4 * CHAIR_RADIUS)
+        for taken, _ in chairs:
+            apart(seat, taken, 2.4 * CHAIR_RADIUS)
     return seat, angle + pi
 
 
@@ -124,9 +124,9 @@ def inside(place, radius):
     near(max(beyond, -CLEAR), -CLEAR, 0.1)
 
 
-def floor_under(group):
+def floor_under(one):
     """Return the area of the room's floor under a table and its chairs, in square metres."""
-    place, _, chairs = group
+    place, _, chairs = one
     seats = sum([polygon_disc_area(ROOM, seat, CHAIR_RADIUS) for seat, _ in chairs])
     return polygon_disc_area(ROOM, place, TABLE_RADIUS) + seats
 
