@@ -1,58 +1,36 @@
 """Niwaki grows procedural models into the shapes you ask for.
 
-A model is a Python function:
+A model is a Python function that makes random choices and adds shapes to a scene. A search finds runs of the model
+whose scenes match a target:
 
-    model                                       marks it
-    sample, flip, uniform, gaussian             make a random choice
-    condition, factor, observe                  forbid a run, weigh it, score it by data
-    emit, box, cylinder, vec                    add shapes to the scene, at points
-    future, force                               leave a call for later, and wait for its value
-    mem                                         call a function once for each value of its arguments
+    import niwaki as nw
 
-Searching a model:
+    @nw.model
+    def tower():
+        for level in range(nw.discrete_uniform(2, 8)):
+            size = nw.uniform(0.5, 2.0)
+            nw.emit(nw.box((0.0, level + 0.5, 0.0), (size, 1.0, size)))
 
-    grow, run                                   grow a model into a target; run a model by any method
-    smc                                         method: particles
-    ais                                         method: particles on a ladder from the prior to the posterior
-    mh, hmc, nuts                               methods: Markov chains; those that follow the gradient
-    vi                                          method: a normal near the model's distribution, and weighed draws
-    kernels                                     the kernels of Markov chains
-    batch                                       many searches on all processors, or on many machines
-    train_guide, Guide                          a network that has learnt which choices lead where
-    Checkpoint                                  where a search keeps what it needs to go on after a kill
-    Search                                      what `grow` and `run` run, as a value: JSON, a hash
+    result = nw.grow(tower, "vase.obj", seed=1)
+    result.best.save("tower.png")
+    result.best.export("tower.glb")
 
-What a scene should be like:
+The names that you meet first:
 
-    Target, match_volume                        a mesh, and the score for filling it
-    Camera, match_image                         a point of view, and the score for a silhouette from there
-    match_drawing, fill_drawing                 scores of what a scene draws in the plane
-    no_self_intersection                        score: parts must not overlap
+    model                             marks a function as a model
+    uniform, gaussian, flip, choose   draw a random choice
+    box, cylinder, emit               make shapes, and add them to the scene
+    future                            postpones a call, so that the search can choose the order
+    condition, factor, observe        forbid a run, or change its score
+    Target, Camera                    a mesh to fill, and a point of view
+    match_volume, match_image         score a scene against a mesh or a picture
+    grow, run                         search for a target, or by any method
+    smc, mh, hmc                      methods: particles and Markov chains
+    Result, Sample                    all runs that a search returns; one run, with its picture and files
+    batch, view, doctor               many searches; results to turn; a check of the installation
 
-The results of a search:
-
-    Result, Sample                              all runs, and one: its value, choices, scores, picture, files
-    view                                        results to turn, in a notebook or as a page of one file
-    run_python                                  one run as plain Python, for a debugger
-    doctor                                      what is installed, what works, what is missing for what
-
-Everything else:
-
-    niwaki.words      what a model may use: distributions as values, colours, vectors, polygons, soft constraints
-    niwaki.methods    all methods and their settings
-    niwaki.targets    what a scene should match
-    niwaki.batches    batches: their folders, and their results
-    niwaki.guides     training guides, and those that come with the package
-    niwaki.result     results, diagnostics, gradients
-    niwaki.draw       scenes as pictures and files
-    niwaki.gallery    models
-    niwaki.errors     every error
-    niwaki.stacks     structures of blocks that stand
-    niwaki.notebook   results to turn, in a notebook or as a page of one file
-    niwaki.letters    words in vines or lightning
-    niwaki.color      colours for drawings
-
-Every name is imported when it is first used; `__init__.pyi` lists them all.
+`help(niwaki.grow)` explains a name, and `dir(niwaki)` lists all names. `niwaki.words` has all words for models,
+`niwaki.gallery` has models to start from. The manual is in the project's folder `docs` and begins with `docs/index.md`.
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-"""Attributes that are computed when they are first read, and kept."""
+"""Attributes that are computed at the first reading, and then stored."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ R = TypeVar("R")
 
 
 class cached_property(Generic[R]):
-    """A property that is computed at the first reading, and then is an attribute of the object.
+    """A property that is computed at the first reading, and then stored as an attribute of the object.
 
-    That of `functools` has on Python 3.11 one lock for all objects of a class, and holds it while it computes. Threads
-    wait for one another, and a process that is forked meanwhile waits for ever. This one has no lock: of two threads
-    that read at the same time both compute, and one value is kept.
+    On Python 3.11, `functools.cached_property` has a lock for all objects of a class, and holds it while it computes:
+    threads wait for one another, and a process that is forked meanwhile waits forever. This property has no lock. If
+    two threads read it at the same time, both compute the value, and one value is stored.
 
     Parameters
     ----------
     compute
-        The method.
+        The method that computes the value.
     """
 
     def __init__(self, compute: Callable[[Any], R]) -> None:
         self._compute, self._name, self.__doc__ = compute, compute.__name__, compute.__doc__
 
     def __set_name__(self, owner: type, name: str) -> None:
-        """Note the name in the class."""
+        """Store the property's name in the class."""
         self._name = name
 
     @overload
@@ -35,7 +35,7 @@ class cached_property(Generic[R]):
     def __get__(self, instance: object, owner: type) -> R: ...
 
     def __get__(self, instance: object | None, owner: type) -> Self | R:
-        """The value; Python asks no more once the object has it."""
+        """Return the value; later, Python reads the object's attribute instead."""
         if instance is None:
             return self
         value: R = instance.__dict__.setdefault(self._name, self._compute(instance))

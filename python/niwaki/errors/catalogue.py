@@ -14,13 +14,19 @@ from niwaki.errors.kinds import fill
 from niwaki.errors.messages import ADVICE, CHAINS, FAULTS, FILES, INPUTS, LANGUAGE, SETTINGS, Message
 
 KINDS = (
-    (LANGUAGE, "Reported when a model is compiled, before anything runs."),
-    (FAULTS, "Reported while a model runs; the message shows the model's own calls, outermost first."),
-    (INPUTS, "Reported when a setting or an argument is checked."),
-    (FILES, "Reported when a file is read or written."),
-    (CHAINS, "Reported when a Markov chain, or a search with a proposal or held choices, starts or runs."),
-    (SETTINGS, "Reported when a setting, a model's name or a run's file is checked."),
-    (ADVICE, "Advice of `niwaki check`: the model is right, and a search of it could be more efficient."),
+    (LANGUAGE, "Niwaki reports this error when it compiles the model, before a run."),
+    (FAULTS, "Niwaki reports this error during a run; the message shows the model's calls, outermost first."),
+    (INPUTS, "Niwaki reports this error about a setting, an argument or the result of a search."),
+    (FILES, "Niwaki reports this error when it reads or writes a file."),
+    (
+        CHAINS,
+        "A Markov chain, or a search with a proposal or held choices, reports this error when it starts or runs.",
+    ),
+    (SETTINGS, "Niwaki reports this error when it checks a setting, a model's name or a run file."),
+    (
+        ADVICE,
+        "This is advice of `niwaki check`, not an error: a search of the model could be more efficient.",
+    ),
 )
 
 

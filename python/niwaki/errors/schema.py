@@ -2,7 +2,7 @@
 
 A schema is a class of msgspec, or any other type that msgspec knows. A value that does not fit raises `Unfit`, with
 the place in the JSON (`$.method.particles`), the expected value and the actual one. The reader of each kind of file
-turns `Unfit` into an error of its own.
+turns `Unfit` into its own error.
 """
 
 from __future__ import annotations

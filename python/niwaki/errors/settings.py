@@ -34,7 +34,7 @@ LONGEST = 200
 
 def bad(name: str, value: Any, expected: str, suggestion: str) -> InputError:
     """Return the error about the value of a setting."""
-    return InputError("bad-setting", name=name, value=shown(value), expected=expected, suggestion=suggestion)
+    return InputError("bad-setting", name=name, found=shown(value), expected=expected, suggestion=suggestion)
 
 
 def shown(value: Any) -> str:
@@ -210,4 +210,4 @@ def usual_threads() -> int | None:
 
 def refuse_threads(count: int | None, reason: str) -> NoReturn:
     """Raise the error about threads that the system refuses; the engine calls this."""
-    raise InputError("no-threads", count="all" if count is None else count, reason=reason)
+    raise InputError("no-threads", asked="all" if count is None else count, reason=reason)

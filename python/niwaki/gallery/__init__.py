@@ -1,10 +1,18 @@
-"""Models to look at and start from: one model, one file, one picture.
+"""Models to look at and to start from, each in a file of this folder.
 
-A module of this folder is an entry of the gallery when it has MODEL (the model), and, where they make sense, TITLE (one
-line), TARGET (the name of a function of `niwaki.targets.examples`), VOXEL (the cell size that suits both), PARTICLES
-(how many a good result takes) and RESAMPLING (the rule that suits it). A model that draws in the plane has DRAWS (the
-style of its pictures) and WINDOW (the part of the plane in which it draws), and DRAWING (the name of a drawing to
-follow) or SCORE (what it draws without one).
+A module with the name MODEL, the model, is an entry of the gallery. Other names are optional:
+
+| name       | value                                                                        |
+| ---------- | ---------------------------------------------------------------------------- |
+| TITLE      | a line of text                                                               |
+| TARGET     | the name of a function of `niwaki.targets.examples`                          |
+| VOXEL      | the cell size that suits model and target                                    |
+| PARTICLES  | the number of particles for a good result                                    |
+| RESAMPLING | the rule of resampling that suits the model                                  |
+| DRAWS      | for a model that draws in the plane, the style of its pictures               |
+| WINDOW     | the part of the plane in which it draws                                      |
+| DRAWING    | the name of the drawing that it follows                                      |
+| SCORE      | a function that returns its score, if it follows no drawing                  |
 """
 
 from __future__ import annotations
@@ -19,7 +27,7 @@ import niwaki as nw
 from niwaki import draw, targets
 from niwaki.targets.sketches import Ask, Window
 
-#: Modules of this folder that hold no model; they are not imported to find that out.
+#: Modules of this folder without a model, which `entry` does not import.
 NOT_MODELS = ("data", "furnishings")
 
 #: The default size of a population.
@@ -28,30 +36,30 @@ PARTICLES = 300
 
 @dataclass(frozen=True)
 class Entry:
-    """One model of the gallery.
+    """An entry of the gallery: a model with its usual target and settings.
 
     Attributes
     ----------
     name : str
-        As the shell calls it.
+        The model's name in the shell.
     title : str
-        What it makes.
+        A short description of the scenes.
     model : Model
         The model.
     target_name : str or None
-        The target that it is usually grown into.
+        The name of the usual target.
     voxel : float or None
-        The cell size that suits both.
+        The cell size that suits model and target.
     usual : dict
-        Settings of `smc` that do it well: how many particles, and perhaps the rule of resampling.
+        Settings of `smc` that suit the model: the number of particles, and sometimes the rule of resampling.
     draws : str or None
         The style of its drawings; None for models in space.
     window : tuple or None
         The part of the plane in which it draws.
     drawing_name : str or None
-        The drawing that it usually follows, from its arguments x, y and ahead on.
+        The name of the drawing that the model usually follows, from its arguments x, y and ahead.
     score : callable or None
-        Makes the score of a drawing that follows no other.
+        A function that makes the score of a model that draws without a drawing to follow.
     """
 
     name: str
@@ -67,7 +75,7 @@ class Entry:
 
     @property
     def particles(self) -> int:
-        """How many particles do it well."""
+        """The number of particles that suits the model."""
         return int(self.usual["particles"])
 
     def _repr_html_(self) -> str:
@@ -81,14 +89,14 @@ class Entry:
 
     @property
     def asks(self) -> list[Ask]:
-        """What is asked of it when nothing else is: its target, its drawing, or its score."""
+        """The model's usual asks: its target, its drawing or its score."""
         if self.target_name is not None:
             return [("match_volume", {"target": f"gallery:{self.target_name}", "voxel": self.voxel})]
         if self.drawing_name is not None:
             drawing = targets.drawings.find(self.drawing_name)
             return [("match_drawing", {"image": drawing, "window": self.window})]
         score = nw.Score() if self.score is None else self.score()
-        return [(one.function, dict(one.given)) for one in score.asks]
+        return [(ask.function, dict(ask.given)) for ask in score.asks]
 
     def target(self) -> nw.Target | None:
         """Make the usual target."""
@@ -96,19 +104,21 @@ class Entry:
 
 
 def named_target(name: str) -> nw.Target:
-    """Make one of the gallery's own targets."""
+    """Make a target of the gallery."""
     value: nw.Target = getattr(targets.examples, name)()
     return value
 
 
 def entries() -> list[Entry]:
-    """Every model of the gallery, by name."""
-    found = (entry(module.name) for module in iter_modules(__path__))
-    return sorted((one for one in found if one is not None), key=lambda one: one.name)
+    """Return all entries of the gallery, sorted by name."""
+    candidates = (entry(module.name) for module in iter_modules(__path__))
+    return sorted(
+        (candidate for candidate in candidates if candidate is not None), key=lambda candidate: candidate.name
+    )
 
 
 def entry(name: str) -> Entry | None:
-    """Find the entry of that name; `spaceship`, `niwaki-tree` or `niwaki_tree`."""
+    """Return the entry of a name, such as `spaceship`, `niwaki-tree` or `niwaki_tree`, or None."""
     stem = name.replace("-", "_")
     if not stem.isidentifier() or not any(module.name == stem for module in iter_modules(__path__)):
         return None

@@ -1,9 +1,9 @@
 """A building complex: towers of boxes or cylinders that shrink as they rise, and spread over the ground.
 
-The generative process of dissertation 5.5. A tower's storeys all have one kind. From each open side of its ground
-storey another tower may begin, flush with it, on a lot of the same size; the farther from the first, the less likely.
-Every loop's first "go on?" coin is certain: each tower has at least two storeys. Neighbours are left to futures, and so
-is the coin that decides whether there is one.
+This is the generative process of dissertation 5.5. All storeys of a tower have the same kind. At each open side of the
+ground storey another tower may begin, flush with it, on a lot of the same size; far from the first tower this is less
+likely. Each tower has at least two storeys, because the first coin of the loop always lands on "continue". Neighbours
+are built in futures, which also decide whether there is a neighbour.
 """
 
 from math import exp
@@ -15,7 +15,7 @@ TARGET = "crescent"
 VOXEL = 0.25
 PARTICLES = 1000
 
-#: Sides of a lot: -x, +x, -z, +z. The first tower came from none.
+#: Sides of a lot: -x, +x, -z, +z. The first tower has no parent.
 LEFT, RIGHT, DOWN, UP, NOWHERE = 0, 1, 2, 3, 4
 OPPOSITE = (RIGHT, LEFT, UP, DOWN, NOWHERE)
 
@@ -26,21 +26,21 @@ ROOF = (0.36, 0.45, 0.44)
 
 @model
 def building():
-    """Build a tower on the lot from -2 to 2, and what spreads from it."""
+    """Build a tower on the lot from -2 to 2, and the towers around it."""
     tower(0, (-2.0, 2.0, -2.0, 2.0), NOWHERE)
 
 
 @model
 def tower(depth, lot, side):
-    """Build a tower of `depth` steps from the first one; it stands on that `side` of its parent.
+    """Build a tower that is `depth` towers away from the first tower, on a `side` of its parent.
 
     `lot` is (lowest x, highest x, lowest z, highest z).
     """
     is_round = flip(0.5)
-    own, floor, i = lot, 0.0, 0
+    base, floor, i = lot, 0.0, 0
     going_on = True
     while going_on:
-        x0, x1, z0, z1 = own
+        x0, x1, z0, z1 = base
         if is_round:
             radius = uniform(0.5, 1.0) * 0.5 * min(x1 - x0, z1 - z0)
             height = uniform(1.0, 3.0)
@@ -50,23 +50,23 @@ def tower(depth, lot, side):
             deep = uniform(0.5, 1.0) * (z1 - z0)
             height = uniform(1.0, 3.0)
         # Only a ground storey is pushed against the parent.
-        own = footprint(own, wide, deep, side if i == 0 else NOWHERE)
-        emit(storey(is_round, own, floor, height, 1.0, BRICK[i % 4] if is_round else STONE[i % 4]))
+        base = footprint(base, wide, deep, side if i == 0 else NOWHERE)
+        emit(storey(is_round, base, floor, height, 1.0, BRICK[i % 4] if is_round else STONE[i % 4]))
         if i == 0:
             for direction in (LEFT, RIGHT, DOWN, UP):
                 if direction != OPPOSITE[side]:
-                    future(neighbour, depth, lot, own, direction)
+                    future(neighbour, depth, lot, base, direction)
         floor = floor + height
         going_on = flip(exp(-0.4 * i))
         i = i + 1
     if flip(0.5):
         height = uniform(0.5, 1.5)
-        emit(storey(is_round, own, floor, height, uniform(0.1, 0.5), ROOF))
+        emit(storey(is_round, base, floor, height, uniform(0.1, 0.5), ROOF))
 
 
 @model
 def neighbour(depth, lot, placed, direction):
-    """Perhaps a tower on the lot that begins at the face of what is `placed` on this one."""
+    """Perhaps build a tower on the next lot, which begins at the face of the storey `placed` on this lot."""
     if flip(0.5 - 0.05 * depth):
         x0, x1, z0, z1 = lot
         wide, deep = x1 - x0, z1 - z0
@@ -82,7 +82,7 @@ def neighbour(depth, lot, placed, direction):
 
 
 def footprint(lot, wide, deep, side):
-    """A rectangle in the middle of the lot, or flush with the side where the parent stands."""
+    """Return a rectangle in the middle of the lot, or flush with the parent's side."""
     x, z = 0.5 * (lot[0] + lot[1]), 0.5 * (lot[2] + lot[3])
     x0, x1, z0, z1 = x - 0.5 * wide, x + 0.5 * wide, z - 0.5 * deep, z + 0.5 * deep
     if side == LEFT:
@@ -97,7 +97,7 @@ def footprint(lot, wide, deep, side):
 
 
 def storey(is_round, rectangle, floor, height, taper, color):
-    """A box or cylinder over the rectangle, its top scaled by `taper`."""
+    """Make a box or cylinder over the rectangle, with its top scaled by `taper`."""
     x0, x1, z0, z1 = rectangle
     center = (0.5 * (x0 + x1), floor + 0.5 * height, 0.5 * (z0 + z1))
     if is_round:

@@ -1,6 +1,6 @@
 """A chain of straight strokes that follows a drawing: the smallest program of its kind (dissertation 6.2.1).
 
-The dissertation shows its text in a figure only; these numbers are ours.
+The dissertation shows only a figure of the program; the numbers here are Niwaki's.
 """
 
 from math import atan2, cos, pi, sin
@@ -19,13 +19,13 @@ INK = (0.08, 0.08, 0.09)
 
 @model
 def chain(x=0.0, y=0.0, ahead=(0.0, 1.0)):
-    """Begin at (x, y), first about in the direction `ahead`."""
+    """Begin at (x, y), at first roughly in the direction `ahead`."""
     link(x, y, atan2(ahead[1], ahead[0]))
 
 
 @model
 def link(x, y, angle):
-    """One stroke, and perhaps another at its end."""
+    """Draw a stroke, and perhaps another stroke at its end."""
     look((x, y), (cos(angle), sin(angle)))
     angle = angle + gaussian(0.0, pi / 8.0)
     end_x, end_y = x + LENGTH * cos(angle), y + LENGTH * sin(angle)

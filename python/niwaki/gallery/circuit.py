@@ -1,4 +1,4 @@
-"""The traces of a circuit board: the vines, asked to fill half of a board with many edges (dissertation 6.5.3)."""
+"""Traces of a circuit board: the vines, with a score for half of a board with many edges (dissertation 6.5.3)."""
 
 from math import pi
 
@@ -13,14 +13,14 @@ PARTICLES = 600
 
 @model
 def circuit():
-    """Grow from the middle of the lower border, first about upwards."""
+    """Grow from the middle of the lower border, at first roughly upwards."""
     look((0.0, 0.0), (0.0, 1.0))
     start_angle = gaussian(pi / 2.0, pi / 6.0)
     branch(0.0, 0.0, start_angle, WIDTH)
 
 
 def score():
-    """Half of the board, in 50 by 50 pixels."""
+    """Return the score for filling half of the board, in 50 by 50 pixels."""
     return fill_drawing(WINDOW, (50, 50), 0.5)
 
 

@@ -1,4 +1,4 @@
-"""Three coins, one of the first two heads: how many heads are there? The first program of dissertation 2.2.1.
+"""The number of heads among three coins, if the first or the second shows heads (dissertation 2.2.1).
 
 Exact enumeration answers: 2 with probability 1/2, 1 with 1/3, 3 with 1/6.
 """
@@ -13,7 +13,7 @@ METHOD = enumerate_all()
 
 @model
 def coin():
-    """How many of three coins show heads, where the first or the second does."""
+    """Count the heads of three coins, on the condition that the first or the second shows heads."""
     a = flip(0.5)
     b = flip(0.5)
     c = flip(0.5)

@@ -1,7 +1,7 @@
 """A staghorn coral: arms that rise from one foot, fork, bend towards the light and end in pale, round tips.
 
-Two arms of a fork begin on the ring in which their parent ended, in one primitive: that makes the fork one skin.
-Whether an arm continues, and whether it forks, is decided in futures.
+Both arms of a fork begin on the ring at which their parent ends, in the same `emit`, so that the fork has one skin.
+Futures decide whether an arm continues and whether it forks.
 """
 
 from math import cos, pi, sin
@@ -34,13 +34,13 @@ FOOT = (0.56, 0.30, 0.30)
 DEEP, TIP = vec(0.78, 0.38, 0.31), vec(0.98, 0.88, 0.76)
 #: An arm no thicker than this ends.
 THINNEST = 0.2
-#: How far from the middle of the foot its arms stand.
+#: Distance of the arms from the middle of the foot.
 RIM = 0.85
 
 
 @model
 def coral():
-    """Stand a foot on the ground; arms may rise from the rim of its top."""
+    """Place a foot on the ground, with arms that may rise from the rim of its top."""
     emit(cylinder((0.0, 0.4, 0.0), 1.9, 0.8, top_radius=RIM + 0.6, bevel=0.7, color=FOOT))
     count = discrete_uniform(3, 5)
     turn = uniform(0.0, 2.0 * pi)
@@ -50,7 +50,7 @@ def coral():
 
 @model
 def first_arm(azimuth):
-    """Perhaps an arm that stands on the foot, at that angle about its middle, and leans outwards."""
+    """Perhaps grow an arm on the foot, at an angle about its middle, leaning outwards."""
     if flip(0.9):
         thick = uniform(0.4, 0.5)
         start = vec(RIM * cos(azimuth), 0.8, RIM * sin(azimuth))
@@ -63,7 +63,7 @@ def first_arm(azimuth):
 
 @model
 def arm(tip, ahead, thick):
-    """Perhaps a stretch further from `tip`: one arm, or a fork of two."""
+    """Perhaps continue from `tip`, with one arm or a fork of two."""
     if thick > THINNEST and flip(0.82):
         if flip(0.6):
             across = rotate(side(ahead), ahead, uniform(0.0, 2.0 * pi))
@@ -85,30 +85,30 @@ def arm(tip, ahead, thick):
 
 @model
 def stretch(tip, ahead, thick):
-    """The end, the direction and the radius of a stretch from `tip`."""
+    """Return the end, the direction and the end radius of a stretch from `tip`."""
     return tip + uniform(3.0, 4.8) * thick * ahead, ahead, thick * uniform(0.8, 0.93)
 
 
 def skinned(tip, ahead, thick, stretch_end):
-    """The limb of a stretch, paler the thinner it is."""
+    """Make the limb of a stretch; thin limbs are pale."""
     end, turned, thin = stretch_end
     return limb(tip, end, thick, thin, ahead, turned, color=skin(thin))
 
 
 def skin(thick):
-    """Deep near the foot, pale at the tips."""
+    """Return the colour at a thickness: deep near the foot, pale at the tips."""
     share = min(1.0, max(0.0, (0.5 - thick) / (0.5 - THINNEST)))
     color = DEEP + share * share * (TIP - DEEP)
     return color.x, color.y, color.z
 
 
 def lift(ahead):
-    """A direction a little nearer to the light."""
+    """Return the direction, bent a little towards the light."""
     return normalize(ahead + lerp(0.22, 0.0, max(0.0, ahead.y)) * UP)
 
 
 def side(direction):
-    """A unit vector at right angles to `direction`."""
+    """Return a unit vector at right angles to `direction`."""
     across = cross(direction, vec(0.0, 0.0, 1.0))
     if norm(across) < 0.1:
         across = cross(direction, vec(1.0, 0.0, 0.0))

@@ -1,8 +1,8 @@
 """The synthetic data of the statistical programs (dissertation, appendix A), made by code with fixed seeds.
 
-A size of 1 is 100 observations, of 10 a thousand; the data of a smaller size are the first part of those of a larger.
-The generator is small and written out (mulberry32, 32 bits), so that the numbers are those of every other program that
-has it, whatever library it uses.
+The data of a smaller size are the first part of the data of a larger size. The generator is small and written out
+(mulberry32, 32 bits), so that any other program can make the same numbers without a library.
+A size of 1 has 100 observations, a size of 10 has a thousand.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Row = tuple[float, ...]
 
 
 class Chain(NamedTuple):
-    """A hidden Markov chain: probabilities (S,), (S, S), (S, O), the states that made the observations, and those."""
+    """A hidden Markov chain: probabilities (S,), (S, S), (S, O), the hidden states, and the observations."""
 
     initial: Row
     transition: tuple[Row, ...]
@@ -27,7 +27,7 @@ class Chain(NamedTuple):
 
 
 def generator(seed: int) -> Callable[[], float]:
-    """Uniform numbers in [0, 1), the same on every machine."""
+    """Return a function that draws uniform numbers in [0, 1), the same on every machine."""
     state = seed
 
     def uniform() -> float:
@@ -41,7 +41,7 @@ def generator(seed: int) -> Callable[[], float]:
 
 
 def hidden_chain(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -> Chain:
-    """A chain whose tables are drawn uniformly, and its observations in `steps` steps."""
+    """Draw a chain with uniform tables, and its observations in `steps` steps."""
     uniform = generator(seed)
     initial = _simplex(uniform, states)
     transition = tuple(_simplex(uniform, states) for _ in range(states))
@@ -57,7 +57,7 @@ def hidden_chain(steps: int = 100, states: int = 10, symbols: int = 10, seed: in
 def documents(
     count: int = 5, topics: int = 10, vocabulary: int = 100, words: int = 20, seed: int = 12
 ) -> tuple[tuple[int, ...], ...]:
-    """Documents of words, each word from one of its document's topics: (count, words) of whole numbers."""
+    """Draw documents, (count, words) of whole numbers; each word is from a topic of its document."""
     uniform = generator(seed)
     spoken = [_simplex(uniform, vocabulary) for _ in range(topics)]
     values: list[tuple[int, ...]] = []
@@ -68,18 +68,18 @@ def documents(
 
 
 def clusters(points: int = 100, seed: int = 13) -> Row:
-    """Numbers from a mixture of four Gaussians."""
+    """Draw numbers from a mixture of four Gaussians."""
     uniform = generator(seed)
     means, deviations, weights = (-6.0, -1.0, 2.0, 7.0), (1.0, 0.6, 0.8, 1.2), (0.2, 0.3, 0.3, 0.2)
     values: list[float] = []
     for _ in range(points):
-        which = _pick(uniform, weights)
-        values.append(means[which] + deviations[which] * _normal(uniform))
+        cluster = _pick(uniform, weights)
+        values.append(means[cluster] + deviations[cluster] * _normal(uniform))
     return tuple(values)
 
 
 def growth(sequences: int = 20, seed: int = 14) -> tuple[Row, ...]:
-    """Sequences measured at -2, -1, 0, 1, 2, each along its own line: (sequences, 5)."""
+    """Draw sequences measured at -2, -1, 0, 1, 2, each along a line: (sequences, 5)."""
     uniform = generator(seed)
     values: list[Row] = []
     for _ in range(sequences):
@@ -89,7 +89,7 @@ def growth(sequences: int = 20, seed: int = 14) -> tuple[Row, ...]:
 
 
 def _simplex(uniform: Callable[[], float], size: int) -> Row:
-    """Probabilities drawn uniformly."""
+    """Draw probabilities uniformly."""
     draws = [-math.log(1.0 - uniform()) for _ in range(size)]
     total = 0.0
     for draw in draws:
@@ -98,7 +98,7 @@ def _simplex(uniform: Callable[[], float], size: int) -> Row:
 
 
 def _pick(uniform: Callable[[], float], probabilities: Row) -> int:
-    """An index drawn from its probabilities."""
+    """Draw an index by probabilities."""
     point, total = uniform(), 0.0
     for index, probability in enumerate(probabilities):
         total += probability
@@ -108,6 +108,6 @@ def _pick(uniform: Callable[[], float], probabilities: Row) -> int:
 
 
 def _normal(uniform: Callable[[], float]) -> float:
-    """A standard normal draw (Box & Muller)."""
+    """Draw a standard normal number (Box & Muller)."""
     radius = math.sqrt(-2.0 * math.log(1.0 - uniform()))
     return radius * math.cos(2.0 * math.pi * uniform())

@@ -1,8 +1,8 @@
 """A few blocks of an old downtown: masonry towers that step back as they rise, glass slabs, walk-ups, water towers.
 
-Nine lots between narrow streets. What stands on a lot is left to a future, and so is every next step of a tower and
-what its roof carries. One step, with its floors, piers and cornice, is one primitive: dark glass behind light stone.
-Slabs of stone run through the whole block, so that one box makes the piers of two facades.
+Nine lots lie between narrow streets. A future builds each lot, each next step of a tower, and the top of each roof. A
+step, with its floors, piers and cornice, is a single part: dark glass behind light stone. Slabs of stone run through
+the whole block, so that each box makes the piers of two facades.
 """
 
 from niwaki import box, cylinder, discrete_uniform, emit, flip, future, model, uniform
@@ -54,7 +54,7 @@ def lot(x, z):
 
 @model
 def setback(x, z, base, wide, deep, stone):
-    """On the roof at height `base`: a smaller step, or what roofs carry."""
+    """Build on the roof at height `base`: a smaller step, a water tower or a machine room."""
     if min(wide, deep) > 2.2 and flip(0.6):
         wider, deeper = uniform(0.55, 0.85) * wide, uniform(0.55, 0.85) * deep
         floors = discrete_uniform(2, 6)
@@ -70,7 +70,7 @@ def setback(x, z, base, wide, deep, stone):
 
 @model
 def plant(x, z, base, wide, deep):
-    """A machine room on a flat roof, sometimes with a mast."""
+    """Build a machine room on a flat roof, sometimes with a mast."""
     height = uniform(0.6, 1.4)
     room = box((x, base + 0.5 * height, z), (0.5 * wide, height, 0.5 * deep), color=STEEL)
     if flip(0.3):
@@ -81,7 +81,7 @@ def plant(x, z, base, wide, deep):
 
 
 def masonry(x, z, base, wide, deep, floors, stone):
-    """A step of a stone tower: glass, a band below each floor's windows, piers through the block, a cornice."""
+    """Make a step of a stone tower: glass, a band below each floor's windows, piers through the block, a cornice."""
     tall = FLOOR * floors - 0.2
     middle = base + 0.5 * tall
     glass = [box((x, middle, z), (wide - 0.6, tall, deep - 0.6), bevel=0.0, color=GLASS)]
@@ -106,7 +106,7 @@ def masonry(x, z, base, wide, deep, floors, stone):
 
 
 def curtain_wall(x, z, wide, deep, floors):
-    """A slab of glass with a thin edge of steel at each floor, and a wall at each end."""
+    """Make a slab of glass with a thin edge of steel at each floor, and a wall at each end."""
     tall = FLOOR * floors
     glass = [box((x, 0.5 * tall - 0.1, z), (wide - 0.2, tall - 0.2, deep - 0.3), bevel=0.0, color=GLASS)]
     edges = [
@@ -126,7 +126,7 @@ def curtain_wall(x, z, wide, deep, floors):
 
 
 def water_tower(x, z, base, size):
-    """A barrel of cedar on four iron legs, with a cone for a hat."""
+    """Make a barrel of cedar on four iron legs, with a cone as its roof."""
     leg, belly = 1.1 * size, 1.5 * size
     legs = [
         cylinder((x + dx * 0.6 * size, base + 0.5 * leg, z + dz * 0.6 * size), 0.09 * size, leg, color=IRON)
@@ -141,7 +141,7 @@ def water_tower(x, z, base, size):
 
 
 def spaced(width):
-    """Places of piers between the corners of a facade, about 1.3 apart."""
+    """Return the places of piers between the corners of a facade, about 1.3 apart."""
     count = max(2, round(width / 1.3))
     return [width * (k / count - 0.5) for k in range(1, count)]
 

@@ -1,7 +1,7 @@
-"""Things to furnish a room with, made by code: a table, a chair, a plate, a cup. Metres; y is up, the floor at y = 0.
+"""Furnishings made by code: a table, a chair, a plate, a cup. In metres, y is up, and the floor is at y = 0.
 
-Each is a list of closed parts around the y axis, a part being vertices (n, 3) and faces (m, 3). A chair looks to +z.
-Plate and cup stand on y = 0 as well, wherever they are put.
+Each is a list of closed parts around the y axis. A part is vertices (n, 3) and faces (m, 3). A chair faces +z. Plate
+and cup also stand on y = 0.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ Part = tuple[tuple[Vertex, ...], tuple[Face, ...]]
 
 
 def up_radius(parts: Sequence[Part]) -> float:
-    """The radius of the bounding cylinder that stands upright on the origin."""
+    """Return the radius of the upright bounding cylinder around the y axis."""
     return max(hypot(x, z) for vertices, _ in parts for x, _, z in vertices)
 
 
 def table() -> list[Part]:
-    """A round table on one column."""
+    """Make a round table on a column."""
     top = lathe(
         [(0.0, 0.715), (0.36, 0.715), (0.385, 0.725), (0.385, 0.745), (0.375, 0.755), (0.0, 0.755)], 40
     )
@@ -40,7 +40,7 @@ def table() -> list[Part]:
 
 
 def chair() -> list[Part]:
-    """A chair with four legs and a back, looking towards +z."""
+    """Make a chair with four legs and a back, facing +z."""
     seat = slab([(-0.18, 0.42, 0.19), (0.18, 0.42, 0.19), (0.165, 0.42, -0.18), (-0.165, 0.42, -0.18)], 0.035)
     legs = [
         slab(
@@ -71,12 +71,12 @@ def chair() -> list[Part]:
 
 
 def plate() -> list[Part]:
-    """A plate with a raised rim."""
+    """Make a plate with a raised rim."""
     return [lathe([(0.0, 0.0), (0.06, 0.0), (0.1, 0.016), (0.1, 0.02), (0.062, 0.007), (0.0, 0.007)], 32)]
 
 
 def cup() -> list[Part]:
-    """A cup without a handle: a wall and a bottom."""
+    """Make a cup without a handle: a wall and a bottom."""
     profile = [
         (0.0, 0.0),
         (0.028, 0.0),
@@ -91,14 +91,14 @@ def cup() -> list[Part]:
 
 
 def walls(inner: Sequence[Vec], outer: Sequence[Vec], height: float) -> list[Part]:
-    """A wall between two outlines of a floor plan, a part for each edge.
+    """Make a wall between two outlines of a floor plan, a part for each edge.
 
     Parameters
     ----------
     inner, outer
-        Polygons of as many corners, counter-clockwise, in the plan's x and y.
+        Polygons with the same number of corners, counter-clockwise, in the plan's x and y.
     height
-        How high it is.
+        The wall's height.
     """
     pieces = []
     for n, a in enumerate(inner):
@@ -109,14 +109,14 @@ def walls(inner: Sequence[Vec], outer: Sequence[Vec], height: float) -> list[Par
 
 
 def lathe(profile: Sequence[tuple[float, float]], around: int) -> Part:
-    """A body of revolution about the y axis.
+    """Make a body of revolution about the y axis.
 
     Parameters
     ----------
     profile
         Points (radius, height) from the axis outwards, upwards and back to the axis; first and last radius 0.
     around
-        How many sides.
+        The number of sides.
     """
     (_, low), *rings, (_, high) = profile
     vertices: list[Vertex] = [(0.0, low, 0.0)]
@@ -138,7 +138,7 @@ def lathe(profile: Sequence[tuple[float, float]], around: int) -> Part:
 
 
 def slab(bottom: Sequence[Vertex], thick: float) -> Part:
-    """A plate of a convex outline, counter-clockwise seen from above, that reaches `thick` upwards."""
+    """Make a plate of thickness `thick` on a convex outline, counter-clockwise seen from above."""
     count = len(bottom)
     vertices = (*bottom, *((x, y + thick, z) for x, y, z in bottom))
     faces: list[Face] = []

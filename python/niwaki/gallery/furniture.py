@@ -1,8 +1,8 @@
 """A coffee shop: tables and chairs laid out in a room, then plates and cups on the tables (dissertation 2.3.1).
 
-The layout is a problem of the plane: each thing counts as a disc, whose radius is that of the upright cylinder
-around its mesh. Factors keep discs apart and inside of the room, and prefer a full room. `coffee_shop` searches for a
-layout with `infer`, takes the best and lays the tables: inference feeding a further random program.
+The layout is a problem of the plane: a table or chair counts as a disc, with the radius of the upright cylinder around
+its mesh. Factors keep discs apart and inside the room, and prefer a full room. `coffee_shop` searches for a layout with
+`infer`, uses the best layout, and lays the tables: the inner search feeds a second random program.
 
 The plan has x to the right and y upwards; in the scene they are x and -z.
 """
@@ -52,11 +52,11 @@ LEFT, RIGHT = min(corner.x for corner in ROOM), max(corner.x for corner in ROOM)
 LOW, HIGH = min(corner.y for corner in ROOM), max(corner.y for corner in ROOM)
 AREA = polygon_area(ROOM)
 
-#: How many tables the room is meant for.
+#: The expected number of tables.
 TABLES = 8.0
-#: A full room has this share of its floor under furniture.
+#: The share of the floor under furniture in a full room.
 FULL = 0.22
-#: Nothing is gained by standing further from the walls, metres.
+#: Distance from the walls, in metres, above which the score no longer rises.
 CLEAR = 0.15
 
 WOOD, PAINT = (0.55, 0.37, 0.22), (0.30, 0.42, 0.45)
@@ -65,7 +65,7 @@ GLAZE, CLAY, WALL = (0.96, 0.96, 0.95), (0.78, 0.42, 0.28), (0.80, 0.77, 0.72)
 
 @model
 def layout():
-    """Tables and the chairs around them: a list of (place, turn, chairs), a chair being (place, turn)."""
+    """Place tables and chairs: return a list of (place, turn, chairs); a chair is (place, turn)."""
     count = poisson(TABLES)
     placed: list[tuple[Vec, float, list[tuple[Vec, float]]]] = []
     covered = 0.0
@@ -73,7 +73,7 @@ def layout():
     for _ in range(count):
         one = table(placed)
         more = floor_under(one)
-        # In the end the factor of the whole room; added table by table it guides a search.
+        # The sum is the factor of the whole room; adding it table by table guides a search.
         factor(fullness(covered + more) - fullness(covered))
         covered = covered + more
         placed = placed + [one]
@@ -81,7 +81,7 @@ def layout():
 
 
 def table(placed):
-    """A table and its chairs, clear of those placed before."""
+    """Place a table and its chairs, clear of earlier tables and chairs."""
     place = vec(uniform(LEFT, RIGHT), uniform(LOW, HIGH))
     inside(place, TABLE_RADIUS)
     for other, _, chairs in placed:
@@ -95,7 +95,7 @@ def table(placed):
 
 
 def chair(place, angle, placed):
-    """A chair at a table, turned towards it, clear of the tables placed before and their chairs."""
+    """Place a chair at a table, turned towards it, clear of earlier tables and their chairs."""
     away = TABLE_RADIUS + 1.1 * CHAIR_RADIUS
     seat = place + away * vec(cos(angle), sin(angle))
     inside(seat, CHAIR_RADIUS)
@@ -106,40 +106,40 @@ def chair(place, angle, placed):
     return seat, angle + pi
 
 
-def near(x, wanted, within):
-    """A soft constraint: nought where `x` is as wanted, -1 where it is `within` away."""
-    off = (x - wanted) / within
+def near(x, goal, within):
+    """Add a soft constraint: 0 if `x` is at the `goal`, -1 at a distance of `within`."""
+    off = (x - goal) / within
     factor(-off * off)
 
 
 def apart(a, b, least):
-    """Two places at least so far apart."""
+    """Keep two places at least a distance apart."""
     near(max(least - distance(a, b), 0.0), 0.0, 0.05)
 
 
 def inside(place, radius):
-    """A disc inside of the room, and a little clear of its walls."""
+    """Keep a disc inside the room, and a little clear of its walls."""
     wall = polygon_distance(ROOM, place)
     beyond = radius - wall if polygon_contains(ROOM, place) else radius + wall
     near(max(beyond, -CLEAR), -CLEAR, 0.1)
 
 
 def floor_under(one):
-    """How much of the room's floor a table and its chairs cover, square metres."""
+    """Return the area of the room's floor under a table and its chairs, in square metres."""
     place, _, chairs = one
     seats = sum([polygon_disc_area(ROOM, seat, CHAIR_RADIUS) for seat, _ in chairs])
     return polygon_disc_area(ROOM, place, TABLE_RADIUS) + seats
 
 
 def fullness(covered):
-    """The factor of a room with so much of its floor covered."""
+    """Return the factor of a room with this area of its floor covered."""
     off = (min(covered / (FULL * AREA), 1.0) - 1.0) / 0.1
     return -off * off
 
 
 @model
 def coffee_shop():
-    """The best layout that a search finds, furnished and laid."""
+    """Furnish and lay the best layout that a search finds."""
     tables = infer(layout, SEARCH, keep="best")
     emit([mesh(vertices, faces, color=WALL) for vertices, faces in WALLS])
     for place, turn, chairs in tables:
@@ -151,7 +151,7 @@ def coffee_shop():
 
 
 def dishes(place, angle):
-    """Perhaps a plate at a chair's side of a table, and perhaps a cup to the right of it."""
+    """Perhaps place a plate on the table in front of a chair, and perhaps a cup to its right."""
     if flip(0.8):
         out = TABLE_RADIUS - PLATE_RADIUS - uniform(0.02, 0.05)
         at = angle + gaussian(0.0, 0.06)
@@ -163,7 +163,7 @@ def dishes(place, angle):
 
 
 def stand(parts, place, height, facing, color):
-    """A thing upright at a place of the plan, turned so that its +z looks along `facing`."""
+    """Place a furnishing upright at a place of the plan, turned so that its +z points along `facing`."""
     turned = rotation((0.0, 1.0, 0.0), facing + pi / 2)
     center = (place.x, height, -place.y)
     emit([mesh(vertices, faces, center=center, rotation=turned, color=color) for vertices, faces in parts])

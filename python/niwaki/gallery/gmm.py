@@ -1,4 +1,4 @@
-"""A mixture of four Gaussians: where are the clusters of a hundred numbers? Appendix A of the dissertation.
+"""A mixture of four Gaussians, to find the clusters of a hundred numbers (dissertation, appendix A).
 
 Every latent variable is a choice: weights, means and deviations of the components, and the component of each point.
 """
@@ -17,7 +17,7 @@ COMPONENTS = 4
 
 @model
 def gmm(points=100):
-    """Weights, means and deviations of the components."""
+    """Draw weights, means and deviations of the components."""
     weights = dirichlet([1.0] * COMPONENTS)
     means = [gaussian(0.0, 10.0) for _ in range(COMPONENTS)]
     deviations = [uniform(0.1, 4.0) for _ in range(COMPONENTS)]
@@ -27,7 +27,7 @@ def gmm(points=100):
 
 
 def point(x, weights, means, deviations):
-    """One point: its component, and where it was seen."""
+    """Draw the component of a point, and observe the point."""
     k = categorical(weights)
     observe(Gaussian(means[k], deviations[k]), x)
 

@@ -1,9 +1,9 @@
 """A gnarly tree: tapering segments that bend, and branches that grow out of the bark.
 
-The generative process of dissertation 5.5 and, with other inference, of 2.3.3 (figure 2.5). Each segment runs along a
-frame that is turned a little from the one before; behind the bend it is a clean cone, where branches stand. Whether
-there is a branch, and where, is decided inside a future. A branch rather leaves a level limb upwards, and an upright
-one anywhere. Its base is laid onto its parent's bark, so that the two touch and do not intersect.
+This is the generative process of dissertation 5.5 and, with other inference, of 2.3.3 (figure 2.5). Each segment is
+turned a little from the segment before; behind the bend it is a clean cone, on which branches stand. Futures decide
+whether there is a branch and where. A branch tends to leave a level limb upwards, and an upright limb in any direction.
+The base of a branch lies on its parent's bark, so that the two touch and do not intersect.
 """
 
 from math import cos, exp, pi, sin
@@ -32,18 +32,18 @@ PARTICLES = 300
 
 WOOD = (0.47, 0.39, 0.32)
 SKY = vec(0.0, 1.0, 0.0)
-#: A bark's polygon with ten sides lies between the ring's radius and that times this.
+#: A bark has ten sides; its corners are at the ring's radius times this number.
 OUTSIDE = 1.0 / cos(pi / 10.0)
-#: Cosine and sine of the eight directions about a limb in which its up-ness is looked at.
+#: Cosine and sine of eight directions about a limb, for `upness`.
 AROUND = [(cos(2.0 * pi * k / 8.0), sin(2.0 * pi * k / 8.0)) for k in range(8)]
 
 
 @model
 def gnarly_tree(smallest=0.1, fork=0.5, decay=0.1):
-    """Grow the trunk from the ground at the origin, and everything that grows from it.
+    """Grow the trunk from the ground at the origin, with its branches.
 
-    `smallest` is the radius, as a share of the trunk's, at which a branch ends; `fork` the odds of a branch on each
-    segment; a branch continues after its segment i with probability exp(-decay i).
+    A branch ends at the radius `smallest`, as a share of the trunk's radius. `fork` is the probability of a branch on
+    each segment. A branch continues after its segment i with probability exp(-decay i).
     """
     thick = uniform(1.5, 2.0)
     start = Frame(vec(0.0, 0.0, 0.0), SKY, vec(0.0, 0.0, -1.0), thick)
@@ -54,8 +54,8 @@ def gnarly_tree(smallest=0.1, fork=0.5, decay=0.1):
 def branch(start, bark, i, habit):
     """Grow the `i`-th segment of a branch from `start`, perhaps a side branch on it, and perhaps the next segment.
 
-    `bark` is what the first segment of a branch grows from; `habit` the least radius, the chance of a side branch and
-    the decay of going on.
+    The first segment of a branch grows from `bark`. `habit` has the least radius, the probability of a side branch and
+    the decay of the probability to continue.
     """
     least, _, decay = habit
     if start.radius >= least:
@@ -72,7 +72,7 @@ def branch(start, bark, i, habit):
 
 @model
 def side_branch(split, end, habit):
-    """Perhaps a branch on the cone from `split` to `end`, at its middle."""
+    """Perhaps grow a branch on the cone from `split` to `end`, at its middle."""
     if flip(habit[1]):
         mean, sd = upness(end)
         angle = gaussian(mean, sd)
@@ -82,14 +82,14 @@ def side_branch(split, end, habit):
 
 
 def ahead(start, yaw, pitch, length, radius):
-    """The frame at `length` ahead of `start`, in a direction turned by `yaw` about its up and by `pitch` sideways."""
+    """Return the frame `length` ahead of `start`, turned by `yaw` about its up and by `pitch` sideways."""
     side = cross(start.up, start.forward)
     forward = rotate(rotate(start.forward, start.up, yaw), side, pitch)
     return Frame(start.center + length * forward, forward, rotate(start.up, side, pitch), radius)
 
 
 def behind_the_bend(start, end):
-    """The frame after which the segment from `start` to `end` is a cone: level with the bend's inside."""
+    """Return the frame after which the segment from `start` to `end` is a cone, level with the bend's inside."""
     inward = end.forward - dot(end.forward, start.forward) * start.forward
     inward = start.up if norm(inward) == 0.0 else normalize(inward)
     outside, inside = start.center - start.radius * inward, start.center + start.radius * inward
@@ -102,7 +102,7 @@ def behind_the_bend(start, end):
 
 
 def upness(limb):
-    """Mean and standard deviation of the angle at which a branch leaves `limb`: rather where its side looks up."""
+    """Return mean and standard deviation of the angle at which a branch leaves `limb`, mostly on its upper side."""
     high, side = limb.up.y, cross(limb.forward, limb.up).y
     looks = [0.5 * (1.0 + c * high + s * side) for c, s in AROUND]
     highest = max(looks)
@@ -110,7 +110,7 @@ def upness(limb):
 
 
 def on_the_bark(low, high, angle, thick):
-    """The frame of a branch at the middle of a cone, at right angles to its side, and the bark around its base."""
+    """Return the frame of a branch at the middle of a cone, at right angles to its side, and the bark at its base."""
     out = rotate(high.up, high.forward, angle)
     middle = 0.5 * (low.center + high.center)
     center = middle + 0.5 * (low.radius + high.radius) * OUTSIDE * out

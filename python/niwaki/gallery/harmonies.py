@@ -1,13 +1,13 @@
 """Palettes whose harmony is a choice, explored in one chain with many modes (dissertation 2.3.2 and 7.1).
 
-What `palettes.harmonious` fixes is decided here by the chain: which scheme of the colour wheel holds, and of which
-colours there are shades, so that a palette of five has one accent and three shades, or two of each. Those choices are
-discrete, and decide what other choices there are; hues, saturations and values are real. The constraint is tight:
-each colour differs from the one before by the same amount, to a hundredth. A colour is a triple of hue (turns),
+The chain chooses the scheme of the colour wheel, which `palettes.harmonious` fixes, and the colours that get shades.
+So a palette of five has one accent and three shades, or two of each. These choices are discrete, and decide which other
+choices exist; hues, saturations and values are real. The constraint is tight: each colour differs from the colour
+before by the same amount, to a hundredth. A colour is a triple of hue (turns),
 saturation and value.
 
-`KERNEL` moves the discrete choices by Metropolis-Hastings and the real ones along their gradient, at several
-powers of the score: where the constraint is loose the scheme turns, and where it is tight the colours are.
+`KERNEL` moves the discrete choices by Metropolis-Hastings and the real choices along their gradient, at several powers
+of the score: at low powers the scheme changes, and at high powers the colours become exact.
 """
 
 from math import pi
@@ -31,14 +31,14 @@ from niwaki.words import (
 
 TITLE = "palettes of many harmonies, by one chain"
 
-#: Schemes of the colour wheel: where the accents stand, degrees from the main hue.
+#: Schemes of the colour wheel: the places of the accents, in degrees from the main hue.
 SCHEMES = ("complementary", "split complementary", "triad", "analogous")
 ANGLES = ((180.0,), (150.0, 210.0), (120.0, 240.0), (-32.0, 32.0))
 
-#: How many colours a palette has, how different neighbours are (CIEDE2000), and within what.
+#: Number of colours of a palette, difference of neighbours (CIEDE2000), and its tolerance.
 COLORS, APART, WITHIN = 5, 25.0, 0.25
 
-#: One of each: a discrete choice by Metropolis-Hastings, all real ones along their gradient.
+#: Moves of discrete choices by Metropolis-Hastings, and of all real choices along their gradient.
 BOTH = kernels.cycle(
     kernels.repeat(3, kernels.on(["scheme", "of"], kernels.prior())), kernels.hmc_step(steps=10, jitter=0.5)
 )
@@ -48,11 +48,11 @@ METHOD = mh(steps=40_000, warmup=8_000, thin=32, kernel=KERNEL)
 
 @model
 def harmonies():
-    """A scheme, a main colour, its accents, and shades; (scheme, colours as they are shown)."""
+    """Draw a scheme, a main colour, its accents and shades; return (scheme, colours as sRGB)."""
     scheme = categorical([0.25, 0.25, 0.25, 0.25])
     colors = [colored(von_mises(0.0, 0.0) / (2.0 * pi))]
     for angle in ANGLES[scheme]:
-        # How far the accent is off its place, so that it goes along when the scheme turns it elsewhere.
+        # The distance of the accent from its place; the accent moves with its place when the scheme changes.
         off = gaussian(0.0, 0.008)
         colors = colors + [colored(colors[0].x + angle / 360.0 + off)]
     for _ in range(COLORS - len(colors)):
@@ -66,7 +66,7 @@ def harmonies():
 
 
 def colored(hue):
-    """A colour of that hue, neither grey nor dark."""
+    """Draw a colour of a hue, neither grey nor dark."""
     return vec(hue, beta(5.0, 6.0), beta(8.0, 2.5))
 
 

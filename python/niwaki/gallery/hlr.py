@@ -1,6 +1,6 @@
-"""Hierarchical linear regression: twenty sequences, each along its own line. Appendix A of the dissertation.
+"""Hierarchical linear regression of twenty sequences, each along its own line (dissertation, appendix A).
 
-Each sequence has an intercept and a slope; those of all sequences are drawn around a common mean.
+Each sequence has an intercept and a slope, which are drawn around the means of the population.
 """
 
 from niwaki import model
@@ -17,7 +17,7 @@ TIMES = (-2.0, -1.0, 0.0, 1.0, 2.0)
 
 @model
 def hlr(sequences=20):
-    """The population's mean intercept and slope, their deviations, and the deviation of a measurement; all lines."""
+    """Draw mean and deviation of the intercepts and slopes, the deviation of measurements, and all lines."""
     intercept = gaussian(0.0, 10.0)
     slope = gaussian(0.0, 10.0)
     intercept_spread = uniform(0.05, 3.0)
@@ -30,7 +30,7 @@ def hlr(sequences=20):
 
 
 def line(measured, intercept, slope, intercept_spread, slope_spread, noise):
-    """Intercept and slope of one sequence."""
+    """Draw the intercept and slope of a sequence, and observe its measurements."""
     a = gaussian(intercept, intercept_spread)
     b = gaussian(slope, slope_spread)
     for x, y in zip(TIMES, measured):  # noqa: B905 (a model's `zip`; both have five)

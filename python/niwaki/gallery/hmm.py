@@ -1,4 +1,4 @@
-"""A hidden Markov model: which of ten states was the chain in at each step, given what it showed? Appendix A.
+"""A hidden Markov model of ten states, to find the state at each step from observations (appendix A).
 
 The tables are known and the states are not. The distributions are built once, outside of the model.
 """
@@ -20,7 +20,7 @@ EMISSION = [Categorical(row) for row in CHAIN.emission]
 
 @model
 def hmm(steps=100):
-    """The list of states of the first `steps` steps."""
+    """Draw the states of the first `steps` steps, and observe the observations."""
     state = sample(INITIAL)
     observe(EMISSION[state], OBSERVATIONS[0])
     states = [state]

@@ -1,7 +1,7 @@
-"""Topics of documents: latent Dirichlet allocation, which finds the words that go together.
+"""Latent Dirichlet allocation, which finds the topics of documents: words that appear together.
 
-Appendix A of the dissertation: ten topics over a hundred words, twenty words to a document. Every latent variable is a
-choice: the topics' words, the documents' topics, the topic of each word.
+There are ten topics over a hundred words, and twenty words in a document (dissertation, appendix A). Every latent
+variable is a choice: the topics' words, the documents' topics, the topic of each word.
 """
 
 from niwaki import model
@@ -21,14 +21,14 @@ FLAT_TOPICS = Dirichlet([1.0] * TOPICS)
 
 @model
 def lda(documents=5):
-    """The topics, as probabilities of words, and the share of each topic in each document."""
+    """Draw the topics, as probabilities of words, and the share of each topic in each document."""
     topics = [sample(FLAT_WORDS) for _ in range(TOPICS)]
     shares = [document(DOCUMENTS[d], topics) for d in range(documents)]
     return topics, shares
 
 
 def document(words, topics):
-    """The share of each topic in a document of these words."""
+    """Draw the share of each topic in a document, and observe its words."""
     share = sample(FLAT_TOPICS)
     for word in words:
         topic = categorical(share)

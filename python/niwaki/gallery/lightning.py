@@ -1,4 +1,4 @@
-"""Lightning that strikes in a shape: the vines without leaves and flowers, drawn as light (dissertation 6.5.2)."""
+"""Lightning in a shape: the vines without leaves and flowers, drawn as light (dissertation 6.5.2)."""
 
 from math import atan2, cos, pi, sin
 
@@ -17,7 +17,7 @@ LIGHT = (0.42, 0.50, 1.0)
 
 @model
 def lightning(x=0.0, y=0.0, ahead=(0.0, 1.0)):
-    """Strike from (x, y), first about in the direction `ahead`."""
+    """Strike from (x, y), at first roughly in the direction `ahead`."""
     look((x, y), ahead)
     start_angle = gaussian(atan2(ahead[1], ahead[0]), pi / 6.0)
     bolt(x, y, start_angle, WIDTH)
@@ -25,7 +25,7 @@ def lightning(x=0.0, y=0.0, ahead=(0.0, 1.0)):
 
 @model
 def bolt(x, y, angle, width):
-    """One stroke and those that follow it; whether the lightning still goes on afterwards."""
+    """Draw a stroke and the strokes after it; return whether the lightning still continues."""
     look((x, y), (cos(angle), sin(angle)))
     angle = angle + gaussian(0.0, pi / 8.0)
     width = THINNER * width

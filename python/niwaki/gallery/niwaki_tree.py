@@ -1,10 +1,10 @@
 """A cloud-pruned garden tree: a bending trunk, side branches that reach outwards, flat clouds of foliage on their ends.
 
-The tree that this project is named after, in our own words. Each limb begins on the ring where the one before it
-ended, so that neighbours touch and do not intersect; a side branch begins on a ring that lies on its parent's bark.
-Whether there is a side branch, where it goes and what it carries is left to futures. A branch and its cloud are one
-primitive, as is the last limb of the trunk with the crown: no limb is left bare, and a cloud may close around the limb
-that carries it.
+This tree gave the project its name. Each limb begins on the ring at which the limb before it ends, so that neighbours
+touch and do not intersect; a side branch begins on a ring on its parent's bark. Futures decide whether there is a side
+branch, where it goes and what it carries. A branch and its cloud are a single part, and so are the last limb of the
+trunk and the crown: so no limb ends without foliage, and a cloud may close around the limb that
+carries it.
 """
 
 from math import cos, pi, sin
@@ -42,8 +42,8 @@ UP = vec(0.0, 1.0, 0.0)
 def niwaki_tree():
     """Grow the trunk from the ground at the origin to its crown, then two chances of a side branch on each limb.
 
-    The lowest limb stays bare. The trunk is complete before any branch may block it. It bends most in x: such a
-    tree has a front.
+    The lowest limb stays bare. The trunk is complete before any branch may block it. It bends most in x, because such
+    a tree has a front.
     """
     start, forward, radius = vec(0.0, 0.0, 0.0), UP, uniform(1.2, 2.0)
     limbs: list[Any] = []
@@ -64,7 +64,7 @@ def niwaki_tree():
 
 @model
 def side_branch(low, high, low_radius, high_radius):
-    """Perhaps a branch with a cloud on the limb from `low` to `high`: sideways, seldom downwards."""
+    """Perhaps grow a branch with a cloud on the limb from `low` to `high`, sideways, seldom downwards."""
     if flip(0.6):
         where = uniform(0.1, 0.9)
         along = normalize(high - low)
@@ -86,7 +86,7 @@ def side_branch(low, high, low_radius, high_radius):
 
 @model
 def foliage(tip, forward, radius, shift):
-    """A short last limb and a cloud above `tip`, its middle further ahead by `shift` of its size."""
+    """Make a short last limb and a cloud above `tip`; the cloud's middle is `shift` of its size ahead."""
     size = uniform(1.6, 3.4)
     high = uniform(1.0, 1.8)
     tufts = discrete_uniform(4, 6)
@@ -101,7 +101,7 @@ def foliage(tip, forward, radius, shift):
 
 
 def tuft(base, size, high, turn, k, tufts):
-    """The `k`-th tuft around the middle of a cloud; their sizes differ a little."""
+    """Make the `k`-th tuft around the middle of a cloud; sizes of tufts differ a little."""
     angle = turn + 2.0 * pi * k / tufts
     large = 0.45 + 0.07 * cos(2.4 * k + turn)
     place = base + 0.6 * size * vec(cos(angle), 0.0, sin(angle))
@@ -118,13 +118,13 @@ def tuft(base, size, high, turn, k, tufts):
 
 @model
 def bend(forward, sd):
-    """A direction near `forward`: two small turns about the directions across it."""
-    one = across(forward)
-    return rotate(rotate(forward, one, gaussian(0.0, sd)), cross(forward, one), gaussian(0.0, sd))
+    """Draw a direction near `forward`, by two small turns about the directions across it."""
+    side = across(forward)
+    return rotate(rotate(forward, side, gaussian(0.0, sd)), cross(forward, side), gaussian(0.0, sd))
 
 
 def across(direction):
-    """A unit vector at right angles to `direction`."""
+    """Return a unit vector at right angles to `direction`."""
     side = cross(direction, vec(0.0, 0.0, 1.0))
     if norm(side) < 0.1:
         side = cross(direction, vec(1.0, 0.0, 0.0))
@@ -132,7 +132,7 @@ def across(direction):
 
 
 def level(direction):
-    """`direction` without most of its rise."""
+    """Return `direction` without most of its rise."""
     return vec(direction.x, 0.15 * direction.y, direction.z)
 
 

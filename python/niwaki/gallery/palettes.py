@@ -1,9 +1,9 @@
 """Palettes of five colours, in the three stages of dissertation 2.3.2 (figures 2.3 and 2.4).
 
-`wild`: any five colours. `pastel`: light and not too vivid, neighbours far enough apart. `harmonious`: besides, a main
-colour (0) and two accents (1 and 3) that are split-complementary on the colour wheel, and a shade of each accent (2
-and 4). A colour is a triple of hue (turns), saturation and value. Every factor is met as soon as its colours are there,
-so that a search that builds step by step is led from the first colour on.
+`wild` draws any five colours. `pastel` draws light colours that are not too vivid, with different neighbours.
+`harmonious` also has a main colour (0), two accents (1 and 3) that are split-complementary on the colour wheel, and a
+shade of each accent (2 and 4). A colour is a triple of hue (turns), saturation and value. Every factor is added as soon
+as its colours exist, so that it guides a search that builds step by step from the first colour on.
 """
 
 from math import cos, pi, radians
@@ -21,14 +21,14 @@ COS_150 = cos(radians(150.0))
 
 @model
 def wild():
-    """Five colours, any."""
+    """Draw any five colours."""
     colors = [vec(uniform(0.0, 1.0), uniform(0.0, 1.0), uniform(0.0, 1.0)) for _ in range(5)]
     return swatches(colors)
 
 
 @model
 def pastel():
-    """Five pastel colours, each told apart from the one before."""
+    """Draw five pastel colours, each different from the colour before."""
     last = soft(uniform(0.0, 1.0))
     colors = [last]
     for _ in range(4):
@@ -39,7 +39,7 @@ def pastel():
 
 @model
 def harmonious():
-    """A main colour, two accents and a shade of each."""
+    """Draw a main colour, two accents and a shade of each accent."""
     main = soft(uniform(0.0, 1.0))
     hue = uniform(0.0, 1.0)
     near(turned(hue, main), COS_150, 0.01)
@@ -54,14 +54,14 @@ def harmonious():
     return swatches([main, accent, shade, other, other_shade])
 
 
-def near(x, wanted, within):
-    """A soft constraint: nought where `x` is as wanted, -1 where it is `within` away."""
-    off = (x - wanted) / within
+def near(x, goal, within):
+    """Add a soft constraint: 0 if `x` is at the `goal`, -1 at a distance of `within`."""
+    off = (x - goal) / within
     factor(-off * off)
 
 
 def soft(hue):
-    """A colour of that hue, of low saturation and high value."""
+    """Draw a colour of a hue, with low saturation and high value."""
     saturation = uniform(0.0, 1.0)
     near(saturation, 0.25, 0.06)
     value = uniform(0.0, 1.0)
@@ -70,13 +70,13 @@ def soft(hue):
 
 
 def told_apart(last, color):
-    """The colour, which does not bleed into its neighbour."""
+    """Keep a colour different from the colour before, and return it."""
     near(distance(last, color), 0.5, 0.06)
     return color
 
 
 def shade_of(color):
-    """Another colour of the same hue and saturation."""
+    """Draw another colour of the same hue and saturation."""
     hue = uniform(0.0, 1.0)
     near(turned(hue, color), 1.0, 0.01)
     shade = soft(hue)
@@ -85,12 +85,12 @@ def shade_of(color):
 
 
 def turned(hue, color):
-    """The cosine of the angle between two hues on the colour wheel."""
+    """Return the cosine of the angle between two hues on the colour wheel."""
     return cos(2.0 * pi * (hue - color.x))
 
 
 def swatches(colors):
-    """The colours as they are shown."""
+    """Return the colours as sRGB."""
     return [hsv(color.x, color.y, color.z) for color in colors]
 
 

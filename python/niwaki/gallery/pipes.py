@@ -1,7 +1,7 @@
 """A maze of square pipes on a grid, each at right angles to the one before, for the shadow that they cast together.
 
-The generative process of dissertation 5.5. From the end of each pipe up to two others grow, a shorter kind and one that
-goes on; both are left to futures. A network of two thousand pipes is not unusual.
+This is the generative process of dissertation 5.5. From the end of each pipe up to two others grow, in futures: a
+shorter pipe, and a pipe of the same kind. A network can have two thousand pipes.
 """
 
 from math import exp
@@ -11,7 +11,7 @@ from niwaki import box, discrete_uniform, emit, flip, future, model, poisson
 TITLE = "a maze of square pipes, for its shadow"
 PARTICLES = 100
 
-#: Size of a grid cell, scene units; how far from the middle a pipe may end, and above which height, cells.
+#: Size of a grid cell in scene units; distance from the middle and lowest height at which a pipe may end, in cells.
 CELL = 0.2
 REACH = 100
 LOWEST = 5
@@ -27,10 +27,10 @@ def pipes(height=60, factor=10.0):
 
 @model
 def grow(start, factor, before, generation):
-    """Lay one pipe from `start`, at right angles to the direction `before`, and leave what follows for later.
+    """Lay a pipe from `start`, at right angles to the direction `before`, and postpone the pipes after it.
 
-    A length of two cells or fewer is the end of the line; a pipe that would end too low or too far out is drawn again,
-    and may end the line then.
+    A length of two cells or fewer ends the line. A pipe that would end too low or too far out is drawn again, and may
+    then end the line.
     """
     searching = True
     end, along, cells = start, before, 0
@@ -50,28 +50,28 @@ def grow(start, factor, before, generation):
 
 @model
 def go_on(odds, start, factor, before, generation):
-    """Perhaps another pipe from here."""
+    """Perhaps lay another pipe from here."""
     if flip(odds):
         grow(start, factor, before, generation)
 
 
 @model
 def across(before):
-    """One of the six directions, at right angles to `before`; the first pipe goes anywhere but up."""
+    """Draw one of the six directions, at right angles to `before`; the first pipe can have any direction but up."""
     searching = True
-    found = before
+    direction = before
     while searching:
         axis = discrete_uniform(0, 2)
         way = 1 if flip(0.5) else -1
-        found = (way if axis == 1 else 0, way if axis == 0 else 0, way if axis == 2 else 0)
-        level = before[0] * found[0] + before[1] * found[1] + before[2] * found[2] == 0
-        first_goes_up = before == (0, 0, 0) and found == (0, 1, 0)
+        direction = (way if axis == 1 else 0, way if axis == 0 else 0, way if axis == 2 else 0)
+        level = before[0] * direction[0] + before[1] * direction[1] + before[2] * direction[2] == 0
+        first_goes_up = before == (0, 0, 0) and direction == (0, 1, 0)
         searching = not level or first_goes_up
-    return found
+    return direction
 
 
 def pipe(start, along, cells, color):
-    """A pipe one cell thick that covers the cells after `start` up to the one at its end."""
+    """Make a pipe, one cell thick, over the cells after `start` up to its end."""
     middle = 0.5 * (cells + 1)
     center = [CELL * (s + middle * a) for s, a in zip(start, along, strict=True)]
     size = [CELL * (1 + (cells - 1) * abs(a)) for a in along]

@@ -1,8 +1,8 @@
-"""A point of the plane that lies near a curve: the smallest design with a tight constraint.
+"""A point of the plane near a curve: the smallest design with a tight constraint.
 
-Dissertation 4.2, eq. 4.1: `x` and `y` are uniform on [-1.5, 1.5], and `y^4 - y^2 + x^2 - 1/4` is softly equal to 0
-within `width`: 0.1 in the top row of Figure 4.2, 0.005 in the bottom row. The narrower the curve, the smaller the steps
-that a random walk may take along it; a chain that follows the gradient keeps its pace.
+In dissertation 4.2, eq. 4.1, `x` and `y` are uniform on [-1.5, 1.5], and `y^4 - y^2 + x^2 - 1/4` is softly equal to 0
+within `width`: 0.1 in the top row of Figure 4.2, 0.005 in the bottom row. On a narrow curve a random walk can only take
+small steps; a chain that follows the gradient keeps its pace.
 """
 
 from niwaki import cylinder, emit, factor, model, softeq, uniform

@@ -1,8 +1,8 @@
 """The simplified spaceship of dissertation figure 5.2: a row of blocks, with wings that are rows of blocks.
 
-Fifteen lines of process, to show what an order can do. Body segments bring the ship closer to its target faster than
-wings; under a fixed order the particles that survive are those that decided against the first wings. Body and wings are
-both futures, so that a random order can put the wings off.
+Fifteen lines of process show the effect of an order. Body segments bring the ship closer to its target faster than
+wings, so under a fixed order mostly particles without the first wings survive. Body and wings are both futures, so that
+a random order can postpone the wings.
 """
 
 from math import exp
@@ -26,7 +26,7 @@ def simple_ship():
 
 @model
 def body(i, rear):
-    """Place the `i`-th block of the body; wings from its sides, and the next block, are left for later."""
+    """Place the `i`-th block of the body, and postpone its wings and the next block."""
     if flip(exp(-0.12 * i)):
         length = uniform(1.0, 3.0)
         width = uniform(1.0, 2.5)
@@ -39,7 +39,7 @@ def body(i, rear):
 
 @model
 def wing(j, root, rear, front):
-    """Perhaps a pair of blocks beside the ones before, `root` away from the middle and within their length."""
+    """Perhaps place a pair of blocks beside the last pair, at `root` from the middle and within its length."""
     if flip(0.5 if j == 0 else exp(-0.25 * j)):
         span = uniform(0.5, 2.0)
         chord = uniform(0.5, 1.0) * (front - rear)

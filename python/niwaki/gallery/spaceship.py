@@ -1,8 +1,8 @@
 """A spaceship: a body of boxes, cylinders and clusters of cylinders, with wings, guns, fins and a nose.
 
-The generative process is that of dissertation 5.5. The long axis is z: tail at z = -5, nose towards +z; the ship is
-mirror-symmetric in x by construction. Every loop's first "go on?" coin is certain, so every loop makes at least two
-elements. What to add and whether to add it is decided inside futures, so that a stochastic order may put it off.
+This is the generative process of dissertation 5.5. The long axis is z, with the tail at z = -5 and the nose towards +z;
+the ship is mirror-symmetric in x by construction. The first coin of every loop always lands on "continue", so every
+loop makes at least two parts. Futures decide about wings, guns and fins, so that a stochastic order can postpone them.
 """
 
 from math import exp
@@ -13,7 +13,7 @@ TITLE = "a spaceship of boxes and cylinders"
 TARGET = "ship"
 VOXEL = 0.25
 
-BOX, CYLINDER, CLUSTER, NOTHING = 0, 1, 2, 3
+BOX, CYLINDER, CLUSTER, NO_SECTION = 0, 1, 2, 3
 
 HULL = (0.80, 0.79, 0.76)
 TRIM = (0.64, 0.66, 0.69)
@@ -23,8 +23,8 @@ ACCENT = (0.88, 0.42, 0.18)
 
 @model
 def spaceship():
-    """Build the body from tail to nose; wings and fins are left to futures."""
-    previous, width, height, rear = NOTHING, -1.0, -1.0, -5.0
+    """Build the body from tail to nose, with wings and fins in futures."""
+    previous, width, height, rear = NO_SECTION, -1.0, -1.0, -5.0
     i = 0
     going_on = True
     while going_on:
@@ -63,7 +63,7 @@ def spaceship():
 
 
 def box_section(previous, width, height):
-    """Width and height of a box; behind anything but a box it is at least as large."""
+    """Draw width and height of a box, at least those of a section before it that is not a box."""
     wide = uniform(1.0, 3.0)
     high = uniform(0.5, 1.0) * wide
     if previous != BOX:
@@ -73,14 +73,14 @@ def box_section(previous, width, height):
 
 
 def cylinder_radius(previous, limit, lo, hi):
-    """Radius of a body cylinder: between `lo` and `hi`, but within the face of a box before it."""
+    """Draw the radius of a body cylinder: between `lo` and `hi`, or within the face of a box before it."""
     if previous == BOX:
         return uniform(0.4 * limit, limit)
     return uniform(lo, hi)
 
 
 def wings(i, base, back, front):
-    """Perhaps a pair of wings on body segment `i`, at x = +-base, within z from `back` to `front`."""
+    """Perhaps build a pair of wings on body segment `i`, at x = +-base, within z from `back` to `front`."""
     if flip(exp(-0.5 * (i + 1))):
         j = 0
         going_on = True
@@ -111,14 +111,14 @@ def wings(i, base, back, front):
 
 
 def guns(x, y, z, wing):
-    """Perhaps four guns above and below a pair of wing boxes of length `wing`."""
+    """Perhaps add four guns above and below a pair of wing boxes of length `wing`."""
     if flip(0.5):
         length = uniform(1.0, 1.2) * wing
         emit([gun(x, y, z, length), gun(x, -y, z, length), gun(-x, y, z, length), gun(-x, -y, z, length)])
 
 
 def gun(x, y, z, length):
-    """A barrel and its tip."""
+    """Make a barrel and its tip."""
     tip = 0.4
     return (
         cylinder((x, y, z), 0.15, length, axis="z", color=METAL),
@@ -127,7 +127,7 @@ def gun(x, y, z, length):
 
 
 def fins(base, back, front, width):
-    """Perhaps a stack of fins on a body segment, from y = base upwards."""
+    """Perhaps build a stack of fins on a body segment, from y = base upwards."""
     if flip(0.7):
         middle = (back + front) / 2
         length = front - back

@@ -1,7 +1,7 @@
 """Toy blocks scattered over a floor: boxes and cylinders, some of them lying on their sides.
 
-The generative process of dissertation 5.5, where their shadow should be a face in profile. Nothing here branches,
-so there are no futures: every order is the same.
+This is the generative process of dissertation 5.5, where the shadow of the blocks should be a face in profile. The
+model has no branches, so it has no futures, and every order is the same.
 """
 
 from math import cos, exp, pi, sin
@@ -29,7 +29,7 @@ def toy_blocks(decay=0.0075):
             if flip(0.5):
                 emit(cylinder((x, 0.5 * height, z), radius, height, color=paint))
             else:
-                # Two of its eight sides are level, and the vertices between reach the floor.
+                # Two of the cylinder's eight sides are level, and the vertices between reach the floor.
                 turn = uniform(0.0, 2.0 * pi)
                 along = vec(cos(turn), 0.0, -sin(turn))
                 emit(cylinder((x, radius, z), radius, height, axis=along, color=paint))

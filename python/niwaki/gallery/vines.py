@@ -1,8 +1,8 @@
 """Vines that grow into a shape, with leaves and flowers (dissertation 6.5.2).
 
-A branch is a straight stroke, a little thinner and turned a little from the one before. Along it there may be a leaf,
-at its end a flower; then the vine ends, as a whole, or goes on in one branch or two. Left alone it ends after three
-strokes: all that is long comes from what the drawing asks for.
+A branch is a straight stroke, a little thinner than the stroke before, and turned a little. Along it there may be a
+leaf, at its end a flower; then the whole vine ends, or continues in one branch or two. Without a drawing, a vine ends
+after about three strokes; long vines come from the score of a drawing.
 """
 
 from math import atan2, cos, pi, sin
@@ -32,7 +32,7 @@ BEHIND, BETWEEN, IN_FRONT = -1.0, 0.0, 1.0
 
 @model
 def vines(x=0.0, y=0.0, ahead=(0.0, 1.0)):
-    """Grow from (x, y), first about in the direction `ahead`."""
+    """Grow from (x, y), at first roughly in the direction `ahead`."""
     look((x, y), ahead)
     start_angle = gaussian(atan2(ahead[1], ahead[0]), pi / 6.0)
     branch(x, y, start_angle, WIDTH)
@@ -40,7 +40,7 @@ def vines(x=0.0, y=0.0, ahead=(0.0, 1.0)):
 
 @model
 def branch(x, y, angle, width):
-    """One stroke and what grows on it and from it; whether the vine is still alive afterwards."""
+    """Draw a stroke with its leaf, flower and next strokes; return whether the vine is still alive."""
     look((x, y), (cos(angle), sin(angle)))
     angle = angle + gaussian(0.0, pi / 8.0)
     width = THINNER * width

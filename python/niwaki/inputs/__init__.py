@@ -1,10 +1,11 @@
-"""Files that a person gives: read within limits, and what a library makes of them.
+"""Reading of users' files, within limits.
 
-- limits: how large a file may be, how much it may hold, how long reading may take
-- files: the bytes of a file: regular files only, up to a limit
-- guard: the errors of a library that reads, as ours
-- child: a reader in a process of its own, with limits of memory and time
+- limits: limits of the size of a file, of its contents and of the time to read it
+- files: the bytes of a regular file, up to a limit
+- guard: errors of libraries that read files, as errors of the package
+- child: a reader in a separate process, with limits of memory and time
 - modules: Python files, run as modules
+- texts, xml: JSON, TOML, numbers and XML
 """
 
 from niwaki.inputs.child import read_apart

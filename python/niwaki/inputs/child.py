@@ -1,9 +1,9 @@
-"""A reader in a process of its own, with limits of memory and time, for libraries that keep none.
+"""Readers in a separate process with limits of memory and time, for libraries that have no limits.
 
-The child gets the file's bytes and the name of one of our functions, and sends plain arrays back; nothing is
-unpickled. A limit of memory needs the module `resource`: Windows has none, and macOS keeps no such limit. The limit of
-time needs only a clock. Where Python cannot be started again, as in a program frozen into one file, the reader runs in
-this process.
+The child process gets the file's bytes and the name of a function of the package, and sends plain arrays back; nothing
+is unpickled. The limit of memory needs the module `resource`, which Windows does not have, and macOS does not enforce
+the limit. The limit of time needs only a clock. If Python cannot be started again, as in a program that is frozen into
+one file, the reader runs in this process.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ Arrays = Mapping[str, NDArray[Any]]
 Reader = Callable[..., Arrays]
 
 _START = "from niwaki.inputs.child import serve; serve()"
-#: Arrays have only these types: numbers and truth values.
+#: The types of arrays: numbers and truth values.
 _KINDS = "buif"
 
 
@@ -46,11 +46,11 @@ def read_apart(
     reader: Reader,
     data: bytes,
     place: str | PathLike[str] | None,
-    what: str,
+    kind: str,
     memory: int | None = None,
     **settings: Any,
 ) -> dict[str, NDArray[Any]]:
-    """Call `reader(data, **settings)` in a process of its own.
+    """Call `reader(data, **settings)` in a separate process.
 
     Parameters
     ----------
@@ -58,35 +58,35 @@ def read_apart(
         A function of a module of this package; it returns arrays of numbers by name.
     data
         The file's bytes.
-    place, what
-        The file and what it should be, for messages.
+    place, kind
+        The file and its expected kind, for messages.
     memory
-        Bytes that the process may use; the limit `memory` when left out.
+        Bytes that the process may use; by default the limit `memory`.
     settings
-        Of JSON.
+        Settings of the reader, values of JSON.
 
     Raises
     ------
     FileError
-        What the reader raises; `file-limit` where it needs too much time or memory; `file-unreadable` where the
-        process ends in any other way.
+        The reader's error; `file-limit`: reading needs too much time or memory; `file-unreadable`: the process ended
+        for another reason.
     """
     if getattr(sys, "frozen", False) or not sys.executable:
-        with library(place, what):
+        with library(place, kind):
             return dict(reader(data, **settings))
     memory = limit("memory") if memory is None else memory
     seconds = limit("seconds")
-    asked = {
+    request = {
         "module": reader.__module__,
         "name": reader.__name__,
         "settings": settings,
         "seconds": seconds,
         "memory": memory,
     }
-    # A person's folder, which is the first one while a file of it is run, has nothing that the child needs.
+    # Folders of the user's model files have nothing that the child needs, and come last.
     paths = os.pathsep.join(sorted(filter(None, sys.path), key=folders().__contains__))
     environment = {**os.environ, "PYTHONPATH": paths, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    # -P: the folder that we are in holds no modules of the child.
+    # -P: the child imports nothing from the current folder.
     command = [sys.executable, "-P", "-W", "ignore", "-c", _START]
     try:
         child = subprocess.Popen(
@@ -97,22 +97,22 @@ def read_apart(
             env=environment,
         )
     except OSError as error:
-        reason = f"no process could be started to read it: {error.strerror or error}"
-        raise FileError("file-unreadable", place, suffix=what, reason=reason) from error
+        reason = f"the process that reads it cannot start: {error.strerror or error}"
+        raise FileError("file-unreadable", place, suffix=kind, reason=reason) from error
     with child:
         try:
-            answer, _ = child.communicate(json.dumps(asked).encode() + b"\n" + data, timeout=seconds + 5)
+            answer, _ = child.communicate(json.dumps(request).encode() + b"\n" + data, timeout=seconds + 5)
         except subprocess.TimeoutExpired:
             child.kill()
             raise beyond("seconds", f"reading it takes more than {seconds} seconds", place) from None
         except BaseException:
             child.kill()
             raise
-    return _received(answer, child.returncode, seconds, place, what)
+    return _received(answer, child.returncode, seconds, place, kind)
 
 
 def _received(
-    answer: bytes, code: int, seconds: int, place: str | PathLike[str] | None, what: str
+    answer: bytes, code: int, seconds: int, place: str | PathLike[str] | None, kind: str
 ) -> dict[str, NDArray[Any]]:
     head, _, body = answer.partition(b"\n")
     if code != 0 or not head:
@@ -121,35 +121,35 @@ def _received(
         if -code == getattr(signal, "SIGKILL", None):
             raise beyond("memory", "the system ended the process that read it", place)
         reason = f"the process that read it ended with code {code}"
-        raise FileError("file-unreadable", place, suffix=what, reason=reason)
-    told = json.loads(head)
-    if "fault" in told:
-        raise RuntimeError(f"a reader of ours failed in a process of its own:\n{told['fault']}")
-    if told.get("code") in FILE_MESSAGES:
-        raise FileError(told["code"], place, **told["values"])
-    if "code" in told:
-        raise InputError(told["code"], **told["values"])
-    found, start = {}, 0
-    for name, kind, shape in told["arrays"]:
+        raise FileError("file-unreadable", place, suffix=kind, reason=reason)
+    reply = json.loads(head)
+    if "fault" in reply:
+        raise RuntimeError(f"a reader of Niwaki failed in its process:\n{reply['fault']}")
+    if reply.get("code") in FILE_MESSAGES:
+        raise FileError(reply["code"], place, **reply["values"])
+    if "code" in reply:
+        raise InputError(reply["code"], **reply["values"])
+    arrays, start = {}, 0
+    for name, kind, shape in reply["arrays"]:
         dtype = np.dtype(kind)
         size = dtype.itemsize * int(np.prod(shape, dtype=np.int64))
-        found[name] = np.frombuffer(body[start : start + size], dtype=dtype).reshape(shape).copy()
+        arrays[name] = np.frombuffer(body[start : start + size], dtype=dtype).reshape(shape).copy()
         start += size
-    return found
+    return arrays
 
 
 def serve() -> None:
-    """What the child does: read a request and a file, answer with arrays or with an error's code and values."""
-    # What a library prints is not a part of the answer.
+    """Read a request and a file in the child process, and answer with arrays, or with an error's code and values."""
+    # The output of libraries is not a part of the answer.
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
-    asked = json.loads(sys.stdin.buffer.readline())
-    # It cannot write into files.
-    bound(cpu=int(asked["seconds"]), fsize=0, core=0, **{"as": int(asked["memory"])})
+    request = json.loads(sys.stdin.buffer.readline())
+    # `fsize=0`: the process cannot write files.
+    bound(cpu=int(request["seconds"]), fsize=0, core=0, **{"as": int(request["memory"])})
     data = sys.stdin.buffer.read()
     try:
-        found = getattr(import_module(asked["module"]), asked["name"])(data, **asked["settings"])
-        _answer(out, found)
+        arrays = getattr(import_module(request["module"]), request["name"])(data, **request["settings"])
+        _answer(out, arrays)
     except (FileError, InputError) as error:
         _refuse(out, error)
     except MemoryError:
@@ -157,7 +157,7 @@ def serve() -> None:
     except Exception:
         out.write(json.dumps({"fault": format_exc()}).encode() + b"\n")
     out.flush()
-    # Without the time that libraries take to leave.
+    # Skip the clean-up of libraries, which takes time.
     os._exit(0)
 
 
@@ -166,10 +166,10 @@ def _refuse(out: IO[bytes], error: FileError | InputError) -> None:
     out.write(json.dumps({"code": error.code, "values": values}).encode() + b"\n")
 
 
-def _answer(out: IO[bytes], found: Arrays) -> None:
-    arrays = {name: np.ascontiguousarray(value) for name, value in found.items()}
+def _answer(out: IO[bytes], values: Arrays) -> None:
+    arrays = {name: np.ascontiguousarray(value) for name, value in values.items()}
     if wrong := [name for name, value in arrays.items() if value.dtype.kind not in _KINDS]:
-        raise TypeError(f"`{wrong[0]}` is no array of numbers")
+        raise TypeError(f"`{wrong[0]}` is not an array of numbers")
     heads = [(name, value.dtype.str, value.shape) for name, value in arrays.items()]
     out.write(json.dumps({"arrays": heads}).encode() + b"\n")
     for value in arrays.values():
@@ -177,7 +177,7 @@ def _answer(out: IO[bytes], found: Arrays) -> None:
 
 
 def bound(**limits: int) -> None:
-    """Limit what this process may take, by the names of limits of the system: `cpu=60` for RLIMIT_CPU."""
+    """Limit this process by the names of the system's limits: `cpu=60` sets RLIMIT_CPU."""
     if resource is None:
         return
     for name, most in limits.items():
@@ -188,5 +188,5 @@ def bound(**limits: int) -> None:
             try:
                 resource.setrlimit(kind, (most, hard))
             except (OSError, ValueError):
-                # Some systems refuse some limits; the clock of the parent remains.
+                # Some systems refuse some limits; the parent process still limits the time.
                 continue

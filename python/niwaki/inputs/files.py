@@ -1,4 +1,4 @@
-"""The bytes of a file that a person names: of a regular file only, and not more than a limit."""
+"""The bytes of a user's file: only of regular files, and up to a limit."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ _KINDS = (
     (stat.S_ISCHR, "a device"),
     (stat.S_ISBLK, "a device"),
 )
-# A pipe or a device must not make us wait, even one that takes the file's place while we look.
+# `O_NONBLOCK`: a pipe or device that replaces the file between the check and the opening must not block.
 _FLAGS = os.O_RDONLY | sum(
     getattr(os, name, 0) for name in ("O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY")
 )
 
 
 def regular(path: str | PathLike[str]) -> Path:
-    """The path of a regular file that is there.
+    """Return the path of an existing regular file.
 
     Raises
     ------
     FileError
-        There is none, or a folder, a pipe, a device; or the system refuses to look.
+        The file does not exist, is a folder, pipe or device, or the system refuses access.
     """
     place = Path(path)
     try:
@@ -40,19 +40,19 @@ def regular(path: str | PathLike[str]) -> Path:
 
 
 def bytes_of(path: str | PathLike[str], kind: str) -> bytes:
-    """The bytes of a file.
+    """Return the bytes of a file.
 
     Parameters
     ----------
     path
         The file.
     kind
-        The name of its limit.
+        The name of the limit.
 
     Raises
     ------
     FileError
-        `file-missing`, `file-not-regular`, `file-limit`; `file-unreadable` where the system refuses.
+        `file-missing`, `file-not-regular`, `file-limit`; `file-unreadable`: the system refuses access.
     """
     place, most = regular(path), limit(kind)
     try:
@@ -62,7 +62,7 @@ def bytes_of(path: str | PathLike[str], kind: str) -> bytes:
             _refuse_irregular(status, path)
             if status.st_size > most:
                 raise beyond(kind, f"it has {status.st_size:,} bytes", path)
-            # One byte more than the limit: some files grow while they are read, or hide their size.
+            # Read up to one byte beyond the limit: some files grow during the reading, or hide their size.
             parts, left = [], most + 1
             while left > 0 and (part := os.read(handle, min(left, 1 << 24))):
                 parts.append(part)
@@ -76,22 +76,24 @@ def bytes_of(path: str | PathLike[str], kind: str) -> bytes:
     return b"".join(parts)
 
 
-def text_of(path: str | PathLike[str], kind: str, what: str) -> str:
-    """The text of a file in UTF-8; `what` says what it should be, for messages."""
+def text_of(path: str | PathLike[str], kind: str, expected: str) -> str:
+    """Return the text of a file in UTF-8; messages name the `expected` kind of file."""
     try:
         return bytes_of(path, kind).decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise FileError("file-unreadable", path, suffix=what, reason=f"it is no text: {error}") from error
+        raise FileError(
+            "file-unreadable", path, suffix=expected, reason=f"it is not text: {error}"
+        ) from error
 
 
 def _refuse_irregular(status: os.stat_result, path: str | PathLike[str]) -> None:
     if not stat.S_ISREG(status.st_mode):
-        found = next((what for test, what in _KINDS if test(status.st_mode)), "something else")
-        raise FileError("file-not-regular", path, found=found)
+        kind = next((kind for test, kind in _KINDS if test(status.st_mode)), "something else")
+        raise FileError("file-not-regular", path, found=kind)
 
 
 def _unopened(error: OSError | ValueError, path: str | PathLike[str]) -> FileError:
-    """What the system said when it was asked for a file."""
+    """Return the error about a file that the system cannot open."""
     missing = isinstance(error, (FileNotFoundError, NotADirectoryError))
     shown = (
         str(path).encode("unicode_escape", "backslashreplace").decode() if "\0" in str(path) else str(path)

@@ -1,7 +1,7 @@
-"""The errors of a library that reads a file, as ours.
+"""Errors of libraries that read files, as errors of the package.
 
-Readers raise errors of every type: of values, of types, of recursion, of memory. Only a call of a library belongs under
-this guard, so that no mistake of our own is taken for a bad file.
+Libraries raise errors of every type: about values, types, recursion, memory. Only calls of a library belong under this
+guard, so that a mistake of the package is never reported as a bad file.
 """
 
 from __future__ import annotations
@@ -13,47 +13,47 @@ from os import PathLike
 from niwaki.errors import FileError, NiwakiError
 from niwaki.inputs.limits import beyond
 
-#: Characters of a library's message that are shown.
+#: The most characters of a library's message in an error.
 SHOWN = 300
 
 
 @contextmanager
-def library(place: str | PathLike[str] | None, what: str) -> Iterator[None]:
-    """Turn what a library raises into a `FileError` about the file, with the library's own error as its cause.
+def library(place: str | PathLike[str] | None, kind: str) -> Iterator[None]:
+    """Turn the errors of a library into a `FileError` about the file, with the library's error as its cause.
 
     Parameters
     ----------
     place
         The file.
-    what
-        What it should be: ".stl", "an image".
+    kind
+        The expected kind of file: ".stl", "an image".
 
     Raises
     ------
     FileError
-        `file-unreadable`, or `file-limit` where memory was short.
+        `file-unreadable`; `file-limit`: memory ran out.
     """
     try:
         yield
     except NiwakiError:
         raise
     except MemoryError as error:
-        raise beyond("memory", "reading it takes more memory than there is", place) from error
+        raise beyond("memory", "reading it takes more memory than is free", place) from error
     except Exception as error:
-        raise FileError("file-unreadable", place, suffix=what, reason=reason_of(error)) from error
+        raise FileError("file-unreadable", place, suffix=kind, reason=reason_of(error)) from error
     except BaseException as error:
-        # What a library in Rust raises when it fails: no `Exception`, so that Python programs end.
+        # A panic of a library in Rust is not an `Exception`.
         if type(error).__name__ != "PanicException":
             raise
-        raise FileError("file-unreadable", place, suffix=what, reason=reason_of(error)) from error
+        raise FileError("file-unreadable", place, suffix=kind, reason=reason_of(error)) from error
 
 
 def reason_of(error: BaseException) -> str:
-    """What an error says, in one line."""
+    """Return an error's message in one line."""
     if isinstance(error, ModuleNotFoundError):
         return f"its contents need the package `{error.name}`, which is not installed"
     if isinstance(error, RecursionError):
         return "it is nested too deeply"
-    said = "".join(one if one.isprintable() else " " for one in str(error)[: 4 * SHOWN])
-    said = " ".join(said.split())
-    return (said if len(said) <= SHOWN else said[:SHOWN] + " ...") or type(error).__name__
+    text = "".join(character if character.isprintable() else " " for character in str(error)[: 4 * SHOWN])
+    text = " ".join(text.split())
+    return (text if len(text) <= SHOWN else text[:SHOWN] + " ...") or type(error).__name__

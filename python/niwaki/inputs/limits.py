@@ -1,6 +1,6 @@
-"""Limits of what is read from a person's files, in one place.
+"""Limits for the reading of users' files.
 
-`NIWAKI_LIMITS=4` in the environment multiplies all that can be multiplied. Depths cannot: deeper files would end the
+`NIWAKI_LIMITS=4` in the environment multiplies the limits by 4, except limits of depth: deeper files would end the
 process.
 """
 
@@ -11,23 +11,23 @@ from dataclasses import dataclass
 
 from niwaki.errors import FileError, InputError
 
-#: The variable in the environment that multiplies the limits.
+#: The environment's variable that multiplies the limits.
 VARIABLE = "NIWAKI_LIMITS"
 MB = 1_000_000
 
 
 @dataclass(frozen=True)
 class Limit:
-    """One limit.
+    """A limit.
 
     Attributes
     ----------
     most : int
-        The largest count that is read.
+        The largest allowed count.
     unit : str
-        What is counted, as a message writes it.
+        The unit of the count, for messages.
     reason : str
-        Why so many.
+        The reason for this number.
     fixed : bool
         Whether the environment cannot raise it.
     """
@@ -46,7 +46,7 @@ LIMITS = {
     "outline": Limit(16 * MB, "bytes", "100,000 corners with all their digits"),
     "rules": Limit(1 * MB, "bytes", "rules about 256 regions take 20 kB"),
     "camera": Limit(1 * MB, "bytes", "a camera takes 200 bytes"),
-    "guide": Limit(256 * MB, "bytes", "the largest of our guides takes 0.4 MB"),
+    "guide": Limit(256 * MB, "bytes", "the largest guide of the package takes 0.4 MB"),
     "checkpoint": Limit(2_000 * MB, "bytes", "a training of a million traces of twenty choices"),
     "batch": Limit(2_000 * MB, "bytes", "a thousand cases, each with a mesh of 40,000 triangles"),
     "run": Limit(256 * MB, "bytes", "a thousand runs of ten thousand choices"),
@@ -55,7 +55,7 @@ LIMITS = {
     "preset": Limit(1 * MB, "bytes", "a model has tens of arguments"),
     "model": Limit(16 * MB, "bytes", "a program that a person writes takes some kB"),
     "font": Limit(64 * MB, "bytes", "the largest common fonts, of Chinese, take 20 MB"),
-    # What files hold.
+    # Contents of files.
     "pixels": Limit(1 << 24, "pixels", "4,096 by 4,096; a search works with far fewer"),
     "scans": Limit(100, "scans", "a progressive JPEG has about ten, and each takes as long as a whole image"),
     "copies": Limit(2 * MB, "triangles by copies", "many nodes of a glTF file may place the same mesh"),
@@ -77,7 +77,7 @@ LIMITS = {
     "depth": Limit(
         200, "levels", "drawings have about ten; readers that call themselves end the process", True
     ),
-    # Reading in a process of its own.
+    # Reading in a separate process.
     "apart": Limit(1 * MB, "bytes", "smaller files are read at once: what is wrong in them costs little"),
     "seconds": Limit(60, "seconds", "a mesh of 10 million triangles in the slowest format"),
     "memory": Limit(1_000 * MB, "bytes of memory", "the libraries take 300 MB of it; a large file gets more"),
@@ -85,50 +85,50 @@ LIMITS = {
 
 
 def limit(name: str) -> int:
-    """The limit of a name, as large as the environment makes it.
+    """Return a limit, multiplied by the environment's factor.
 
     Raises
     ------
     InputError
-        `bad-setting`: the variable is no number from 1 to 1000.
+        `bad-setting`: the variable is not a number from 1 to 1000.
     """
     known = LIMITS[name]
     return known.most if known.fixed else int(known.most * _factor())
 
 
-def check(name: str, found: float, place: str | os.PathLike[str] | None) -> None:
-    """Refuse a file that holds more than a limit.
+def check(name: str, count: float, place: str | os.PathLike[str] | None) -> None:
+    """Refuse a file whose contents exceed a limit.
 
     Raises
     ------
     FileError
-        `file-limit`, with what was found.
+        `file-limit`, with the count.
     """
     most = limit(name)
-    if found > most:
-        raise beyond(name, f"it has {found:,} {LIMITS[name].unit}", place)
+    if count > most:
+        raise beyond(name, f"it has {count:,} {LIMITS[name].unit}", place)
 
 
-def beyond(name: str, found: str, place: str | os.PathLike[str] | None) -> FileError:
-    """The error about a file that holds more than a limit."""
+def beyond(name: str, reason: str, place: str | os.PathLike[str] | None) -> FileError:
+    """Return the error about a file that exceeds a limit."""
     known = LIMITS[name]
     cure = f"if you trust the file, set {VARIABLE}=4 in the environment, which multiplies the limits by 4"
     return FileError(
         "file-limit",
         place,
-        found=found,
+        found=reason,
         most=f"{limit(name):,} {known.unit}",
-        cure="use a file that is nested less" if known.fixed else f"use a smaller file; {cure}",
+        cure="use a file with less nesting" if known.fixed else f"use a smaller file; {cure}",
     )
 
 
 def _factor() -> float:
     text = os.environ.get(VARIABLE, "1")
     try:
-        found = float(text)
+        factor = float(text)
     except ValueError:
-        found = 0.0
-    if not 1.0 <= found <= 1000.0:
+        factor = 0.0
+    if not 1.0 <= factor <= 1000.0:
         raise InputError(
             "bad-setting",
             name=VARIABLE,
@@ -136,4 +136,4 @@ def _factor() -> float:
             expected="a number from 1 to 1000",
             suggestion="4, or leave it out",
         )
-    return found
+    return factor

@@ -1,8 +1,8 @@
-"""Python files that a person names, run as modules.
+"""Users' Python files, run as modules.
 
-A file is no module of Python's or of a package, whatever its name: `json.py` must not take the place of `json`. So its
-module has a name that nothing imports, made of its path. What is stored (run.json, the hash of a search) has the file's
-own name, `public`, which is the same on all machines.
+A file must not replace a module of Python or of a package that has the same name, such as `json`. So its module gets a
+name that nothing imports, made from its path. Stored data (run.json, the hash of a search) have the file's public name,
+which is the same on all machines.
 """
 
 from __future__ import annotations
@@ -22,40 +22,40 @@ from typing import Any
 from niwaki.errors import InputError, NiwakiError
 from niwaki.inputs.files import bytes_of
 
-#: Files that were run, with their own names, by the names of their modules; the last one comes last.
+#: Public names and paths of the files that were run, by the names of their modules; the latest comes last.
 _run: dict[str, tuple[str, Path]] = {}
 
 
 def run_file(
     place: Path, name: str = "", check: Callable[[bytes], object] | None = None
 ) -> tuple[ModuleType, str]:
-    """Run a file as a module, with its own folder importable, as `python file.py` would.
+    """Run a file as a module that can import from its folder, as `python file.py` does.
 
-    The folder stays importable, for what a function of the file imports when it is called; but then after all others.
+    Later the folder stays importable, after all others, for imports inside the file's functions.
 
     Parameters
     ----------
     place
         The file.
     name
-        Of what is stored; the file's when left out.
+        The public name; by default the file's name.
     check
-        Gets the bytes that are about to be run, and raises an error where they must not be.
+        A function that gets the file's bytes before the run, and raises an error to refuse them.
 
     Returns
     -------
     module
-        What the file defines.
+        The file's module.
     digest : str
-        SHA-256 of the bytes that were run.
+        SHA-256 of the file's bytes.
     """
     name = name or place.stem
-    own, path = re.sub(r"\W", "_", name), hashlib.sha256(os.fsencode(place)).hexdigest()
-    private = f"_{own}_{path[:12]}"
+    stem, path = re.sub(r"\W", "_", name), hashlib.sha256(os.fsencode(place)).hexdigest()
+    private = f"_{stem}_{path[:12]}"
     module = ModuleType(private)
     module.__file__ = str(place)
     try:
-        # Not through the import system: its cache misses the second of two edits within a second.
+        # The import system is not used: its cache misses the second of two edits within a second.
         source = bytes_of(place, "model")
         if check is not None:
             check(source)
@@ -68,7 +68,7 @@ def run_file(
     except (NiwakiError, KeyboardInterrupt):
         raise
     except BaseException as error:
-        # Also SystemExit: a file that ends the program has not said which models it has.
+        # Also SystemExit: a file that ends the program does not define its models.
         line = _last_line(error, place)
         raise InputError(
             "model-file-failed", path=place, reason=f"{type(error).__name__}: {error}{line}"
@@ -77,44 +77,44 @@ def run_file(
 
 
 def public(module: str) -> str:
-    """The name of a module, as it is stored: of a file that was run, the file's."""
+    """Return the public name of a module, which stored data have."""
     return _run[module][0] if module in _run else module
 
 
 def modules(name: str) -> list[ModuleType]:
-    """The modules that a stored name may mean: the last file of that name, and a module that is loaded."""
-    found = [private for private, (own, _) in _run.items() if own == name][-1:]
-    return [sys.modules[one] for one in (*found, name) if one in sys.modules]
+    """Return the modules that a public name may mean: the latest file of the name, and a loaded module."""
+    latest = [private for private, (stem, _) in _run.items() if stem == name][-1:]
+    return [sys.modules[module] for module in (*latest, name) if module in sys.modules]
 
 
 def prefer(place: Path) -> None:
-    """Of the files that have the same name, mean this one from now on."""
+    """Let a public name mean this file from now on."""
     for private, (_, path) in list(_run.items()):
         if path == place:
             _run[private] = _run.pop(private)
 
 
 def files(names: Iterable[str]) -> tuple[tuple[str, Path], ...]:
-    """The names and the files of what stored names mean, of those that mean files."""
+    """Return the public names that mean files, with the files."""
     last = dict(_run.values())
     return tuple((name, last[name]) for name in sorted(set(names) & set(last)))
 
 
 def folders() -> set[str]:
-    """The folders of the files that were run."""
+    """Return the folders of the files that were run."""
     return {str(place.parent) for _, place in _run.values()}
 
 
-def run_files(wanted: Iterable[tuple[str, Path]]) -> None:
-    """Run files that another process has run, unless this one has."""
-    for name, place in wanted:
+def run_files(entries: Iterable[tuple[str, Path]]) -> None:
+    """Run the files that another process has run, unless this process has run them."""
+    for name, place in entries:
         if (name, place) not in _run.values():
             run_file(place, name)
 
 
 @dataclass(frozen=True)
 class _Elsewhere:
-    """Finds a module in all folders but one, so that a file is never imported in place of what has its name."""
+    """A finder of a module in all folders but one, so that a file never replaces a module of the same name."""
 
     name: str
     folder: str
@@ -122,12 +122,12 @@ class _Elsewhere:
     def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
         if name != self.name:
             return None
-        return PathFinder.find_spec(name, [one for one in sys.path if one != self.folder])
+        return PathFinder.find_spec(name, [folder for folder in sys.path if folder != self.folder])
 
 
 @contextmanager
 def _importable(place: Path) -> Iterator[None]:
-    """The folder of a file before all others; afterwards it comes last."""
+    """Make a file's folder importable, before all others in the block and after all others later."""
     folder = str(place.parent)
     elsewhere: Any = _Elsewhere(place.stem, folder)
     sys.path.insert(0, folder)
@@ -142,10 +142,10 @@ def _importable(place: Path) -> Iterator[None]:
 
 
 def _last_line(error: BaseException, place: Path) -> str:
-    """The line of the file where it stopped."""
-    found, trace = "", error.__traceback__
+    """Return the line of the file at which an error happened, for a message."""
+    line, trace = "", error.__traceback__
     while trace is not None:
         if trace.tb_frame.f_code.co_filename == str(place):
-            found = f" (line {trace.tb_lineno})"
+            line = f" (line {trace.tb_lineno})"
         trace = trace.tb_next
-    return found
+    return line

@@ -1,4 +1,4 @@
-"""XML from a person's files: a tree of bounded size and depth."""
+"""XML from users' files, as trees of limited size and depth."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from niwaki.inputs.limits import check
 
 @dataclass(frozen=True)
 class Tree:
-    """A tree and the names of its namespaces.
+    """A tree of elements, and its namespaces.
 
     Attributes
     ----------
     root : Element
     spaces : list of (str, str)
-        Prefix and name, in the order of the file; the prefix of a default one is empty.
+        Prefixes and names, in the order of the file; the default namespace has an empty prefix.
     """
 
     root: Element
@@ -26,7 +26,7 @@ class Tree:
 
 
 class _Builder:
-    """Builds a tree and counts what it builds."""
+    """Builder of a tree, which counts elements, levels and characters."""
 
     def __init__(self, place: str | PathLike[str] | None) -> None:
         self.place = place
@@ -58,18 +58,18 @@ class _Builder:
         return self.tree.close()
 
     def _count(self, more: int) -> None:
-        # Entities make more characters than the file has.
+        # Entities can make more characters than the file has.
         self.characters += more
         check("characters", self.characters, self.place)
 
 
-def xml_of(text: bytes, place: str | PathLike[str] | None, what: str = ".svg") -> Tree:
-    """The tree of an XML file.
+def xml_of(text: bytes, place: str | PathLike[str] | None, kind: str = ".svg") -> Tree:
+    """Return the tree of an XML file.
 
     Raises
     ------
     FileError
-        It is no XML, or has more elements, levels or characters than are read.
+        The text is not XML, or exceeds a limit of elements, levels or characters.
     """
     builder = _Builder(place)
     parser = XMLParser(target=builder)
@@ -78,4 +78,4 @@ def xml_of(text: bytes, place: str | PathLike[str] | None, what: str = ".svg") -
         return Tree(parser.close(), builder.spaces)
     except (ParseError, ValueError, LookupError) as error:
         reason = f"it is not XML: {error!s:.200}"
-        raise FileError("file-unreadable", place, suffix=what, reason=reason) from error
+        raise FileError("file-unreadable", place, suffix=kind, reason=reason) from error

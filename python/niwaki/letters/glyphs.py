@@ -1,7 +1,7 @@
-"""Characters of a font as drawings, and where they are on the page.
+"""Characters of a font as drawings, and their places on the page.
 
-Lengths are those of the plane in which the models draw; a capital is `CAPITAL` high. The font is Quicksand Bold
-(NOTICE): its strokes have one width, about that of the scribbles that the guides have learnt from.
+Lengths are in units of the plane in which the models draw; a capital has the height `CAPITAL`. The font is Quicksand
+Bold (NOTICE): its strokes have one width, about that of the scribbles with which the guides were trained.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from niwaki.targets.images import PAPER
 
 FONT = Path(__file__).parent / "Quicksand-Bold.ttf"
 
-#: Height of a capital, and the side of a pixel, as of drawings of 50 pixels in 24 units.
+#: Height of a capital, and side of a pixel, as in drawings of 50 pixels in 24 units.
 CAPITAL, PIXEL = 22.0, 0.48
-#: Empty pixels around a piece, and pixels that become one.
+#: Empty pixels around a piece; fine pixels along the side of a pixel.
 EDGE, FINE = 4, 8
-#: Between letters beside the font's own distance, and between lines, as shares of a capital's height.
+#: Additional distance between letters, and distance between lines, in heights of a capital.
 TRACKING, LEADING = 0.08, 0.55
-#: The largest size of a font, in pixels; fonts whose capitals are as high as others' need about 500.
+#: The largest size of a font, in pixels; usual fonts need about 500.
 LARGEST = 5000
-#: Letters in a line, about; a longer text goes on in the next.
+#: About the number of letters in a line.
 ACROSS = 14
 #: A character that no font has.
 NONE = "\U000fffff"
@@ -40,16 +40,16 @@ NONE = "\U000fffff"
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Ink of a character in one piece, such as the dot of an i.
+    """A connected piece of a character's ink, such as the dot of an i.
 
     Attributes
     ----------
     greys : (rows, columns) uint8
-        255 where there is no ink.
+        The image; 255 is paper.
     corner : (x, y)
-        The lower left corner of the image, from the character's place on the base line.
+        The lower left corner of the image, relative to the character's place on the base line.
     places : sequence of Place
-        From where it can be grown.
+        The places from which the piece can be grown.
     """
 
     greys: NDArray[np.uint8]
@@ -59,7 +59,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Letter:
-    """A character on the page: its pieces, and its place on the base line of its line of text."""
+    """A character on the page: its pieces, and its place on the base line of its line."""
 
     character: str
     x: float
@@ -68,12 +68,12 @@ class Letter:
 
 
 class Font:
-    """A font in the size in which its capitals have the height `CAPITAL`.
+    """A font, in the size at which its capitals have the height `CAPITAL`.
 
     Parameters
     ----------
     file
-        TrueType or OpenType.
+        A TrueType or OpenType file.
     """
 
     def __init__(self, file: str | PathLike[str] = FONT) -> None:
@@ -87,12 +87,12 @@ class Font:
         self._missing = self._ink(NONE)
 
     def pieces(self, character: str) -> list[Piece]:
-        """The pieces of a character; none of a space.
+        """Return the pieces of a character; none for a space.
 
         Raises
         ------
         InputError
-            The font has no such character.
+            The font does not have the character.
         """
         if character.isspace():
             return []
@@ -103,14 +103,14 @@ class Font:
         return [_piece(ink, part, corner) for part in _parts(ink < 255)]
 
     def along(self, line: str) -> list[float]:
-        """The place of each character of a line, and of its end."""
+        """Return the place of each character of a line, and of the line's end."""
         scale = PIXEL / FINE
         ends = [self._face.getlength(line[: k + 1]) - self._face.getlength(line[k]) for k in range(len(line))]
         wide = TRACKING * CAPITAL
         return [scale * end + wide * k for k, end in enumerate([*ends, self._face.getlength(line)])]
 
     def _ink(self, character: str) -> tuple[NDArray[np.uint8], tuple[float, float]]:
-        """A character in greys with an empty border, and its lower left corner."""
+        """Return a character in greys with an empty border, and its lower left corner."""
         with library(self._place, "a font"):
             box = self._face.getbbox(character, anchor="ls")
             left, top, right, low = (round(side) for side in box)
@@ -120,7 +120,7 @@ class Font:
         edge = EDGE * FINE
         columns, rows = (-(-(side + 2 * edge) // FINE) for side in (right - left, low - top))
         page = Image.new("L", (columns * FINE, rows * FINE))
-        # The lowest row of pixels ends at the lower border of the ink.
+        # The lowest row of pixels ends at the lower edge of the ink.
         above = rows * FINE - edge - low
         with library(self._place, "a font"):
             ImageDraw.Draw(page).text((edge - left, above), character, fill=255, font=self._face, anchor="ls")
@@ -131,7 +131,7 @@ class Font:
 
 
 def _piece(ink: NDArray[np.uint8], part: NDArray[np.bool_], corner: tuple[float, float]) -> Piece:
-    """A part of a character's ink, cropped."""
+    """Crop a part of a character's ink to a piece."""
     rows, columns = np.flatnonzero(part.any(axis=1)), np.flatnonzero(part.any(axis=0))
     top, low = max(rows[0] - EDGE, 0), min(rows[-1] + 1 + EDGE, len(ink))
     left, right = max(columns[0] - EDGE, 0), min(columns[-1] + 1 + EDGE, ink.shape[1])
@@ -141,8 +141,8 @@ def _piece(ink: NDArray[np.uint8], part: NDArray[np.bool_], corner: tuple[float,
 
 
 def _parts(filled: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
-    """The pieces of a shape in which each pixel touches another by a side or a corner; the largest first."""
-    left, found = filled.copy(), []
+    """Return the pieces of a shape, connected by sides or corners of pixels, the largest first."""
+    left, pieces = filled.copy(), []
     while left.any():
         part = np.zeros_like(left)
         part[np.unravel_index(int(left.argmax()), left.shape)] = True
@@ -150,39 +150,39 @@ def _parts(filled: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
         while part.sum() > size:
             size = int(part.sum())
             part = _grown(part) & filled
-        found.append(part)
+        pieces.append(part)
         left &= ~part
-    return sorted(found, key=lambda one: -int(one.sum()))
+    return sorted(pieces, key=lambda piece: -int(piece.sum()))
 
 
 def _grown(part: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """With all neighbours."""
+    """Add all neighbours of a part's pixels."""
     wide = np.pad(part, 1)
     tall = wide[:-2] | wide[1:-1] | wide[2:]
     return np.asarray(tall[:, :-2] | tall[:, 1:-1] | tall[:, 2:])
 
 
 def lines(text: str, across: int = ACROSS) -> list[str]:
-    """A text in lines of about so many letters, broken at spaces, of about the same length."""
-    found = []
+    """Break a text at spaces into lines of about the same length, near `across` letters."""
+    texts = []
     for paragraph in text.strip().splitlines():
         words = paragraph.split()
         total = len(" ".join(words))
-        wanted = total / max(1, -(-total // across))
+        length = total / max(1, -(-total // across))
         line = ""
         for word in words:
             longer = f"{line} {word}".strip()
-            if line and len(longer) > max(wanted + 0.5 * len(word), len(word)):
-                found.append(line)
+            if line and len(longer) > max(length + 0.5 * len(word), len(word)):
+                texts.append(line)
                 line = word
             else:
                 line = longer
-        found.append(line)
-    return [line for line in found if line]
+        texts.append(line)
+    return [line for line in texts if line]
 
 
 def page(text: str, face: Font) -> list[Letter]:
-    """The letters of a text on the page, each line in the middle."""
+    """Return the letters of a text on the page, with centred lines."""
     written: list[Letter] = []
     for row, line in enumerate(lines(text)):
         *places_, end = face.along(line)

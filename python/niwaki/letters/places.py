@@ -1,4 +1,4 @@
-"""Where a shape can be grown from: points deep in its ink, and the directions in which the ink goes on."""
+"""Places from which a shape can be grown: points deep in its ink, and directions in which the ink continues."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from niwaki.targets.drawing import eroded, lowest
 
-#: How far inside of the ink a place is, and how far from another, pixels.
+#: Distances of a place from the edge of the ink, and from another place, in pixels.
 DEEP, APART = 2.0, 6.0
-#: Most places, directions that are tried, most directions from a place, and pixels of ink that one needs.
+#: The most places, the tested directions, the most directions of a place, and the least pixels of ink along one.
 MOST, TURNS, FORKS, REACH = 6, 16, 3, 6
 
 
 @dataclass(frozen=True)
 class Place:
-    """A point in pixels from the lower left corner of the image, and a direction."""
+    """A point, in pixels from the lower left corner of the image, and a direction."""
 
     x: float
     y: float
@@ -26,7 +26,7 @@ class Place:
 
 
 def places(filled: NDArray[np.bool_]) -> list[Place]:
-    """Places of a shape, (rows, columns): its lowest point first, then each time the point farthest from the others."""
+    """Return the places of a shape (rows, columns): its lowest point, then the points farthest from earlier ones."""
     rows, columns = filled.shape
     deep = eroded(filled, DEEP)
     down, across = np.nonzero(deep if deep.any() else filled)
@@ -34,7 +34,7 @@ def places(filled: NDArray[np.bool_]) -> list[Place]:
     x, y = lowest(filled)
     chosen = [(x * columns, y * rows)]
     while len(chosen) < MOST:
-        away = np.min([np.hypot(*(points - one).T) for one in np.array(chosen)], axis=0)
+        away = np.min([np.hypot(*(points - place).T) for place in np.array(chosen)], axis=0)
         if away.max() < APART:
             break
         chosen.append((float(points[away.argmax(), 0]), float(points[away.argmax(), 1])))
@@ -42,7 +42,7 @@ def places(filled: NDArray[np.bool_]) -> list[Place]:
 
 
 def _ahead(filled: NDArray[np.bool_], x: float, y: float) -> list[tuple[float, float]]:
-    """Directions in which the ink goes on for longer than in those beside them; the longest first."""
+    """Return the directions in which the ink reaches farther than in the neighbouring ones, the longest first."""
     rays = [(cos(2.0 * pi * k / TURNS), sin(2.0 * pi * k / TURNS)) for k in range(TURNS)]
     reach = [_reach(filled, x, y, ray) for ray in rays]
     best = [k for k in range(TURNS) if reach[k] >= max(reach[k - 1], reach[(k + 1) % TURNS], REACH)]
@@ -51,7 +51,7 @@ def _ahead(filled: NDArray[np.bool_], x: float, y: float) -> list[tuple[float, f
 
 
 def _reach(filled: NDArray[np.bool_], x: float, y: float, ray: tuple[float, float]) -> int:
-    """Pixels of ink along a ray."""
+    """Return the pixels of ink along a ray."""
     rows, columns = filled.shape
     for far in range(1, int(hypot(rows, columns))):
         column, row = int(x + far * ray[0]), int(rows - (y + far * ray[1]))

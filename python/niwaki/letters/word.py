@@ -1,4 +1,4 @@
-"""A text, grown: every piece of every letter by a population whose choices a guide draws, the best of several tries."""
+"""Grown texts: each piece of each letter is the best of several searches by particles with a guide."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ from niwaki.methods.room import SEARCH
 from niwaki.once import cached_property
 from niwaki.search.checks import check_threads, fresh
 
-#: Models that write.
+#: The models that can write.
 STYLES = ("vines", "lightning")
 
-#: Searches for each piece of a letter, and particles of each.
+#: Searches for each piece of a letter, and particles of each search.
 SEARCHES, PARTICLES = 12, 80
 
-#: Where the lowest ink of a piece is in the plane of the model, as in the drawings that guides have learnt from.
+#: Height of a piece's lowest ink in the model's plane, as in the drawings with which the guides were trained.
 GROUND = -2.0 + glyphs.EDGE * PIXEL
 
-#: Empty paper around the text, as a share of a capital's height.
+#: Margin around the text, in heights of a capital.
 MARGIN = 0.42
 
 
 @dataclass(frozen=True)
 class Grown:
-    """A letter, and what grew into it."""
+    """A letter, and the samples that grew into its pieces."""
 
     letter: Letter
     samples: Sequence[nw.Sample]
 
     @property
     def similarity(self) -> float:
-        """Of its pieces, by their ink."""
+        """The mean similarity of the pieces, weighted by their ink."""
         weights = [int((piece.greys < 255).sum()) for piece in self.letter.pieces]
-        return float(np.average([one.similarity or 0.0 for one in self.samples], weights=weights))
+        return float(np.average([sample.similarity or 0.0 for sample in self.samples], weights=weights))
 
 
 @dataclass(frozen=True)
@@ -66,13 +66,13 @@ class Word:
     Attributes
     ----------
     text : str
-        What it says.
+        The text.
     style : str
-        The model that wrote it.
+        The name of the model that wrote the text.
     seed : int
-        Writes it again.
+        The seed that writes the same text again.
     letters : sequence of Grown
-        Each with its samples; spaces are none.
+        The letters with their samples, without spaces.
     """
 
     text: str
@@ -82,16 +82,17 @@ class Word:
 
     @cached_property
     def scene(self) -> Scene:
-        """All shapes on one page."""
+        """The scene of the page, with all shapes."""
         return Scene(part for parts in self._parts for part in parts)
 
     @cached_property
     def _parts(self) -> list[list[Part]]:
-        """The parts of each letter on the page, in the order in which they grew."""
+        """The parts of each letter on the page, in the order of growth."""
         return [
             [
                 Part(
-                    f"letter{number}/piece{k}/{part.address}", tuple(moved(one, shift) for one in part.shapes)
+                    f"letter{number}/piece{k}/{part.address}",
+                    tuple(moved(shape, shift) for shape in part.shapes),
                 )
                 for k, (piece, sample) in enumerate(zip(grown.letter.pieces, grown.samples, strict=True), 1)
                 for shift in [_shift(grown.letter, piece)]
@@ -102,11 +103,11 @@ class Word:
 
     @cached_property
     def window(self) -> Window:
-        """The page: the text with a margin."""
+        """The corners of the page, the text with a margin."""
         ink = [
-            (one.letter.x + x, one.letter.y + y, piece.greys.shape)
-            for one in self.letters
-            for piece in one.letter.pieces
+            (grown.letter.x + x, grown.letter.y + y, piece.greys.shape)
+            for grown in self.letters
+            for piece in grown.letter.pieces
             for x, y in [piece.corner]
         ]
         edge = PIXEL * glyphs.EDGE - MARGIN * glyphs.CAPITAL
@@ -116,12 +117,12 @@ class Word:
         return (left, low), (right, high)
 
     def size(self, width: int) -> tuple[int, int]:
-        """Width and height in pixels of a picture of that width."""
+        """Return the width and height, in pixels, of a picture of a given width."""
         (left, low), (right, high) = self.window
         return width, max(1, round(width * (high - low) / (right - left)))
 
     def picture(self, width: int = 1600) -> Image:
-        """The page as an image, so many pixels wide."""
+        """Draw the page as an image of a width in pixels."""
         count("width", width, most=LARGEST)
         return drawing(self.scene, size=self.size(width), style=self.style, window=self.window)
 
@@ -129,11 +130,11 @@ class Word:
         return draw.picture.png(self.picture(800))
 
     def svg(self) -> str:
-        """The page as SVG, a group for each part."""
+        """Return the page as SVG, with a group for each part."""
         return svg(self.scene, style=self.style, window=self.window)
 
     def save(self, path: str | PathLike[str], width: int = 1600) -> Path:
-        """Write it as .svg, or as a picture."""
+        """Write the page as .svg or as a picture."""
         place = Path(path)
         if place.suffix.lower() == ".svg":
             return write_whole(place, self.svg().encode())
@@ -142,7 +143,7 @@ class Word:
     def animate(
         self, path: str | PathLike[str], *, width: int = 800, frames: int = 48, seconds: float = 5.0
     ) -> Path:
-        """Write it growing, as .gif or .apng: all letters at a time, each a little after the one before."""
+        """Write an animation of the growth as .gif or .apng, in which the letters start one after the other."""
         count = len(self._parts)
         timed = [
             ((k + 1) / len(parts) + 0.5 * number / count, number, k)
@@ -178,26 +179,27 @@ def write(
     Parameters
     ----------
     text
-        Letters, figures, signs; long texts are broken into lines at spaces.
+        The text; a long text is broken into lines at spaces.
     style
-        "vines" or "lightning": the model of the gallery that writes.
+        The model of the gallery that writes, "vines" or "lightning".
     seed
-        Decides everything; fresh when left out.
+        The seed of all searches; by default a new seed.
     particles
-        Of each search.
+        The number of particles of each search.
     searches
-        How many for each piece of a letter, from several places and in several directions; the best is kept.
+        The number of searches for each piece of a letter, from several places and in several directions; the best
+        result is kept.
     font
-        A TrueType or OpenType file; the package's own when left out.
+        A TrueType or OpenType file; by default the font of the package.
     threads
-        How many to use; the result does not depend on it.
+        The number of threads; the result does not depend on it.
     progress
-        Called with the searches done and in all.
+        A function that is called with the number of finished searches and the number of all searches.
 
     Raises
     ------
     InputError
-        There is nothing to write, the font lacks a character, or there is no such style.
+        The text is empty, the font does not have a character, or the style is unknown.
     """
     seed = fresh(seed)
     at_least_one("particles", particles)
@@ -208,39 +210,39 @@ def write(
         raise bad("style", style, f"one of {', '.join(STYLES)}", f'"{STYLES[0]}"')
     written = glyphs.page(text, glyphs.Font(font or glyphs.FONT))
     if not written:
-        raise bad("text", text, "at least one character that is seen", '"NIWAKI"')
+        raise bad("text", text, "at least one visible character", '"NIWAKI"')
     pieces = [(letter, piece) for letter in written for piece in letter.pieces]
     check_room("searches", searches, len(pieces) * SEARCH, f"search for {len(pieces)} pieces of letters")
     seeds = np.random.default_rng(seed).integers(2**63, size=(len(pieces), searches))
     method = smc(particles, guide=guide, resampling="tempered")
     jobs = [
-        _search(entry.model, piece, method, k, int(own[k]))
-        for (_, piece), own in zip(pieces, seeds, strict=True)
+        _search(entry.model, piece, method, k, int(row[k]))
+        for (_, piece), row in zip(pieces, seeds, strict=True)
         for k in range(searches)
     ]
-    found: list[nw.Sample | None] = []
+    results: list[nw.Sample | None] = []
     with closing(best_of(jobs, check_threads(threads) or cpu_count() or 1)) as samples:
         for sample in samples:
-            found.append(sample)
+            results.append(sample)
             if progress is not None:
-                progress(len(found), len(jobs))
+                progress(len(results), len(jobs))
     best = iter(
-        [_best(found[k * searches : (k + 1) * searches], letter) for k, (letter, _) in enumerate(pieces)]
+        [_best(results[k * searches : (k + 1) * searches], letter) for k, (letter, _) in enumerate(pieces)]
     )
-    return Word(text, style, seed, [Grown(one, [next(best) for _ in one.pieces]) for one in written])
+    return Word(text, style, seed, [Grown(letter, [next(best) for _ in letter.pieces]) for letter in written])
 
 
-def _best(found: Sequence[nw.Sample | None], letter: Letter) -> nw.Sample:
-    alive = [one for one in found if one is not None]
+def _best(results: Sequence[nw.Sample | None], letter: Letter) -> nw.Sample:
+    alive = [sample for sample in results if sample is not None]
     if not alive:
-        raise InputError("letter-lost", name=letter.character, tries=len(found))
-    return max(alive, key=lambda one: one.log_score)
+        raise InputError("letter-lost", name=letter.character, tries=len(results))
+    return max(alive, key=lambda sample: sample.log_score)
 
 
 def _search(
     model: nw.Model[..., Any], piece: Piece, method: nw.methods.Method, try_: int, seed: int
 ) -> nw.Search:
-    """A search for a piece in the middle of the model's plane."""
+    """Return the search for a piece, placed in the middle of the model's plane."""
     rows, columns = piece.greys.shape
     left = -0.5 * columns * PIXEL
     low = GROUND - glyphs.EDGE * PIXEL
@@ -256,14 +258,14 @@ def _search(
 
 
 def _shift(letter: Letter, piece: Piece) -> tuple[float, float]:
-    """From the plane of the model to the page."""
+    """Return the shift from the model's plane to the page."""
     columns = piece.greys.shape[1]
     low = GROUND - glyphs.EDGE * PIXEL
     return letter.x + piece.corner[0] + 0.5 * columns * PIXEL, letter.y + piece.corner[1] - low
 
 
 def moved(shape: Shape, shift: tuple[float, float]) -> Shape:
-    """A flat shape, moved in its plane."""
+    """Return a flat shape, moved in its plane."""
     flat = shape.flat()
     assert flat is not None
     u, v = shift

@@ -1,8 +1,8 @@
-"""Results to turn and look at, in a notebook or as a page that is one file.
+"""Views of results that you can turn, in a notebook or as a page in one file.
 
-- `viewer`  `view`: results as a picture that can be turned, drawn by the studio's stage
+- viewer: `view`, which shows results with the studio's stage
 
-Pictures and numbers of results need nothing from here: each has its own.
+Pictures and tables of results in a notebook do not need this package.
 """
 
 import lazy_loader

@@ -1,7 +1,7 @@
-"""Scenes to turn and look at: meshes and the studio's stage, together in one page that asks for nothing from elsewhere.
+"""Views of scenes: a page with the meshes and the studio's stage, which loads nothing from elsewhere.
 
-In a notebook the page is the content of a frame, so that no server and no extension is needed, and a notebook that is
-saved as HTML still shows it. Each page has the stage in it, 0.6 MB: the script that the studio's page imports.
+In a notebook the page is the content of a frame: it needs no server and no extension, and a notebook that is saved as
+HTML still shows it. Each page contains the stage, the script of 0.6 MB that the studio's page imports.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ from niwaki.studio.frames import frame
 from niwaki.studio.worker import shapes
 from niwaki.targets.target import Target
 
-#: Pixels of the frame in a notebook: the stage and its line of buttons.
+#: Height in pixels of the frame in a notebook: the stage and its line of buttons.
 HEIGHT = 470
 
-#: A browser that reads this fetches nothing, whatever the page says.
+#: The policy by which a browser loads nothing, whatever the page contains.
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
 
 
@@ -43,57 +43,57 @@ def view(
     target: Target | bool = True,
     most: int = 12,
 ) -> View:
-    """Show results that can be turned, with the mouse or a finger; a click names the part that is under it.
+    """Show results that you can turn with the mouse or a finger; a click shows the name of a part.
 
     Parameters
     ----------
     shown
-        A result (its samples, best first), a sample, a scene, or several.
+        A result (its samples, best first), a sample, a scene, or several samples and scenes.
     target
-        Drawn as a ghost: that of the first sample, another one, or none where it is False.
+        The target, drawn as a ghost: True for the target of the first sample, a target, or False for none.
     most
-        How many at most. A ship of 20 parts takes 0.2 MB.
+        The most results of the view. A ship of 20 parts takes 0.2 MB.
 
     Returns
     -------
     View
-        A notebook shows it; `save("ship.html")` writes it as a page.
+        A view that a notebook shows; `save("ship.html")` writes it as a page.
 
     Raises
     ------
     InputError
-        There is nothing to show.
+        There are no results.
     """
     at_least_one("most", most)
     listed: list[Sample | Scene]
     if isinstance(shown, Result):
-        ranked = sorted(shown.samples, key=lambda one: -one.log_score)
+        ranked = sorted(shown.samples, key=lambda sample: -sample.log_score)
         listed = [*ranked] if ranked else [shown.best]
     else:
         listed = [shown] if isinstance(shown, Sample | Scene) else list(shown)
     if not listed:
         raise bad("shown", shown, "at least one sample or scene", "the result of a search")
-    chosen = [_frame(one) for one in listed[:most]]
+    chosen = [_frame(entry) for entry in listed[:most]]
     if target is True:
         target = getattr(listed[0], "target", None) or False
     return View([*([_ghost(target)] if isinstance(target, Target) else []), *chosen])
 
 
 class View:
-    """Scenes that can be turned.
+    """A view of scenes that you can turn.
 
     Attributes
     ----------
     frames : list of bytes
-        A mesh with its header each, as `niwaki.studio.frames` describes them.
+        Meshes with their headers, as `niwaki.studio.frames` describes them.
     """
 
     def __init__(self, frames: list[bytes]) -> None:
         self.frames = frames
 
     def html(self) -> str:
-        """The page, whole."""
-        data = json.dumps([base64.b64encode(zlib.compress(one)).decode() for one in self.frames])
+        """Return the complete page."""
+        data = json.dumps([base64.b64encode(zlib.compress(frame)).decode() for frame in self.frames])
         return (
             '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Niwaki</title>'
             f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
@@ -103,11 +103,11 @@ class View:
         )
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the page into a file that any browser opens, and that needs no other file."""
+        """Write the page into a file that any browser opens without other files."""
         return write_whole(Path(path), self.html().encode())
 
     def widget(self) -> Any:
-        """The same as an anywidget, whose `frames` can be given new values.
+        """Return the view as an anywidget whose `frames` you can replace.
 
         Raises
         ------
@@ -117,8 +117,8 @@ class View:
         anywidget = optional("anywidget", "a widget", "notebook")
         traitlets = optional("traitlets", "a widget", "notebook")
         frames = traitlets.List(traitlets.Bytes()).tag(sync=True)
-        made = type("Viewer", (anywidget.AnyWidget,), {"_esm": stage(), "frames": frames})
-        return made(frames=self.frames)
+        viewer = type("Viewer", (anywidget.AnyWidget,), {"_esm": stage(), "frames": frames})
+        return viewer(frames=self.frames)
 
     def _repr_html_(self) -> str:
         return (
@@ -132,17 +132,17 @@ class View:
 
 @cache
 def stage() -> str:
-    """The script of the stage; what would end its element is written otherwise."""
+    """Return the script of the stage, with its end tags escaped."""
     script = files("niwaki.studio").joinpath("page", "view.js").read_text(encoding="utf-8")
     return script.replace("</script", "<\\/script")
 
 
-def _frame(one: Sample | Scene) -> bytes:
-    if isinstance(one, Sample):
-        fit = "" if one.fit is None else f", {one.fit}"
-        scene, note = one.scene, f"log score {one.log_score:.2f}{fit}, {one.primitives} primitives"
+def _frame(result: Sample | Scene) -> bytes:
+    if isinstance(result, Sample):
+        fit = "" if result.fit is None else f", {result.fit}"
+        scene, note = result.scene, f"log score {result.log_score:.2f}{fit}, {result.primitives} primitives"
     else:
-        scene, note = one, f"{len(one)} parts"
+        scene, note = result, f"{len(result)} parts"
     header, payload = shapes.shape(scene, "fine", role="result", is_flat=is_flat(scene), note=note)
     return frame(msgspec.json.encode(header), payload)
 

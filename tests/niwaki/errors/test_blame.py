@@ -1,4 +1,4 @@
-"""Claim: a message about an argument names that argument, and its help is a cure for what is there.
+"""Claim: a message about an argument names the argument, and its help suits the value.
 
 Every parameter of every shape gets a value of another kind, in the engine and as plain Python: about 90 calls.
 """
@@ -27,8 +27,8 @@ FITS: dict[str, Any] = {
     "Color": (1, 0, 0),
     "Bark": ((0, 0, 0), 1, (0, 1, 0), 1),
 }
-#: Arguments of words that do not take any.
-OWN: dict[str, dict[str, Any]] = {
+#: Required arguments of words for which `FITS` has none.
+REQUIRED: dict[str, dict[str, Any]] = {
     "limb": {"start": (0, 0, 0), "end": (0, 1, 0)},
     "segment": {"start": FRAME, "split": UPPER, "end": TOP},
     "mesh": {
@@ -36,8 +36,8 @@ OWN: dict[str, dict[str, Any]] = {
         "faces": [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)],
     },
 }
-#: Letters have a message of their own, and in plain Python NumPy reads meshes.
-OTHERS = {("box", "taper_axis"), ("cylinder", "axis"), ("mesh", "vertices"), ("mesh", "faces")}
+#: Letters have another message, and in plain Python NumPy reads meshes.
+EXCEPTIONS = {("box", "taper_axis"), ("cylinder", "axis"), ("mesh", "vertices"), ("mesh", "faces")}
 
 
 def cases() -> list[tuple[Any, str]]:
@@ -45,19 +45,19 @@ def cases() -> list[tuple[Any, str]]:
         (word, name)
         for word in SHAPES
         for name in inspect.signature(word).parameters
-        if (word.__name__, name) not in OTHERS
+        if (word.__name__, name) not in EXCEPTIONS
     ]
 
 
-@pytest.mark.parametrize(("word", "name"), cases(), ids=lambda one: getattr(one, "__name__", one))
-def test_a_value_of_another_kind_is_blamed_on_its_parameter(word: Any, name: str) -> None:
+@pytest.mark.parametrize(("word", "name"), cases(), ids=lambda value: getattr(value, "__name__", value))
+def test_the_error_about_a_wrong_type_names_its_parameter(word: Any, name: str) -> None:
     rows = _engine.SHAPES[word.__name__][1]
-    own = [row[0] for row in rows]
-    given = {row[0]: FITS.get(row[1]) for row in rows} | OWN.get(word.__name__, {})
-    assert word(**given) is not None
+    names = [row[0] for row in rows]
+    arguments = {row[0]: FITS.get(row[1]) for row in rows} | REQUIRED.get(word.__name__, {})
+    assert word(**arguments) is not None
     with pytest.raises(Exception, match=f"`{name}` of `{word.__name__}` takes") as caught:
-        word(**{**given, name: "#ff0000"})
-    assert not any(f"`{other}`" in str(caught.value) for other in own if other != name)
+        word(**{**arguments, name: "#ff0000"})
+    assert not any(f"`{other}`" in str(caught.value) for other in names if other != name)
 
 
 def _limb(end: tuple[float, float, float], normal: Any = None) -> Any:
@@ -100,12 +100,14 @@ def frequent() -> int:
     ],
 )
 @pytest.mark.parametrize("run", [nw.run, nw.run_python])
-def test_what_is_blamed(model: Any, there: list[str], not_there: list[str], run: Any) -> None:
+def test_the_error_names_the_wrong_argument(
+    model: Any, there: list[str], not_there: list[str], run: Any
+) -> None:
     with pytest.raises(nw.ModelFault) as caught:
         run(model, seed=1)
-    said = str(caught.value).split("-->")[0] + str(caught.value).split("= ", 1)[1]
-    assert all(text in said for text in there), said
-    assert not any(text in said for text in not_there), said
+    text = str(caught.value).split("-->")[0] + str(caught.value).split("= ", 1)[1]
+    assert all(part in text for part in there), text
+    assert not any(part in text for part in not_there), text
 
 
 def item() -> dict[str, int]:
@@ -141,7 +143,7 @@ def listed() -> list[int]:
         (listed, "for a list write `xs = xs[:1] + [value] + xs[1 + 1:]`", "popitem"),
     ],
 )
-def test_a_cure_is_one_for_what_is_changed(function: Any, there: str, not_there: str) -> None:
+def test_the_help_suits_the_changed_value(function: Any, there: str, not_there: str) -> None:
     with pytest.raises(nw.ModelError) as caught:
         nw.model(function).core()
     help = str(caught.value).split("= help: ")[1]

@@ -1,4 +1,4 @@
-"""The manual has a page for each error, as in the table (`python -m niwaki.errors.catalogue docs/errors`)."""
+"""Claim: the manual has a page for each error, as in the table (`python -m niwaki.errors.catalogue docs/errors`)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RAISED = re.compile(
 )
 
 
-def test_the_pages_are_those_of_the_table() -> None:
+def test_the_pages_agree_with_the_table() -> None:
     written = {path.name: path.read_text() for path in FOLDER.glob("*.md") if path.name != "index.md"}
     assert written == pages()
     assert set(written) == {f"{code}.md" for code in MESSAGES}
@@ -33,6 +33,6 @@ def test_every_page_has_a_cure() -> None:
 def test_every_code_in_the_sources_has_a_page() -> None:
     sources = [*ROOT.glob("crates/*/src/**/*.rs"), *ROOT.glob("python/niwaki/**/*.py")]
     texts = [path.read_text().partition("#[cfg(test)]\nmod tests")[0] for path in sources]
-    codes = {code for text in texts for found in RAISED.findall(text) for code in found if code}
+    codes = {code for text in texts for match in RAISED.findall(text) for code in match if code}
     assert len(codes) > 100
     assert codes <= set(MESSAGES), sorted(codes - set(MESSAGES))

@@ -1,4 +1,4 @@
-"""Each extra is in one table, and whoever needs one that is missing is told the command that installs it."""
+"""Claim: a table has each extra, and the error about a missing extra has the command that installs it."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from niwaki.shell.app import app
 from niwaki.stacks import judges
 from typer.testing import CliRunner
 
-#: Extras of those who work on the package.
-OWN = {"bench", "bench-hmc", "browser", "build", "docs", "guides-oracle", "lint", "test"}
+#: Extras for the development of the package.
+INTERNAL = {"bench", "bench-hmc", "browser", "build", "docs", "guides-oracle", "lint", "test"}
 
 
 @model
@@ -44,7 +44,7 @@ def on(engine: str) -> Callable[[Path], object]:
     return lambda _: clusters.ENGINES[engine](1).__enter__()
 
 
-#: An extra, a library of it, and who needs it.
+#: An extra, a library of it, and a function that needs the library.
 NEEDS: list[tuple[str, str, Callable[[Path], object]]] = [
     ("arviz", "arviz", lambda _: diagnostics.to_arviz({"x": np.zeros((2, 10))})),
     ("cluster", "distributed", on("dask")),
@@ -59,7 +59,7 @@ NEEDS: list[tuple[str, str, Callable[[Path], object]]] = [
 
 
 @pytest.mark.parametrize(("extra", "library", "use"), NEEDS, ids=[library for _, library, _ in NEEDS])
-def test_who_needs_an_extra_is_told_the_command(
+def test_the_error_about_a_missing_extra_has_the_command(
     extra: str, library: str, use: Callable[[Path], object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, library, None)
@@ -72,7 +72,7 @@ def test_who_needs_an_extra_is_told_the_command(
 def test_the_table_has_every_extra_that_users_install() -> None:
     project = Path(__file__).parents[3] / "pyproject.toml"
     extras = tomllib.loads(project.read_text())["project"]["optional-dependencies"]
-    assert set(EXTRAS) == set(extras) - OWN == {extra for extra, _, _ in NEEDS}
+    assert set(EXTRAS) == set(extras) - INTERNAL == {extra for extra, _, _ in NEEDS}
 
 
 #: A module of Python that another system has, and a library that the system lacks.
@@ -83,7 +83,7 @@ FAILURES = {
 
 
 @pytest.mark.parametrize("missing", FAILURES)
-def test_what_is_installed_and_does_not_load_says_why(
+def test_the_error_about_a_broken_library_has_the_reason(
     missing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "a_broken_library.py").write_text(FAILURES[missing].format(missing))

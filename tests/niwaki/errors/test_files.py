@@ -1,4 +1,4 @@
-"""A file is written whole or not at all, whoever else writes and reads it, and whatever ends the process."""
+"""Claim: a file is written whole or not at all, also with other writers and readers, and when the process ends."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from niwaki.errors.folders import LEFT_OVER, held_folder
 
 UNIX = pytest.mark.skipif(os.name == "nt", reason="Unix only")
 
-#: Several times what a pipe or a page holds, so that a torn file would be seen.
+#: Several times the size of a pipe or a page, so that a reader would see a torn file.
 SIZE = 300_000
 
 WRITER = f"""
@@ -41,7 +41,7 @@ def is_whole(data: bytes) -> bool:
 
 
 def watched(place: Path, running: Callable[[], bool]) -> list[bytes]:
-    """What a reader saw that was not one whole file."""
+    """Return the ends of the torn files that a reader saw."""
     torn, reads = [], 0
     while running() or reads == 0:
         data = place.read_bytes()
@@ -55,7 +55,7 @@ def names(folder: Path) -> set[str]:
     return {place.name for place in folder.iterdir()}
 
 
-def test_threads_that_save_one_file_tear_nothing(tmp_path: Path) -> None:
+def test_threads_that_save_the_same_file_do_not_tear_it(tmp_path: Path) -> None:
     place = write_whole(tmp_path / "one.bin", b"x" * SIZE)
 
     done: list[str] = []
@@ -73,7 +73,7 @@ def test_threads_that_save_one_file_tear_nothing(tmp_path: Path) -> None:
     assert names(tmp_path) == {"one.bin"}
 
 
-def test_processes_that_save_one_file_tear_nothing(tmp_path: Path) -> None:
+def test_processes_that_save_the_same_file_do_not_tear_it(tmp_path: Path) -> None:
     place = write_whole(tmp_path / "one.bin", b"x" * SIZE)
     command = [sys.executable, "-c", WRITER, str(place)]
     children = [subprocess.Popen([*command, letter, "20"]) for letter in "abcd"]
@@ -83,7 +83,7 @@ def test_processes_that_save_one_file_tear_nothing(tmp_path: Path) -> None:
 
 
 @UNIX
-def test_a_kill_leaves_the_whole_file_that_was_there(tmp_path: Path) -> None:
+def test_a_kill_leaves_the_old_file_whole(tmp_path: Path) -> None:
     place = write_whole(tmp_path / "one.bin", b"x" * SIZE)
     chance = random.Random(0)
     for _ in range(5):
@@ -117,7 +117,7 @@ def test_a_link_keeps_pointing_to_the_file(tmp_path: Path) -> None:
 
 
 @UNIX
-def test_what_is_no_regular_file_is_never_replaced(tmp_path: Path) -> None:
+def test_only_regular_files_are_replaced(tmp_path: Path) -> None:
     pipe, folder = tmp_path / "pipe", tmp_path / "folder"
     os.mkfifo(pipe)
     folder.mkdir()
@@ -137,7 +137,7 @@ def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 @UNIX
-def test_a_full_disk_leaves_the_file_that_was_there(tmp_path: Path) -> None:
+def test_a_full_disk_leaves_the_old_file(tmp_path: Path) -> None:
     # A limit of the system on the size of files stops a write half-way, as a full disk does.
     place = tmp_path / "one.bin"
     place.write_bytes(b"first")
@@ -158,7 +158,7 @@ except FileError as error:
 
 
 @pytest.mark.parametrize("raised", [OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), KeyboardInterrupt()])
-def test_whatever_stops_a_write_leaves_no_part(
+def test_an_interrupted_write_leaves_no_part(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, raised: BaseException
 ) -> None:
     place = tmp_path / "one.bin"
@@ -216,8 +216,8 @@ def test_a_disk_that_fails_at_any_call_leaves_the_old_file_or_the_new_one(tmp_pa
         seen.append((trial.fault, trial.call))
         assert trial.error is None or isinstance(trial.error, FileError), trial
         assert [place.name for place in trial.folder.iterdir()] == ["one.bin"], trial
-        found = (trial.folder / "one.bin").read_bytes()
-        assert found in (b"first" * SIZE, b"second" * SIZE), trial
+        data = (trial.folder / "one.bin").read_bytes()
+        assert data in (b"first" * SIZE, b"second" * SIZE), trial
         # Without an error the bytes are there.
-        assert trial.error is not None or found == b"second" * SIZE, trial
+        assert trial.error is not None or data == b"second" * SIZE, trial
     assert {("short", "write"), ("full", "write"), ("EIO", "fsync"), ("EACCES", "replace")} <= set(seen)

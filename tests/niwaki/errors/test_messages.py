@@ -1,4 +1,4 @@
-"""Every message can be drawn, every code that is raised is in the table, and every code of the table is raised."""
+"""Claim: every message renders, every raised code is in the table, and every code of the table is raised."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from specification import PRELUDE, load
 REPOSITORY = Path(__file__).parents[3]
 GOLDEN = REPOSITORY / "tests" / "golden"
 
-# Raised by parts of the house that are not built yet; the list may only shrink.
+# Codes that no source raises by name; the list may only shrink.
 AWAITED = {
     *(
         "missing-file unknown-file-kind unreadable-file empty-mesh non-finite-mesh bad-face no-cell-filled"
@@ -55,9 +55,9 @@ def test_codes_and_titles_have_the_house_style() -> None:
 
 
 def refused(message: Message) -> ModelError:
-    with pytest.raises(ModelError) as found:
+    with pytest.raises(ModelError) as caught:
         load(message.example, "model.py").core()
-    return found.value
+    return caught.value
 
 
 @pytest.mark.parametrize("message", LANGUAGE, ids=lambda message: message.code)
@@ -105,9 +105,9 @@ def test_the_layout_is_the_one_of_the_style_guide() -> None:
         "def tree(n):\n    xs = []\n    for i in range(n):\n        xs.append(branch(i))\n    return xs\n"
         "def branch(i):\n    return i\n@model\ndef m():\n    return tree(2)\n"
     )
-    with pytest.raises(ModelError) as found:
+    with pytest.raises(ModelError) as caught:
         load(text, "tree.py").core()
-    assert str(found.value) == (
+    assert str(caught.value) == (
         "error[changes-a-value]: a model cannot change a value in place\n"
         "  --> tree.py:15:9\n"
         "   |\n"

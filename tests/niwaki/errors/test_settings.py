@@ -1,4 +1,4 @@
-"""Claim: numbers of settings are held against their bounds, and the message says these."""
+"""Claim: numbers of settings are checked against their bounds, and the message has the bounds."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from niwaki.errors.settings import real
 )
 def test_bounds(bounds: tuple[Any, ...], good: list[Any], bad: list[Any], expected: str) -> None:
     for value in good:
-        found = real("x", value, *bounds)
-        assert isinstance(found, float) and found == value
+        number = real("x", value, *bounds)
+        assert isinstance(number, float) and number == value
     for value in bad:
         with pytest.raises(InputError) as refused:
             real("x", value, *bounds)

@@ -1,4 +1,4 @@
-"""Claim: a warning names the user's line that called the package, however deep in the package it is found."""
+"""Claim: a warning names the user's line that called the package, however deep in the package its cause is."""
 
 from __future__ import annotations
 
@@ -22,5 +22,5 @@ def test_warnings_name_the_users_line(tmp_path: Path) -> None:
         nw.Target(open_box.vertices, faces)
         line = inspect.currentframe().f_lineno - 1  # type: ignore[union-attr]
         targets.asks.score(targets.asks.asked({"target": str(file)}))
-    assert [one.filename for one in caught] == [__file__] * 2
-    assert [one.lineno for one in caught] == [line, line + 2]
+    assert [warning.filename for warning in caught] == [__file__] * 2
+    assert [warning.lineno for warning in caught] == [line, line + 2]

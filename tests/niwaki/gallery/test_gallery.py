@@ -1,4 +1,4 @@
-"""Claim: models with a target run in plain Python and on the engine, and grow; free ships are the dissertation's.
+"""Claim: models with a target run in plain Python and on the engine, and grow; free ships agree with the dissertation.
 
 Rates of false alarms, each for a fresh seed, under the null that the published facts hold: the number of primitives is
 off by more than 4 standard errors in 6e-5 of the cases; a share of 0.32 in 600 samples has a standard error of 0.019,
@@ -19,28 +19,28 @@ from niwaki.gallery.spaceship import spaceship
 from niwaki.shell.demo import demo
 from niwaki.targets import drawings
 
-GALLERY = [one for one in entries() if one.target_name is not None]
-DRAWERS = [one for one in entries() if one.draws is not None]
+GALLERY = [gallery_entry for gallery_entry in entries() if gallery_entry.target_name is not None]
+DRAWERS = [gallery_entry for gallery_entry in entries() if gallery_entry.draws is not None]
 FEW = 60
 
 
-def named(one: Entry) -> str:
-    return one.name
+def named(gallery_entry: Entry) -> str:
+    return gallery_entry.name
 
 
-@pytest.mark.parametrize("one", [*GALLERY, *DRAWERS], ids=named)
-def test_lowers_and_runs(one: Entry) -> None:
-    assert one.title and "\n" not in one.title
-    assert one.model.core().text.startswith("(module")
-    result = nw.run(one.model, method=nw.forward(20), seed=1)
+@pytest.mark.parametrize("gallery_entry", [*GALLERY, *DRAWERS], ids=named)
+def test_models_compile_and_run(gallery_entry: Entry) -> None:
+    assert gallery_entry.title and "\n" not in gallery_entry.title
+    assert gallery_entry.model.core().text.startswith("(module")
+    result = nw.run(gallery_entry.model, method=nw.forward(20), seed=1)
     assert len(result) == 20
     assert all(sample.has_ended and sample.primitives > 0 for sample in result)
 
 
-@pytest.mark.parametrize("one", [*GALLERY, *DRAWERS], ids=named)
-def test_plain_python_makes_the_same_scene(one: Entry) -> None:
-    here = nw.run(one.model, seed=4).best
-    plain = nw.run_python(one.model, choices=here.choices)
+@pytest.mark.parametrize("gallery_entry", [*GALLERY, *DRAWERS], ids=named)
+def test_plain_python_makes_the_same_scene(gallery_entry: Entry) -> None:
+    here = nw.run(gallery_entry.model, seed=4).best
+    plain = nw.run_python(gallery_entry.model, choices=here.choices)
     assert plain.log_prior == pytest.approx(here.log_prior, rel=1e-12)
     scene = Scene(plain.scene)
     assert [part.address for part in scene] == [part.address for part in here.scene]
@@ -49,32 +49,34 @@ def test_plain_python_makes_the_same_scene(one: Entry) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:the best result is an empty scene")
-@pytest.mark.parametrize("one", GALLERY, ids=named)
-def test_grows_and_grows_again(one: Entry) -> None:
-    target = one.target()
+@pytest.mark.parametrize("gallery_entry", GALLERY, ids=named)
+def test_models_grow_the_same_result_again(gallery_entry: Entry) -> None:
+    target = gallery_entry.target()
     assert target is not None
-    nothing = nw.grow(empty, target, particles=1, voxel=one.voxel, seed=1).best
-    first = nw.grow(one.model, target, particles=FEW, voxel=one.voxel, runs=3, seed=1)
-    again = nw.grow(one.model, target, particles=FEW, voxel=one.voxel, runs=3, seed=1, threads=1)
+    empty_scene = nw.grow(empty, target, particles=1, voxel=gallery_entry.voxel, seed=1).best
+    first = nw.grow(gallery_entry.model, target, particles=FEW, voxel=gallery_entry.voxel, runs=3, seed=1)
+    again = nw.grow(
+        gallery_entry.model, target, particles=FEW, voxel=gallery_entry.voxel, runs=3, seed=1, threads=1
+    )
     assert [sample.choices for sample in first] == [sample.choices for sample in again]
     assert [sample.log_score for sample in first] == [sample.log_score for sample in again]
     for sample in first:
         assert sample.has_ended
-        assert sample.log_score > nothing.log_score + 5.0
+        assert sample.log_score > empty_scene.log_score + 5.0
 
 
 @pytest.mark.filterwarnings("ignore:the best result is an empty scene")
-@pytest.mark.parametrize("one", DRAWERS, ids=named)
-def test_draws_and_draws_again(one: Entry) -> None:
-    assert one.window is not None
-    if one.score is None:
-        assert one.drawing_name is not None
-        drawing = drawings.drawing(one.drawing_name)
-        score, start = drawing.score(one.window), drawing.place(one.window)
+@pytest.mark.parametrize("gallery_entry", DRAWERS, ids=named)
+def test_drawing_models_draw_the_same_result_again(gallery_entry: Entry) -> None:
+    assert gallery_entry.window is not None
+    if gallery_entry.score is None:
+        assert gallery_entry.drawing_name is not None
+        drawing = drawings.drawing(gallery_entry.drawing_name)
+        score, start = drawing.score(gallery_entry.window), drawing.place(gallery_entry.window)
     else:
-        score, start = one.score(), ()
-    first = nw.grow(one.model, None, *start, score=score, particles=100, runs=2, seed=1)
-    again = nw.grow(one.model, None, *start, score=score, particles=100, runs=2, seed=1, threads=1)
+        score, start = gallery_entry.score(), ()
+    first = nw.grow(gallery_entry.model, None, *start, score=score, particles=100, runs=2, seed=1)
+    again = nw.grow(gallery_entry.model, None, *start, score=score, particles=100, runs=2, seed=1, threads=1)
     assert [(sample.log_score, sample.choices) for sample in first] == [
         (sample.log_score, sample.choices) for sample in again
     ]
@@ -85,24 +87,24 @@ def test_draws_and_draws_again(one: Entry) -> None:
 def test_vines_follow_letters_as_the_dissertation_says() -> None:
     """A median similarity of about 0.8 with 600 particles (6.5.2): of ten glyphs above 0.6, and none is a stump."""
     names = drawings.names("glyphs")[::20]
-    found = []
+    similarities = []
     for seed, name in enumerate(names):
-        one = drawings.drawing(name)
-        start, score = one.place(vines.WINDOW), one.score(vines.WINDOW)
+        drawing = drawings.drawing(name)
+        start, score = drawing.place(vines.WINDOW), drawing.score(vines.WINDOW)
         best = nw.grow(
             vines.vines, None, *start, score=score, particles=600, resampling="tempered", seed=seed
         ).best
-        found.append(best.similarity or 0.0)
-    assert np.median(found) > 0.6 and min(found) > 0.1
+        similarities.append(best.similarity or 0.0)
+    assert np.median(similarities) > 0.6 and min(similarities) > 0.1
 
 
 def test_the_tree_fills_most_of_its_target() -> None:
-    """A designer's bar, not a theorem: with the shell's population each of ten trees is one to show."""
-    one = entry("niwaki-tree")
-    assert one is not None
-    target = one.target()
+    """Require a similarity above 0.9 for ten trees with the shell's population; a standard of design, not a theorem."""
+    tree = entry("niwaki-tree")
+    assert tree is not None
+    target = tree.target()
     assert target is not None
-    trees = nw.grow(one.model, target, particles=300, voxel=one.voxel, runs=10, seed=1)
+    trees = nw.grow(tree.model, target, particles=300, voxel=tree.voxel, runs=10, seed=1)
     assert min(sample.similarity or 0.0 for sample in trees) > 0.9
     assert len({round(sample.log_score, 6) for sample in trees}) == 10
 
@@ -113,7 +115,7 @@ def test_ships_have_as_many_primitives_as_published() -> None:
     assert abs(sum(counts) / 400 - 16.35) < 4.0 * 6.4 / math.sqrt(400)
 
 
-def test_a_third_of_the_ships_run_through_themselves() -> None:
+def test_a_third_of_the_ships_intersect_themselves() -> None:
     """By the rule of surfaces, touching too: 0.32 of the forward runs."""
     score = nw.no_self_intersection("surface")
     ships = nw.run(spaceship, method=nw.importance(600), score=score, seed=1)
@@ -124,9 +126,9 @@ def test_a_third_of_the_ships_run_through_themselves() -> None:
 def test_the_demo_leaves_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("niwaki.shell.demo.RUNS", 2)
     demo(tmp_path)
-    for one in GALLERY:
+    for gallery_entry in GALLERY:
         for name in ("best.glb", "best.png", "sheet.png", "run.json"):
-            assert (tmp_path / one.name / name).stat().st_size > 0, f"{one.name}/{name}"
+            assert (tmp_path / gallery_entry.name / name).stat().st_size > 0, f"{gallery_entry.name}/{name}"
 
 
 @nw.model

@@ -29,12 +29,12 @@ PROGRAMS = {
 }
 
 
-def same(a: Any, b: Any) -> bool:
-    """Equal structure; reals to 1e-12."""
+def is_close(a: Any, b: Any) -> bool:
+    """Return whether values have equal structures, and reals that agree to 1e-12."""
     if isinstance(a, (list, tuple)):
-        return type(a) is type(b) and len(a) == len(b) and all(map(same, a, b))
+        return type(a) is type(b) and len(a) == len(b) and all(map(is_close, a, b))
     if isinstance(a, nw.words.Vec):
-        return isinstance(b, nw.words.Vec) and same(a.parts, b.parts)
+        return isinstance(b, nw.words.Vec) and is_close(a.parts, b.parts)
     return math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
 
 
@@ -44,24 +44,24 @@ def test_plain_python_agrees(name: str) -> None:
     for seed in range(3):
         there = nw.run(model, *args, seed=seed).best
         here = nw.run_python(model, *args, choices=there.choices)
-        assert same(here.value, there.value)
+        assert is_close(here.value, there.value)
         assert here.log_prior == pytest.approx(there.log_prior, rel=1e-12)
         assert here.log_score == pytest.approx(there.log_score, rel=1e-12)
 
 
 def test_coin() -> None:
-    found = nw.run(coin.coin, method=coin.METHOD).distribution()
-    assert found == pytest.approx({1: 1 / 3, 2: 1 / 2, 3: 1 / 6})
+    distribution = nw.run(coin.coin, method=coin.METHOD).distribution()
+    assert distribution == pytest.approx({1: 1 / 3, 2: 1 / 2, 3: 1 / 6})
 
 
-def test_the_data_grow_from_the_front() -> None:
+def test_smaller_data_are_the_first_part_of_larger_data() -> None:
     assert data.hidden_chain(1000).observations[:100] == data.hidden_chain(100).observations
     assert data.documents(50)[:5] == data.documents(5)
     assert data.clusters(1000)[:100] == data.clusters(100)
     assert data.growth(200)[:20] == data.growth(20)
 
 
-def test_hidden_states_are_those_of_forward_backward() -> None:
+def test_hidden_states_agree_with_forward_backward() -> None:
     """20,000 runs, weighted, of a chain of 3 steps; 30 marginals, each within 4.9 standard errors (1e-6 each)."""
     steps, chain = 3, hmm.CHAIN
     initial, transition = np.array(chain.initial), np.array(chain.transition)
@@ -90,7 +90,7 @@ def test_hidden_states_are_those_of_forward_backward() -> None:
     assert abs(share - blind[int(np.argmax(np.abs(blind - exact[1])))]) > 4.9 * error
 
 
-def test_things_are_closed_and_measured() -> None:
+def test_furnishings_are_closed_and_have_their_radii() -> None:
     from niwaki import Target
 
     for parts in (furniture.TABLE, furniture.CHAIR, furniture.PLATE, furniture.CUP, furniture.WALLS):
@@ -135,7 +135,7 @@ def test_dishes_lie_on_their_tables(cafe: nw.Sample) -> None:
 
 def test_the_shop_is_the_same_in_plain_python(cafe: nw.Sample) -> None:
     here = nw.run_python(furniture.coffee_shop, choices=cafe.choices)
-    assert same(here.value, cafe.value)
+    assert is_close(here.value, cafe.value)
     assert sorted(address for address, _ in here.scene) == sorted(part.address for part in cafe.scene)
 
 
@@ -163,13 +163,13 @@ def test_palettes_are_harmonious(seed: int) -> None:
 
 # A few of 48,000 trajectories diverge and are rejected, which is of no consequence for designs.
 @pytest.mark.filterwarnings("ignore:.* diverged:niwaki.result.hmc.GradientWarning")
-def test_one_chain_comes_through_many_harmonies() -> None:
+def test_a_chain_visits_many_harmonies() -> None:
     result = nw.run(harmonies.harmonies, harmonies.METHOD, seed=1)
     drawn = [sample.value for sample in result]
     assert len({scheme for scheme, _ in drawn}) >= 3
     assert sum(a != b for (a, _), (b, _) in pairwise(drawn)) > 10
-    (one,) = result.trajectories
-    assert one.structures > 50 and one.acceptance > 0.5 and one.unwritten == 0
+    (trajectory,) = result.trajectories
+    assert trajectory.structures > 50 and trajectory.acceptance > 0.5 and trajectory.unwritten == 0
     for scheme, colors in drawn[::20]:
         assert len(colors) == harmonies.COLORS
         off = [nw.words.color_difference(a, b) - harmonies.APART for a, b in pairwise(colors)]

@@ -1,4 +1,4 @@
-"""Claim: no file makes a reader wait, end the process, take all memory, or fail in any way but by an error of ours."""
+"""Claim: no file makes a reader wait, end the process, take all memory, or fail with a foreign error."""
 
 from __future__ import annotations
 
@@ -44,20 +44,20 @@ READERS: dict[str, Callable[[Path], object]] = {
 
 
 def code_of(reads: Callable[[], object]) -> str:
-    with pytest.raises(NiwakiError) as found:
+    with pytest.raises(NiwakiError) as caught:
         reads()
-    assert " = help: " in str(found.value)
-    return found.value.code
+    assert " = help: " in str(caught.value)
+    return caught.value.code
 
 
 def working(reads: Callable[[], object]) -> float:
-    """Seconds of work that a refusal takes."""
+    """Return the processor seconds that a refusal takes."""
     began = time.process_time()
     code_of(reads)
     return time.process_time() - began
 
 
-# Which files are opened.
+# Files that are opened.
 
 
 @pytest.mark.parametrize("suffix", READERS)
@@ -78,11 +78,11 @@ def test_only_regular_files_are_read(suffix: str, tmp_path: Path) -> None:
     assert code_of(lambda: READERS[suffix](tmp_path / f"none{suffix}")) == "file-missing"
 
 
-def test_a_socket_is_no_file(tmp_path: Path) -> None:
+def test_a_socket_is_not_a_file(tmp_path: Path) -> None:
     if not hasattr(socket, "AF_UNIX"):
         pytest.skip("no sockets in folders")
-    with socket.socket(socket.AF_UNIX) as one:
-        one.bind(str(tmp_path / "s.obj"))
+    with socket.socket(socket.AF_UNIX) as endpoint:
+        endpoint.bind(str(tmp_path / "s.obj"))
         assert code_of(lambda: Target.load(tmp_path / "s.obj")) == "file-not-regular"
 
 
@@ -91,9 +91,9 @@ def test_a_file_larger_than_its_limit_is_refused_and_the_environment_raises_it(
 ) -> None:
     place = tmp_path / "rules.toml"
     place.write_text('background = "sky"\n#' + "x" * 1_500_000)
-    with pytest.raises(FileError) as found:
+    with pytest.raises(FileError) as caught:
         Rules.load(place)
-    assert found.value.code == "file-limit" and VARIABLE in str(found.value)
+    assert caught.value.code == "file-limit" and VARIABLE in str(caught.value)
     monkeypatch.setenv(VARIABLE, "2")
     assert Rules.load(place).background == "sky"
     for wrong in ("0", "many", "nan", "1e9"):
@@ -123,7 +123,7 @@ def gltf_of(tree: object) -> Callable[[], object]:
     return lambda: reading.parsed(json.dumps(tree).encode(), ".gltf")
 
 
-def test_a_count_of_gltf_is_held_against_its_bytes() -> None:
+def test_counts_of_gltf_are_checked_against_the_bytes() -> None:
     assert code_of(gltf_of(tree_of(300_000_000))) == "file-unreadable"
     placeholder = {"componentType": 5126, "count": 300_000_000, "type": "VEC3"}
     assert code_of(gltf_of(tree_of(3, accessors=[placeholder]))) == "file-unreadable"
@@ -149,7 +149,7 @@ def test_a_count_of_gltf_is_held_against_its_bytes() -> None:
         {"asset": []},
     ],
 )
-def test_what_gltf_must_not_say_is_refused(more: dict[str, object]) -> None:
+def test_invalid_gltf_is_refused(more: dict[str, object]) -> None:
     assert code_of(gltf_of(tree_of(3, **more))) == "file-unreadable"
 
 
@@ -178,20 +178,20 @@ def test_gltf_is_read_as_trimesh_reads_it() -> None:
 
 def test_strips_and_fans_of_gltf_keep_their_sides() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0]], "<f4")
-    found = {}
+    areas = {}
     for mode in (gltf._STRIP, gltf._FAN):
         faces = gltf._triangles(np.arange(5), mode)
         a, b, c = (corners[faces[:, k]] for k in range(3))
-        found[mode] = np.cross(b - a, c - a)[:, 2]
-    assert (found[gltf._STRIP] > 0).all() and len(found[gltf._FAN]) == 3
+        areas[mode] = np.cross(b - a, c - a)[:, 2]
+    assert (areas[gltf._STRIP] > 0).all() and len(areas[gltf._FAN]) == 3
 
 
 @pytest.mark.parametrize("count", [0, 1, 2**31, 2**32 - 1])
 def test_a_wrong_count_of_an_stl_is_named(count: int) -> None:
     data = b"\0" * 80 + struct.pack("<I", count) + b"\0" * 125
-    with pytest.raises(FileError, match=f"announces {count:,} triangles") as found:
+    with pytest.raises(FileError, match=f"announces {count:,} triangles") as caught:
         reading.parsed(data, ".stl")
-    assert found.value.code == "file-unreadable"
+    assert caught.value.code == "file-unreadable"
 
 
 @pytest.mark.parametrize("form", ["ascii 1.0", "binary_little_endian 1.0"])
@@ -202,7 +202,7 @@ def test_a_wrong_count_of_a_ply_is_refused(form: str, count: str) -> None:
     assert code_of(lambda: reading.parsed(head.encode() + b"\0" * 99, ".ply")) == "file-unreadable"
 
 
-def test_the_time_of_a_mesh_does_not_grow_with_the_square_of_its_parts() -> None:
+def test_the_time_of_a_mesh_grows_less_than_the_square_of_its_parts() -> None:
     corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" * 3_000
     divided = corners + "".join(f"usemtl m{k}\nf {k + 1} {k + 2} {k + 3}\n" for k in range(8_000))
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -213,14 +213,14 @@ def test_the_time_of_a_mesh_does_not_grow_with_the_square_of_its_parts() -> None
         assert time.process_time() - began < 3.0
 
 
-def test_a_mesh_of_any_size_is_refused_for_its_size() -> None:
+def test_meshes_of_extreme_sizes_are_refused() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
     for size in (1e300, 1e13, 1e-300, 1e-10):
         for kind in (Target, Receiver):
-            with pytest.raises(FileError) as found:
+            with pytest.raises(FileError) as caught:
                 kind(size * corners, faces)
-            assert found.value.code == "target-size" and "voxel" not in str(found.value)
+            assert caught.value.code == "target-size" and "voxel" not in str(caught.value)
     assert Target(1e11 * corners, faces).volume > 0.0
     assert code_of(lambda: Target([[0, 0], [1, 2]], faces)) == "file-unreadable"
 
@@ -299,12 +299,12 @@ def test_the_time_of_a_style_sheet_grows_with_its_length(sheet: str) -> None:
     assert time.process_time() - began < 1.0
 
 
-def test_blocks_of_a_style_sheet_are_those_of_its_braces() -> None:
+def test_braces_divide_a_style_sheet_into_blocks() -> None:
     sheet = (
         "/* .x{fill:red} */ @import 'a'; .a{fill:none} @media print { .b { stroke : red } } #c,.d{fill:blue;}"
     )
     rules = Styles.of([sheet]).rules
-    assert [(set(one.ids), set(one.classes), one.declared) for one in rules] == [
+    assert [(set(rule.ids), set(rule.classes), rule.declared) for rule in rules] == [
         (set(), {"a"}, {"fill": "none"}),
         (set(), {"b"}, {"stroke": "red"}),
         (set(), {"d"}, {"fill": "blue"}),
@@ -331,7 +331,7 @@ def test_many_selectors_for_many_shapes_are_bounded(tmp_path: Path) -> None:
         ('<image xlink:href="a.png" width="9" height="9"/>', "drawing-unclear"),
     ],
 )
-def test_a_drawing_that_grows_or_looks_elsewhere_is_refused(body: str, code: str, tmp_path: Path) -> None:
+def test_a_drawing_that_expands_or_links_elsewhere_is_refused(body: str, code: str, tmp_path: Path) -> None:
     pytest.importorskip("resvg_py")
     assert working(lambda: drawn(tmp_path, body)) < 3.0
     assert code_of(lambda: drawn(tmp_path, body)) == code
@@ -349,7 +349,7 @@ def test_entities_are_bounded(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("box", ["0 0 1 1000000000", "0 0 1000000000 1", "0 0 1e30 1e-30"])
-def test_a_drawing_of_any_shape_has_as_many_pixels_as_asked_for(box: str, tmp_path: Path) -> None:
+def test_a_drawing_of_any_shape_has_the_requested_pixels(box: str, tmp_path: Path) -> None:
     pytest.importorskip("resvg_py")
     try:
         assert max(drawn(tmp_path, "", HEAD.replace("0 0 9 9", box)).labels.shape) <= 64
@@ -357,9 +357,7 @@ def test_a_drawing_of_any_shape_has_as_many_pixels_as_asked_for(box: str, tmp_pa
         assert error.code == "file-unreadable"
 
 
-def test_what_resvg_cannot_bound_ends_within_the_limit(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_slow_drawings_of_resvg_end_within_the_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("resvg_py")
     monkeypatch.setitem(LIMITS, "seconds", Limit(2, "seconds", ""))
     chain = "".join(f'<g id="g{k}">' + f'<use href="#g{k + 1}"/>' * 2 + "</g>" for k in range(16))
@@ -373,7 +371,7 @@ def test_what_resvg_cannot_bound_ends_within_the_limit(
     assert time.monotonic() - began < 30.0
 
 
-def test_a_size_of_a_picture_is_bounded() -> None:
+def test_the_size_of_a_picture_is_limited() -> None:
     pytest.importorskip("resvg_py")
     for size in (10**6, 0, -5, 10**30):
         assert code_of(lambda size=size: Drawing.load("robot", size)) == "bad-setting"
@@ -395,7 +393,7 @@ def test_rules_that_are_deep_or_long_are_refused(text: str, tmp_path: Path) -> N
     assert working(lambda: Rules.load(tmp_path / "a.toml")) < 1.0
 
 
-def test_dots_in_strings_and_numbers_are_no_parts_of_a_key(tmp_path: Path) -> None:
+def test_dots_in_strings_and_numbers_do_not_count_as_dots_of_a_key(tmp_path: Path) -> None:
     chain = ", ".join(f'"a.{k}.b"' for k in range(99))
     numbers = "\n".join(f"r{k} = {k}.5" for k in range(99))
     (tmp_path / "a.toml").write_text(f"lightness = [[{chain}]]\n[muted]\n{numbers}\n")
@@ -434,7 +432,7 @@ def test_ten_thousand_corners_are_read_in_seconds(tmp_path: Path) -> None:
     assert time.process_time() - began < 5.0
 
 
-def test_crossings_are_those_found_pair_by_pair() -> None:
+def test_crossings_agree_with_a_search_of_all_pairs() -> None:
     def crossing(corners: list[tuple[float, float]]) -> tuple[int, int] | None:
         count = len(corners)
         for i in range(count):
@@ -452,10 +450,10 @@ def test_crossings_are_those_found_pair_by_pair() -> None:
         def between(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> bool:
             return all(min(p[k], q[k]) <= r[k] <= max(p[k], q[k]) for k in (0, 1))
 
-        one, two, three, four = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
-        if one * two < 0.0 and three * four < 0.0:
+        abc, abd, cda, cdb = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+        if abc * abd < 0.0 and cda * cdb < 0.0:
             return True
-        touching = ((one, a, b, c), (two, a, b, d), (three, c, d, a), (four, c, d, b))
+        touching = ((abc, a, b, c), (abd, a, b, d), (cda, c, d, a), (cdb, c, d, b))
         return any(value == 0.0 and between(p, q, r) for value, p, q, r in touching)
 
     random = np.random.default_rng(5)
@@ -484,9 +482,9 @@ def test_crossings_are_those_found_pair_by_pair() -> None:
         {"near": None},
     ],
 )
-def test_a_camera_of_any_values_is_refused(more: dict[str, object]) -> None:
-    given = {"kind": "perspective", "position": [0, 0, 9], "look_at": [0, 0, 0], **more}
-    assert code_of(lambda: Camera.from_dict(given)) == "bad-camera"
+def test_invalid_cameras_are_refused(more: dict[str, object]) -> None:
+    data = {"kind": "perspective", "position": [0, 0, 9], "look_at": [0, 0, 0], **more}
+    assert code_of(lambda: Camera.from_dict(data)) == "bad-camera"
 
 
 def test_a_camera_that_is_deep_or_of_huge_numbers_is_refused(tmp_path: Path) -> None:
@@ -535,12 +533,12 @@ def readers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> object:
 
 
 def test_a_child_sends_arrays(readers: object) -> None:
-    found = read_apart(readers.good, b"\1\2\3\n", "a", ".obj", times=2)  # type: ignore[attr-defined]
-    assert found["bytes"].tolist() == [2, 4, 6, 20] and found["none"].shape == (0, 3)
+    arrays = read_apart(readers.good, b"\1\2\3\n", "a", ".obj", times=2)  # type: ignore[attr-defined]
+    assert arrays["bytes"].tolist() == [2, 4, 6, 20] and arrays["none"].shape == (0, 3)
 
 
 @pytest.mark.parametrize(
-    ("name", "code", "said"),
+    ("name", "code", "reason"),
     [
         ("refused", "target-empty", "nothing"),
         ("setting", "bad-image", "nothing"),
@@ -549,10 +547,10 @@ def test_a_child_sends_arrays(readers: object) -> None:
         ("fallen", "file-unreadable", "ended with code"),
     ],
 )
-def test_a_child_that_fails_gives_an_error(readers: object, name: str, code: str, said: str) -> None:
-    with pytest.raises((FileError, InputError), match=said) as found:
+def test_a_child_that_fails_gives_an_error(readers: object, name: str, code: str, reason: str) -> None:
+    with pytest.raises((FileError, InputError), match=reason) as caught:
         read_apart(getattr(readers, name), b"", "mesh.obj", ".obj")
-    assert found.value.code == code
+    assert caught.value.code == code
 
 
 def test_a_child_that_waits_is_ended(readers: object) -> None:
@@ -563,13 +561,13 @@ def test_a_child_that_waits_is_ended(readers: object) -> None:
 
 
 @pytest.mark.parametrize("name", ["wrong", "objects", "writing"])
-def test_a_mistake_of_our_own_in_a_child_is_no_bad_file(readers: object, name: str, tmp_path: Path) -> None:
-    with pytest.raises(RuntimeError, match="a reader of ours failed"):
+def test_a_mistake_of_a_reader_is_not_a_bad_file(readers: object, name: str, tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError, match="a reader of Niwaki failed"):
         read_apart(getattr(readers, name), b"", "mesh.obj", ".obj")
     assert not (tmp_path / "written").exists() or (tmp_path / "written").stat().st_size == 0
 
 
-def test_a_large_text_is_read_in_a_child_as_it_is_read_here(
+def test_a_child_reads_a_large_text_as_this_process_does(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     data = trimesh.creation.icosphere(3).export(file_type="ply", encoding="ascii")
@@ -578,6 +576,6 @@ def test_a_large_text_is_read_in_a_child_as_it_is_read_here(
     there = reading.parsed(data, ".ply")
     assert all(np.array_equal(a, b) and a.dtype == b.dtype for a, b in zip(here, there, strict=True))
     (tmp_path / "a.obj").write_text("v 0 0\nf 1 2 3\n")
-    with pytest.raises(FileError) as found:
+    with pytest.raises(FileError) as caught:
         Target.load(tmp_path / "a.obj")
-    assert found.value.place == tmp_path / "a.obj"
+    assert caught.value.place == tmp_path / "a.obj"

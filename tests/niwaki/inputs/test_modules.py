@@ -1,4 +1,4 @@
-"""Claim: a file of a person takes the place of no module, whatever its name, and its host functions are found again."""
+"""Claim: a user's file replaces no module, whatever its name, and stored searches find its host functions again."""
 
 from __future__ import annotations
 
@@ -53,23 +53,23 @@ def folder(tmp_path: Path) -> Any:
     (tmp_path / "neighbour_of_a_model.py").write_text("FACTOR = 2.0\n")
     yield tmp_path
     sys.modules.pop("neighbour_of_a_model", None)
-    sys.path[:] = [one for one in sys.path if one != str(tmp_path)]
+    sys.path[:] = [entry for entry in sys.path if entry != str(tmp_path)]
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_file_replaces_no_module(folder: Path, name: str) -> None:
     place = folder / f"{name}.py"
     place.write_text(MODEL)
-    before = {one: module for one, module in sys.modules.items()}
-    found = find(f"{place}:tower")
-    assert all(sys.modules[one] is module for one, module in before.items())
-    assert sys.path[0] != str(folder) and not any("_Elsewhere" in repr(one) for one in sys.meta_path)
-    # What is stored has the file's own name, as it always had.
-    module = found.model.function.__module__
+    before = {module_name: module for module_name, module in sys.modules.items()}
+    reference = find(f"{place}:tower")
+    assert all(sys.modules[module_name] is module for module_name, module in before.items())
+    assert sys.path[0] != str(folder) and not any("_Elsewhere" in repr(finder) for finder in sys.meta_path)
+    # Stored data have the file's public name.
+    module = reference.model.function.__module__
     assert public(module) == name and files([name]) == ((name, place),)
     assert host_reference(modules(name)[0].doubled)["module"] == name
-    # A neighbour is imported when the function is called.
-    result = nw.run(found.model, seed=1)
+    # The function imports a neighbour of the file when it is called.
+    result = nw.run(reference.model, seed=1)
     search = result.search
     assert search.host_modules == (name,)
     again = Search.of_json(search.json("inside"), (name,)).run()
@@ -79,7 +79,7 @@ def test_a_file_replaces_no_module(folder: Path, name: str) -> None:
 @pytest.mark.parametrize("name", ["json", "trimesh"])
 def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
     place, out = folder / f"{name}.py", folder / "out"
-    # TIFF files are read in a process of their own, and here while the file itself is run.
+    # TIFF files are read in a separate process, here while the model file runs.
     Image.new("L", (2, 1)).save(folder / "page.tif")
     load = f"niwaki.targets.pixels.load({str(folder / 'page.tif')!r})"
     place.write_text(f"{MODEL}\nimport niwaki.targets.pixels\nassert {load}.channels.shape[:2] == (1, 2)\n")
@@ -117,7 +117,7 @@ def test_every_command_runs_such_a_file(folder: Path, name: str) -> None:
 
 
 def shell(words: Any, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
-    # As the console script, which does not begin with the folder that we are in.
+    # `-P`: like the console script, do not import from the current folder.
     program = [sys.executable, "-P", "-c", "from niwaki.shell.main import main; main()", *map(str, words)]
     return subprocess.run(
         program, cwd=folder, capture_output=True, text=True, env={**os.environ, **environment}
@@ -138,8 +138,8 @@ def test_two_files_of_one_name_are_two_modules(folder: Path) -> None:
     for number in (1, 2):
         (folder / str(number)).mkdir()
         (folder / str(number) / "tower.py").write_text(f"NUMBER = {number}\nclass Kind: pass\n")
-    one, two = (run_file(folder / number / "tower.py")[0] for number in ("1", "2"))
-    assert (one.NUMBER, two.NUMBER) == (1, 2) and one.__name__ != two.__name__
-    assert modules("tower")[0] is two
-    kind = pickle.loads(pickle.dumps(one.Kind))
-    assert kind is one.Kind
+    first, second = (run_file(folder / number / "tower.py")[0] for number in ("1", "2"))
+    assert (first.NUMBER, second.NUMBER) == (1, 2) and first.__name__ != second.__name__
+    assert modules("tower")[0] is second
+    kind = pickle.loads(pickle.dumps(first.Kind))
+    assert kind is first.Kind

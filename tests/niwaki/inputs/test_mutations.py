@@ -1,4 +1,4 @@
-"""Claim: whatever bytes a file holds, reading them takes at most 5 seconds and 1 GB and ends well or in an error.
+"""Claim: reading any bytes takes at most 5 seconds and 1 GB, and ends with a result or an error of the package.
 
 Real files of each format are damaged: bits, bytes and numbers are changed, pieces are cut, doubled and moved, tokens
 of texts are exchanged for extremes or nested. An input is known by its kind and its number, so that it can be made
@@ -76,13 +76,15 @@ def exported(kind: str, **settings: object) -> bytes:
 
 
 def embedded() -> bytes:
-    """A .gltf file that holds its buffers."""
+    """Return a .gltf file with embedded buffers."""
     import base64
 
     files = trimesh.Scene(trimesh.creation.box((1.0, 2.0, 3.0))).export(file_type="gltf")
     tree = json.loads(files["model.gltf"])
-    for one in tree["buffers"]:
-        one["uri"] = "data:application/octet-stream;base64," + base64.b64encode(files[one["uri"]]).decode()
+    for buffer in tree["buffers"]:
+        buffer["uri"] = (
+            "data:application/octet-stream;base64," + base64.b64encode(files[buffer["uri"]]).decode()
+        )
     return json.dumps(tree).encode()
 
 
@@ -192,54 +194,54 @@ KINDS = (
     "gltf png png-palette png-16 jpeg jpeg-scans webp webp-lossless gif bmp tiff svg svg-heavy rules camera room-svg "
     "room-json guide font"
 ).split()
-#: Kinds whose inputs start a process, and a slow one: a short run takes few.
+#: Kinds whose inputs start a process, and a slow kind; a short run tries few of them.
 APART = ("tiff", "svg-heavy", "font")
 
 
 def damaged(data: bytes, random: random.Random) -> bytes:
-    """A file with one to six mistakes."""
-    made = bytearray(data)
+    """Return a file with one to six mistakes."""
+    content = bytearray(data)
     for _ in range(random.choice((1, 1, 1, 2, 3, 6))):
-        at = random.randrange(len(made) + 1)
+        at = random.randrange(len(content) + 1)
         match random.randrange(9):
-            case 0 if made:
-                made[at % len(made)] ^= 1 << random.randrange(8)
+            case 0 if content:
+                content[at % len(content)] ^= 1 << random.randrange(8)
             case 1:
-                made = made[:at]
+                content = content[:at]
             case 2:
-                del made[at : at + random.choice((1, 4, 40, 400))]
+                del content[at : at + random.choice((1, 4, 40, 400))]
             case 3:
-                piece = made[at : at + random.choice((1, 4, 40, 400))] * random.choice((1, 2, 50))
-                to = random.randrange(len(made) + 1)
-                made[to:to] = piece
+                piece = content[at : at + random.choice((1, 4, 40, 400))] * random.choice((1, 2, 50))
+                to = random.randrange(len(content) + 1)
+                content[to:to] = piece
             case 4:
                 number = random.choice(NUMBERS)
                 size, order = random.choice((1, 2, 4, 8)), random.choice(("little", "big"))
                 place = at - at % 4 if random.random() < 0.7 else at
-                made[place : place + size] = (number & (1 << 8 * size) - 1).to_bytes(size, order)
+                content[place : place + size] = (number & (1 << 8 * size) - 1).to_bytes(size, order)
             case 5:
-                made[at : at + 4] = struct.pack(
+                content[at : at + 4] = struct.pack(
                     "<f", random.choice((1e38, -1e38, float("nan"), float("inf"), 1e-40))
                 )
             case 6 | 7:
-                tokens = list(re.finditer(rb"-?[0-9.]+(?:e-?[0-9]+)?|\w+|[^\w\s]", bytes(made[:100_000])))
+                tokens = list(re.finditer(rb"-?[0-9.]+(?:e-?[0-9]+)?|\w+|[^\w\s]", bytes(content[:100_000])))
                 if tokens:
                     token = random.choice(tokens)
-                    made[token.start() : token.end()] = random.choice((*WORDS, random.choice(tokens)[0]))
+                    content[token.start() : token.end()] = random.choice((*WORDS, random.choice(tokens)[0]))
             case _:
-                made[at:at] = random.choice(WORDS)
-    return bytes(made)
+                content[at:at] = random.choice(WORDS)
+    return bytes(content)
 
 
 def attempt(kind: str, number: int, folder: Path) -> str:
-    """Read an input; the error's code, or an empty text."""
+    """Read an input; return the error's code, or an empty text."""
     data, suffix, read = seeds()[kind]
-    made = damaged(data, random.Random(f"{kind} {number}"))
+    mutated = damaged(data, random.Random(f"{kind} {number}"))
     began, before = spent(), peak()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            read(folder / f"input{suffix}", made)
+            read(folder / f"input{suffix}", mutated)
         code = ""
     except NiwakiError as error:
         assert str(error).startswith("error["), (kind, number)
@@ -253,19 +255,19 @@ def attempt(kind: str, number: int, folder: Path) -> str:
 
 
 def spent() -> float:
-    """Seconds of this process and its children: other programs of the machine do not count."""
+    """Return the processor seconds of this process and its children."""
     return sum(os.times()[:4])
 
 
 def peak() -> int:
-    """The most memory that this process and its children have had, in bytes."""
+    """Return the most memory that this process and its children have had, in bytes."""
     try:
         import resource
     except ImportError:
         return 0
     unit = 1 if sys.platform == "darwin" else 1024
     return unit * max(
-        resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+        resource.getrusage(scope).ru_maxrss for scope in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
     )
 
 

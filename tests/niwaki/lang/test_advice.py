@@ -1,4 +1,4 @@
-"""Advice on models: what can be moved is reported, what the next part needs is not."""
+"""Claim: advice reports code that can move, and no code that the next part needs."""
 
 from __future__ import annotations
 
@@ -27,27 +27,27 @@ def load(text: str, name: str) -> Any:
 
 
 def codes(text: str, name: str) -> list[str]:
-    return [one.code for one in advise(load(text, name).function)]
+    return [advice.code for advice in advise(load(text, name).function)]
 
 
 @pytest.mark.parametrize("message", ADVICE, ids=lambda message: message.code)
-def test_each_example_gets_its_advice_and_its_cure_none(message: Message) -> None:
+def test_examples_get_advice_and_cures_get_none(message: Message) -> None:
     assert codes(message.example, f"{message.code}.py") == [message.code]
     assert codes(message.cure, f"{message.code}_cured.py") == []
 
 
-def test_the_gallery_needs_none() -> None:
+def test_models_of_the_gallery_get_no_advice() -> None:
     grown = [entry for entry in entries() if entry.target_name is not None]
-    assert [(entry.name, str(one)) for entry in grown for one in advise(entry.model.function)] == []
+    assert [(entry.name, str(advice)) for entry in grown for advice in advise(entry.model.function)] == []
 
 
-def test_a_ship_without_futures_gets_advice_on_each() -> None:
+def test_each_call_of_a_ship_without_futures_gets_advice() -> None:
     text = Path(SHIP).read_text()
     for callee in ("wings", "guns", "fins"):
         text = text.replace(f"future({callee}, ", f"{callee}(")
-    found = advise(load(text, "plain_ship.py").function)
+    advice = advise(load(text, "plain_ship.py").function)
     # The guns are the last of their branch, but not of the loop around it.
-    assert [(one.code, one.values["name"]) for one in found] == [
+    assert [(entry.code, entry.values["name"]) for entry in advice] == [
         ("calls-in-place", "wings"),
         ("calls-in-place", "fins"),
         ("calls-in-place", "guns"),
@@ -102,7 +102,7 @@ LEFT_ALONE = {
 
 
 @pytest.mark.parametrize("why", LEFT_ALONE)
-def test_what_cannot_be_moved_is_left_alone(why: str) -> None:
+def test_code_that_cannot_move_gets_no_advice(why: str) -> None:
     assert codes(f"@model\ndef m():{LEFT_ALONE[why]}", f"{why}.py") == []
 
 
@@ -133,8 +133,8 @@ def leaf(n):
 
 
 def test_messages_of_advice(golden: Any) -> None:
-    found = []
+    texts = []
     for title, body in POINTED_AT.items():
         advice = advise(load(f"@model\ndef m():{body}", "hedge.py").function)
-        found.append(f"## {title}\n\n" + "\n\n".join(map(str, advice)) + "\n")
-    golden(GOLDEN / "advice.txt", "\n".join(found))
+        texts.append(f"## {title}\n\n" + "\n\n".join(map(str, advice)) + "\n")
+    golden(GOLDEN / "advice.txt", "\n".join(texts))

@@ -1,4 +1,4 @@
-"""The core form follows its grammar; that of two models is a golden file, so that changes are reviewed."""
+"""Claim: the core form follows its grammar; the core form of two models is a golden file, for review."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def test_distributions_are_not_records() -> None:
     assert not core.classes
 
 
-def test_values_that_cannot_be_looked_up_are_refused_all_the_same() -> None:
+def test_values_that_are_not_hashable_are_refused() -> None:
     for call, code in (("map(T, [1])", "unknown"), ("T(1)", "not-a-function")):
         text = f"T = ([1],)\n\n@model\ndef m():\n    return {call}\n"
         try:

@@ -1,4 +1,4 @@
-"""Long sums, chains of `elif` and the like compile and run; what is nested too deeply has a message with its place."""
+"""Claim: long sums, chains of `elif` and the like run; code that is nested too deeply has an error with its place."""
 
 from __future__ import annotations
 
@@ -65,22 +65,22 @@ def model(body: str) -> Any:
 
 
 @pytest.mark.parametrize("name", LONG)
-def test_what_is_long_runs(name: str) -> None:
-    made = model(LONG[name])
-    here = run_python(made, seed=1)
-    there = nw.run(made, choices=here.choices).best
+def test_long_code_runs(name: str) -> None:
+    long_model = model(LONG[name])
+    here = run_python(long_model, seed=1)
+    there = nw.run(long_model, choices=here.choices).best
     assert here.value == there.value
-    assert advise(made.function) == []
+    assert advise(long_model.function) == []
 
 
 @pytest.mark.parametrize("name", DEEP)
-def test_what_is_deep_has_a_message(name: str) -> None:
-    made = model(DEEP[name])
+def test_deep_code_has_an_error_with_its_place(name: str) -> None:
+    deep_model = model(DEEP[name])
     for use in (
-        made.core,
-        lambda: run_python(made, seed=1),
-        lambda: nw.run(made),
-        lambda: advise(made.function),
+        deep_model.core,
+        lambda: run_python(deep_model, seed=1),
+        lambda: nw.run(deep_model),
+        lambda: advise(deep_model.function),
     ):
         with pytest.raises(ModelError, match="nested too deeply") as caught:
             use()
@@ -109,7 +109,7 @@ def test_the_recursion_limit_stays() -> None:
 @pytest.mark.parametrize(
     "text", [f"    return {' + '.join(['x'] * 9000)}\n", f"    return {'(' * 250}x{')' * 250}\n"]
 )
-def test_the_shell_has_a_message_for_what_python_cannot_read(text: str, tmp_path: Path) -> None:
+def test_the_shell_reports_code_that_python_cannot_read(text: str, tmp_path: Path) -> None:
     file = tmp_path / "deep.py"
     file.write_text(f"from niwaki import model\n\n@model\ndef m():\n    x = 1\n{text}")
     command = [sys.executable, "-c", "from niwaki.shell.main import main; main()", "check", f"{file}:m"]
@@ -121,7 +121,7 @@ def test_the_shell_has_a_message_for_what_python_cannot_read(text: str, tmp_path
 @pytest.mark.parametrize(
     "text", ["-" * 9000 + "1", "+".join("1" * 30_000), "f" + ".a" * 3000, "cycle(" * 900]
 )
-def test_a_kernel_that_is_deep_has_a_message(text: str) -> None:
+def test_a_deep_kernel_has_an_error(text: str) -> None:
     with pytest.raises(NiwakiError, match="nested") as caught:
         kernels.parse(text)
     assert caught.value.code == "unreadable-kernel"

@@ -22,15 +22,15 @@ from niwaki.lang.models import Model
 
 def functions(n: int) -> str:
     """Functions of one line, all called by the model."""
-    own = "".join(f"def f{i}(x):\n    return x + {i}\n" for i in range(n))
-    return own + _model("    x = gaussian(0, 1)\n" + "".join(f"    x = f{i}(x)\n" for i in range(n)))
+    functions_ = "".join(f"def f{i}(x):\n    return x + {i}\n" for i in range(n))
+    return functions_ + _model("    x = gaussian(0, 1)\n" + "".join(f"    x = f{i}(x)\n" for i in range(n)))
 
 
 def chain(n: int) -> str:
     """Functions of one line, each called by the next."""
     first = "def f0(x):\n    emit(box((x, 0, 0), (1, 1, 1)))\n    return gaussian(x, 1)\n"
-    own = "".join(f"def f{i}(x):\n    return f{i - 1}(x)\n" for i in range(1, n))
-    return first + own + _model(f"    x = f{n - 1}(0)\n")
+    links = "".join(f"def f{i}(x):\n    return f{i - 1}(x)\n" for i in range(1, n))
+    return first + links + _model(f"    x = f{n - 1}(0)\n")
 
 
 def lines(n: int) -> str:
@@ -50,14 +50,14 @@ def decisions(n: int) -> str:
 
 def branches(n: int) -> str:
     """One `if` with many branches, each inside the one before."""
-    own = "".join(f"    elif x > -{i + 1}:\n        y = {i}\n" for i in range(n))
-    return _model(f"    x = gaussian(0, 1)\n    if x > 0:\n        y = 0\n{own}    else:\n        y = 1\n")
+    arms = "".join(f"    elif x > -{i + 1}:\n        y = {i}\n" for i in range(n))
+    return _model(f"    x = gaussian(0, 1)\n    if x > 0:\n        y = 0\n{arms}    else:\n        y = 1\n")
 
 
 def lambdas(n: int) -> str:
     """Function values, each a lambda of its own line."""
-    own = "".join(f"f{i} = lambda x: x + {i}\n" for i in range(n))
-    return own + _model("    x = gaussian(0, 1)\n" + "".join(f"    x = f{i}(x)\n" for i in range(n)))
+    definitions = "".join(f"f{i} = lambda x: x + {i}\n" for i in range(n))
+    return definitions + _model("    x = gaussian(0, 1)\n" + "".join(f"    x = f{i}(x)\n" for i in range(n)))
 
 
 def _model(body: str) -> str:
@@ -72,8 +72,8 @@ def loaded(folder: Path, source: str) -> Model[..., Any]:
     module = importlib.util.module_from_spec(spec)
     sys.modules[path.stem] = module
     spec.loader.exec_module(module)
-    found: Model[..., Any] = module.m
-    return found
+    model: Model[..., Any] = module.m
+    return model
 
 
 def calls(work: Callable[[], object]) -> int:
@@ -93,7 +93,7 @@ def test_compiling_and_advice_are_linear(tmp_path: Path, program: Callable[[int]
         assert large < 6 * small, counted
 
 
-def test_a_function_that_is_too_large_is_told_the_limit(tmp_path: Path) -> None:
+def test_the_error_about_a_large_function_has_the_limit(tmp_path: Path) -> None:
     model = loaded(tmp_path, lines(17_000))
     with pytest.raises(InputError, match=r"`m` is too large: it has more than 16384 values") as caught:
         model.program()

@@ -1,4 +1,4 @@
-"""A plain run makes the given choices, scores them, and fails with the user's own lines."""
+"""Claim: a plain run makes the given choices, scores them, and reports faults at the user's lines."""
 
 from __future__ import annotations
 
@@ -34,22 +34,22 @@ def test_a_seed_gives_the_same_run_and_its_choices_give_it_again(model) -> None:
     assert run_python(model, seed=4) != first
 
 
-def test_seed_decides_what_choices_leave_open(model) -> None:
+def test_the_seed_draws_missing_choices(model) -> None:
     run = run_python(model, seed=3, choices={"i[0]/wing/size": 0.75})
     assert run.choices["i[0]/wing/size"] == 0.75
     assert run.log_joint == run.log_prior
 
 
-def test_calling_a_model_gives_its_value(model) -> None:
+def test_a_call_of_a_model_returns_its_value(model) -> None:
     assert len(model(3)) == 3
     assert model.name == "m" and model.function.__name__ == "m"
 
 
 def test_a_missing_choice_names_the_nearest(model) -> None:
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as caught:
         run_python(model, choices={"i[0]/wing/sise": 0.6, "q": 1})
-    assert found.value.code == "missing-choice"
-    assert '"i[0]/wing/size"' in str(found.value) and '"i[0]/wing/sise"' in str(found.value)
+    assert caught.value.code == "missing-choice"
+    assert '"i[0]/wing/size"' in str(caught.value) and '"i[0]/wing/sise"' in str(caught.value)
 
 
 def test_words_outside_of_a_model_raise() -> None:
@@ -57,7 +57,7 @@ def test_words_outside_of_a_model_raise() -> None:
         nw.gaussian(0, 1)
 
 
-def test_a_model_is_made_of_a_function() -> None:
+def test_a_model_needs_a_function() -> None:
     with pytest.raises(InputError, match="model-of-a-value"):
         nw.model(3)  # type: ignore[arg-type]
 
@@ -83,9 +83,9 @@ FAULTS = {
 @pytest.mark.parametrize("code", FAULTS)
 def test_faults_have_a_code_and_the_users_line(code: str) -> None:
     text = f"def part(n):\n    return {FAULTS[code]}\n\n@model\ndef m(n=2):\n    return part(n)\n"
-    with pytest.raises(ModelFault) as found:
+    with pytest.raises(ModelFault) as caught:
         run_python(load(text, "part.py"), seed=1)
-    fault = found.value
+    fault = caught.value
     assert fault.code == code
     assert [call.function for call in fault.stack] == ["m", "part"]
     assert fault.stack[-1].span is not None and fault.stack[-1].span.line == 2
@@ -94,10 +94,10 @@ def test_faults_have_a_code_and_the_users_line(code: str) -> None:
 
 def test_endless_recursion_is_a_fault() -> None:
     text = "def part(n):\n    return part(n + 1)\n\n@model\ndef m():\n    return part(0)\n"
-    with pytest.raises(ModelFault) as found:
+    with pytest.raises(ModelFault) as caught:
         run_python(load(text, "part.py"), seed=1)
-    assert found.value.code == "too-deep"
-    assert "more ..." in str(found.value)
+    assert caught.value.code == "too-deep"
+    assert "more ..." in str(caught.value)
 
 
 def test_scores_are_on_the_grid() -> None:
@@ -149,7 +149,7 @@ def test_a_host_function_fails_as_in_the_engine(body: str) -> None:
     with pytest.raises(ModelFault) as engine:
         nw.run(model, seed=0)
     assert plain.value.code == "host-function"
-    assert [str(one.value).splitlines()[0] for one in (plain, engine)] == [
+    assert [str(caught.value).splitlines()[0] for caught in (plain, engine)] == [
         str(plain.value).splitlines()[0]
     ] * 2
 

@@ -1,6 +1,4 @@
-"""Claim: any text whose characters the font has is grown, each letter near its glyph and in its place; other texts give
-a message.
-"""
+"""Claim: a text grows, each letter near its glyph and at its place; characters that the font lacks are errors."""
 
 from __future__ import annotations
 
@@ -22,27 +20,27 @@ def word() -> letters.Word:
 
 
 def test_letters_are_near_their_glyphs(word: letters.Word) -> None:
-    assert [one.letter.character for one in word.letters] == ["I", "i"]
-    assert min(one.similarity for one in word.letters) > 0.7
-    # The i has a dot, which is a plant of its own.
-    assert [len(one.samples) for one in word.letters] == [1, 2]
+    assert [grown.letter.character for grown in word.letters] == ["I", "i"]
+    assert min(grown.similarity for grown in word.letters) > 0.7
+    # The dot of the i grows separately.
+    assert [len(grown.samples) for grown in word.letters] == [1, 2]
 
 
-def test_letters_are_in_their_places(word: letters.Word) -> None:
+def test_letters_are_at_their_places(word: letters.Word) -> None:
     low, high = word.scene.bounds
     assert low[1] == pytest.approx(0.0, abs=1.5) and high[1] == pytest.approx(CAPITAL, abs=2.5)
     first, second = (word.letters[k].letter.x for k in (0, 1))
     assert second - first > 0.3 * CAPITAL
-    for number, one in enumerate(word.letters, 1):
-        own = [part for part in word.scene if part.address.startswith(f"letter{number}/")]
-        lows, highs = zip(*(shape.aabb() for part in own for shape in part.shapes), strict=True)
-        (piece, *_), letter = one.letter.pieces, one.letter
+    for number, grown in enumerate(word.letters, 1):
+        parts = [part for part in word.scene if part.address.startswith(f"letter{number}/")]
+        lows, highs = zip(*(shape.aabb() for part in parts for shape in part.shapes), strict=True)
+        (piece, *_), letter = grown.letter.pieces, grown.letter
         left = letter.x + piece.corner[0]
         right = left + PIXEL * piece.greys.shape[1]
         assert left - 1.0 < min(x for x, _, _ in lows) and max(x for x, _, _ in highs) < right + 1.0
 
 
-def test_the_same_seed_writes_the_same_on_any_number_of_threads(word: letters.Word) -> None:
+def test_equal_seeds_write_the_same_text_on_any_number_of_threads(word: letters.Word) -> None:
     again = letters.write("I i", seed=1, particles=20, searches=4, threads=1)
     assert again.svg() == word.svg()
     assert letters.write("I i", seed=2, particles=20, searches=4).svg() != word.svg()
@@ -52,14 +50,14 @@ def test_picture_svg_and_animation(word: letters.Word, tmp_path: Path) -> None:
     width, height = word.size(200)
     assert word.picture(200).size == (200, height)
     root = ElementTree.fromstring(word.svg())
-    ids = [one.get("id", "") for one in root.iter() if one.tag.endswith("}g")]
-    assert len(set(ids)) == len(ids) and any(one.startswith("letter2.piece2.") for one in ids)
+    ids = [group.get("id", "") for group in root.iter() if group.tag.endswith("}g")]
+    assert len(set(ids)) == len(ids) and any(name.startswith("letter2.piece2.") for name in ids)
     place = word.animate(tmp_path / "growth.gif", width=120, frames=6)
     with Image.open(place) as moving:
         assert moving.n_frames == 6 and moving.size == word.size(120)  # type: ignore[attr-defined]
 
 
-def test_lightning_has_its_own_guide() -> None:
+def test_lightning_has_a_guide() -> None:
     word = letters.write("L", "lightning", seed=1, particles=20, searches=4)
     assert word.letters[0].similarity > 0.7
 
@@ -89,16 +87,16 @@ def test_each_printable_character_has_places_in_its_ink() -> None:
                 assert np.hypot(*place.ahead) == pytest.approx(1.0)
 
 
-def test_what_cannot_be_written(tmp_path: Path) -> None:
+def test_texts_styles_and_fonts_that_cannot_be_used_are_refused(tmp_path: Path) -> None:
     for text, code in (
         ("", "bad-setting"),
         (" \n", "bad-setting"),
         ("木", "letter-missing"),
         ("a\x07", "letter-missing"),
     ):
-        with pytest.raises(InputError) as found:
+        with pytest.raises(InputError) as caught:
             letters.write(text, seed=1)
-        assert found.value.code == code
+        assert caught.value.code == code
     with pytest.raises(InputError, match="bad-setting"):
         letters.write("A", "circuit", seed=1)
     (tmp_path / "font.ttf").write_text("no font")

@@ -1,6 +1,6 @@
-"""Claim: results show themselves in notebooks, and `view` makes one page that holds its meshes and asks for nothing.
+"""Claim: results have views in notebooks, and `view` makes a page that contains its meshes and loads nothing.
 
-`tests/browser/test_view.py` looks at the page in a browser.
+`tests/browser/test_view.py` opens the page in a browser.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def ships() -> nw.Result:
 
 
 class Page(HTMLParser):
-    """Which elements a page opens and what they would load; wrong nesting is an error."""
+    """Parser of a page that checks nesting and lists the links that the page loads."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -50,11 +50,11 @@ class Page(HTMLParser):
 
 def test_a_result_is_a_picture_and_its_numbers(ships):
     shown = ships.best._repr_html_()
-    assert all(one.startswith("data:image/png;base64,") for one in Page(shown).loads)
+    assert all(link.startswith("data:image/png;base64,") for link in Page(shown).loads)
     assert f"{ships.best.log_score:.4g}" in shown and str(ships.best.fit) in shown
     assert ships._repr_html_() != shown and "samples" in ships._repr_html_()
-    found = base64.b64decode(re.search(r"base64,([^\"]+)", shown)[1])
-    assert found == ships.best._repr_png_()
+    image = base64.b64decode(re.search(r"base64,([^\"]+)", shown)[1])
+    assert image == ships.best._repr_png_()
 
 
 def test_a_result_without_shapes_is_a_table():
@@ -67,33 +67,33 @@ def test_the_card_of_a_usual_result_is_quick(ships):
     ships._repr_html_()
     start = time.process_time()
     ships._repr_html_()
-    # CPU of all threads; ten times what it takes where nothing else runs.
+    # Processor time of all threads; ten times the time on an idle machine.
     assert time.process_time() - start < 4.0
 
 
 @pytest.mark.parametrize("name", ["spaceship", "vines"])
 def test_gallery_entries_are_tables(name):
-    (one,) = [entry for entry in entries() if entry.name == name]
-    assert one.title in one._repr_html_()
+    (entry,) = [entry for entry in entries() if entry.name == name]
+    assert entry.title in entry._repr_html_()
 
 
-def test_a_view_holds_the_meshes_and_the_target(ships):
+def test_a_view_has_the_meshes_and_the_target(ships):
     view = nw.view(ships, most=2)
-    headers = [json.loads(unpack(one)[0]) for one in view.frames]
+    headers = [json.loads(unpack(frame)[0]) for frame in view.frames]
     assert [header["role"] for header in headers] == ["ghost", "result", "result"]
-    best = max(ships, key=lambda one: one.log_score)
+    best = max(ships, key=lambda sample: sample.log_score)
     assert headers[1]["parts"] == [part.address for part in best.scene.parts]
     assert np.allclose([headers[1]["low"], headers[1]["high"]], best.scene.bounds, atol=0.05)
     assert len(nw.view(ships.best, target=False).frames) == 1
     assert len(nw.view([ships[0].scene, ships[1].scene]).frames) == 2
 
 
-def test_a_view_is_one_page_that_asks_for_nothing(ships, tmp_path):
+def test_a_view_is_a_page_that_loads_nothing(ships, tmp_path):
     text = nw.view(ships).save(tmp_path / "ships.html").read_text()
     assert Page(text).loads == []
     assert "default-src 'none'" in text
     held = re.search(r'id="niwaki-frames">(.*?)</script>', text)[1]
-    assert [zlib.decompress(base64.b64decode(one)) for one in json.loads(held)] == nw.view(ships).frames
+    assert [zlib.decompress(base64.b64decode(frame)) for frame in json.loads(held)] == nw.view(ships).frames
     frame = nw.view(ships)._repr_html_()
     assert html.unescape(re.search(r'srcdoc="([^"]*)"', frame)[1]) == text
 
@@ -102,7 +102,7 @@ def test_the_script_cannot_end_its_element():
     assert "</script" not in stage().lower()
 
 
-def test_there_must_be_something_to_see():
+def test_a_view_without_results_is_refused():
     with pytest.raises(nw.InputError, match="shown"):
         nw.view([])
 

@@ -310,7 +310,7 @@ def test_results_of_chains_are_pickled_with_all_statistics():
     assert again.acceptance == chains.acceptance and again.counters == chains.counters
     assert [one.value for one in again.last] == [one.value for one in chains.last]
     assert again.trajectories == chains.trajectories and again.method == chains.method
-    with pytest.raises(nw.InputError, match="cannot go on"):
+    with pytest.raises(nw.InputError, match="cannot continue the chains"):
         again.more(10)
     with pytest.warns(UserWarning, match="discrete"):
         drawn = nw.run(line, nw.nuts(20, warmup=30, chains=2), seed=2)

@@ -187,5 +187,5 @@ def test_a_replay_keeps_a_folder_of_one_run(tmp_path: Path) -> None:
     assert found["shown"] == 1 - best and found["best"] == best and list(found["files"]) == ["best.ply"]
     # Another search does not.
     refused = run("replay", two / "run.json", "-o", one, "--no-picture")
-    assert isinstance(refused.exception, NiwakiError) and "is there already" in str(refused.exception)
+    assert isinstance(refused.exception, NiwakiError) and "already exists" in str(refused.exception)
     assert names(one) == {"run.json", "best.ply"}

@@ -1,4 +1,4 @@
-"""Each family of the engine has a class of the same parameters, and a word that draws from it."""
+"""Claim: each family of the engine has a class with the same parameters, and a word that draws from it."""
 
 import inspect
 
@@ -13,7 +13,7 @@ WORDS = {"bernoulli": "flip"}
 
 @pytest.mark.parametrize("family", _engine.FAMILIES)
 def test_a_family_has_a_class_and_a_word(family: str) -> None:
-    classes = {one.family: one for one in FAMILIES}
+    classes = {family_class.family: family_class for family_class in FAMILIES}
     assert family in classes, f"`{family}` has no class in niwaki.words.distributions"
     parameters = inspect.signature(classes[family]).parameters
     assert list(parameters) == [row[0] for row in _engine.FAMILIES[family][2]]

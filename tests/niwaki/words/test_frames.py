@@ -41,7 +41,7 @@ def four_numbers():
     ],
     ids=["no direction", "along", "four numbers"],
 )
-def test_wrong_values_are_found_at_the_call(wrong, code, message) -> None:
+def test_wrong_values_are_reported_at_the_call(wrong, code, message) -> None:
     for go in (lambda: run_python(wrong, seed=1), lambda: run(wrong, forward(1), seed=1)):
         with pytest.raises(ModelFault) as fault:
             go()

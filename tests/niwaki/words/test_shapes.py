@@ -1,4 +1,4 @@
-"""The words for shapes are those of the engine, and take their arguments by position or by name."""
+"""Claim: the package has a word for each shape of the engine, with arguments by position or by name."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ def test_every_word_of_the_engine_is_a_word_of_the_package() -> None:
     assert all(getattr(nw, word.__name__) is word for word in SHAPES)
 
 
-def test_arguments_go_by_position_or_name_and_others_are_refused() -> None:
+def test_arguments_have_a_position_or_a_name_and_others_are_refused() -> None:
     shape: Any = _engine.shape
     by_name = shape("cylinder", radius=1.0, center=(0, 0, 0), length=2.0, color=(1, 0, 0))
     assert by_name == shape("cylinder", (0, 0, 0), 1.0, 2.0, color=(1, 0, 0))

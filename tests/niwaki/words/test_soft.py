@@ -63,7 +63,7 @@ def test_a_width_is_above_zero(width: float) -> None:
 
 @nw.model
 def contradictory(n):  # type: ignore[no-untyped-def]
-    """Ask for two things that cannot both be."""
+    """Contradict a soft equality by soft bounds."""
     x = nw.uniform(0.0, 10.0)
     nw.factor(nw.softeq(x, 2.0, 0.1))
     for i in range(n):
@@ -72,22 +72,24 @@ def contradictory(n):  # type: ignore[no-untyped-def]
     return x
 
 
-def test_residuals_show_what_does_not_hold() -> None:
+def test_residuals_show_constraints_that_do_not_hold() -> None:
     sample = nw.run(contradictory, 2, seed=3, method=nw.importance(200)).best
-    found = nw.residuals(contradictory, 2, choices=sample.choices)
-    assert len(found) == 4 and len(found.beyond(3.0)) >= 1
-    assert [one.widths for one in found] == sorted((one.widths for one in found), reverse=True)
+    constraints = nw.residuals(contradictory, 2, choices=sample.choices)
+    assert len(constraints) == 4 and len(constraints.beyond(3.0)) >= 1
+    assert [constraint.widths for constraint in constraints] == sorted(
+        (constraint.widths for constraint in constraints), reverse=True
+    )
     x = sample.choices["x"]
-    by_kind = {(one.kind, one.goal): one for one in found}
+    by_kind = {(constraint.kind, constraint.goal): constraint for constraint in constraints}
     assert by_kind["softeq", 2.0].residual == pytest.approx(x - 2.0)
     assert by_kind["soft_at_least", 5.0].residual == pytest.approx(5.0 - x)
     assert by_kind["soft_at_most", 9.0].residual == 0.0
     assert by_kind["soft_at_least", 5.0].address == "i[1]/soft_at_least"
     assert by_kind["softeq", 2.0].line.partition(":")[0].endswith("test_soft.py")
-    assert len(repr(found).splitlines()) == 5
+    assert len(repr(constraints).splitlines()) == 5
 
 
-def test_constraints_do_not_change_what_runs_are_equal() -> None:
+def test_plain_runs_with_constraints_score_as_in_the_engine() -> None:
     run = nw.run_python(contradictory, 2, seed=3)
     here = nw.run(contradictory, 2, choices=run.choices).best
     assert here.log_score == pytest.approx(run.log_score, rel=1e-12)

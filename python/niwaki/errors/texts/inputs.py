@@ -14,22 +14,22 @@ INPUTS = (
         "`{path}` fills no cell of the grid",
         why="the mesh is smaller than one cell, or empty inside",
         help="make the cells smaller than {size}, or scale the mesh up",
-        example="voxel_size=10 for a mesh of size 1",
-        cure="voxel_size=0.05",
+        example="grow(ship, target, voxel=10)   # a target of size 1",
+        cure="grow(ship, target, voxel=0.05)",
     ),
     Message(
         "too-many-cells",
         "a grid of {found} cells is too large",
         help="make the cells larger than {size}, or scale the mesh down",
-        example="voxel_size=0.0001 for a mesh of size 100",
-        cure="voxel_size=0.5",
+        example="grow(ship, target, voxel=0.0001)   # a target of size 100",
+        cure="grow(ship, target, voxel=0.5)",
     ),
     Message(
         "too-many-runs",
         "the model has more runs than can be listed",
         why="enumeration visits every run",
         help="make the model smaller, raise the limit, or use `smc` or `importance`",
-        example="run(model, method=enumerate_all()) with 40 flips",
+        example="run(model, method=enumerate_all())   # a model of 40 flips",
         cure="run(model, method=importance(1000))",
     ),
     Message(
@@ -37,16 +37,16 @@ INPUTS = (
         "rejection accepted too few runs",
         why="most runs of the model are rejected",
         help="use `smc` or `importance`, or loosen the conditions",
-        example="condition(x == 0.5) for a gaussian x",
-        cure="observe(Gaussian(x, 0.1), 0.5)",
+        example="x = gaussian(0, 1)\ncondition(x == 0.5)",
+        cure="x = gaussian(0, 1)\nobserve(Gaussian(x, 0.1), 0.5)",
     ),
     Message(
         "rejection-bound",
         "a run scores above the bound of rejection",
         why="rejection is correct only if no run scores above its bound",
         help="raise the bound to the greatest score that a run can have",
-        example="rejection(bound=0) of a model with factor(1)",
-        cure="rejection(bound=1)",
+        example="run(model, method=rejection(bound=0))   # a model with factor(1)",
+        cure="run(model, method=rejection(bound=1))",
     ),
     Message(
         "unknown-setting",
@@ -71,7 +71,7 @@ INPUTS = (
             "place, which only lowers the score |\n\n"
             "With `--rule surface`, a part may lie inside another part.\n\n"
             "If the first part of every run breaks the constraint, more particles change nothing. If runs become impossible "
-            "later, one after the other, more particles (`-n`) or futures can help."
+            "later, one after the other, more particles (`--particles`) or futures can help."
         ),
     ),
     Message(
@@ -80,14 +80,14 @@ INPUTS = (
         why="a particle's weight is relative to its own population",
         help="use `smc(particles, populations=n)`, which weighs its populations by their evidence, or read each search's samples",
         example="grow(ship, target, runs=4).weights",
-        cure="run(ship, smc(300, populations=4), sketch=target).weights",
+        cure="run(ship, method=smc(300, populations=4), score=match_volume(target)).weights",
     ),
     Message(
         "not-enumerable",
         "the model has a choice whose values cannot be listed",
         why="enumeration visits every value of every choice, so each choice needs a finite list of values",
         help="use `smc`, `importance` or `rejection` instead of `enumerate_all`",
-        example="run(model, method=enumerate_all()) with a gaussian",
+        example="run(model, method=enumerate_all())   # a model with a gaussian",
         cure="run(model, method=importance(1000))",
     ),
     Message(
@@ -103,8 +103,8 @@ INPUTS = (
         "this run makes no continuous choices",
         why="a gradient moves real numbers, and every choice of this run is discrete",
         help="use a method for discrete choices, such as `enumerate_all` or particles",
-        example="log_density of a model of flips",
-        cure="log_density of a model with a gaussian",
+        example="log_density(run(coins).best)   # a model of flips",
+        cure="log_density(run(tree).best)   # a model with a gaussian",
     ),
     Message(
         "no-normal-fits",
@@ -118,8 +118,8 @@ INPUTS = (
         "out-of-time",
         "the search had no result within its time",
         help="give it more time or fewer particles",
-        example="budget of 0.001 s",
-        cure="budget of 10 s",
+        example="run(ship, method=smc(300, seconds=0.001))",
+        cure="run(ship, method=smc(300, seconds=10))",
     ),
     Message(
         "model-arguments",

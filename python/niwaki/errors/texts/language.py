@@ -199,7 +199,7 @@ LANGUAGE = (
     ),
     Message(
         "required-after-optional",
-        "a keyword parameter without a default follows one that has a default",
+        "a keyword parameter without a default follows a parameter with a default",
         "`{name}` has no default",
         why="a function value is called by position, so only its last parameters can have defaults",
         help="give `{name}` a default or move it to the front",
@@ -332,7 +332,7 @@ LANGUAGE = (
     ),
     Message(
         "record-runs-code",
-        "creating a `{name}` runs code of its own",
+        "the creation of a `{name}` runs code of the class",
         "created here",
         why="the engine creates records itself, from their fields alone",
         help="remove `__post_init__` and default factories, and create the record in a function",

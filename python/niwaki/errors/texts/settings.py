@@ -98,7 +98,7 @@ SETTINGS = (
     ),
     Message(
         "no-target",
-        "the model `{name}` has no target of its own",
+        "the model `{name}` has no usual target",
         why="`grow` needs a target or a score",
         help="name a mesh with `--target FILE`, or a picture with `--match-image` or `--match-shadow`; in Python, give `target` or "
         "`score`. Search a model without shapes with `niwaki sample`",
