@@ -12,7 +12,7 @@ import numpy as np
 import original
 from chains_of_numbers import Chains
 from niwaki import stacks
-from niwaki.stacks.starting import height
+from niwaki.stacks.starts import height
 
 DRAWS, STEPS, WIDTH = 200, 1000, 0.005
 

@@ -130,7 +130,7 @@ OPTIONAL = {("errors/memory.py", "resource")}
 #: Who imports modules by a name of their own: a look at parts that may be broken, extras, the gallery's folder, the
 #: shell's commands, the host functions of a search that was read.
 BY_NAME = {
-    "checkup/looking.py",
+    "checkup/inspection.py",
     "errors/extras.py",
     "gallery/__init__.py",
     "inputs/child.py",

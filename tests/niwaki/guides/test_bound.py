@@ -184,7 +184,7 @@ def test_what_only_examples_need_is_refused(given: dict[str, Any]) -> None:
 
 
 def test_without_a_target_that_judges_it_is_refused() -> None:
-    with pytest.raises(InputError, match="at least one target by which the best guide is known"):
+    with pytest.raises(InputError, match="at least one target that judges the guides"):
         trained(agree, held_out=[])
 
 
