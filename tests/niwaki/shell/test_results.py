@@ -127,8 +127,8 @@ def test_a_file_that_fails_leaves_the_others_and_run_json(tmp_path: Path) -> Non
     ):
         (tmp_path / "best.glb").write_bytes(b"glb")
         raise KeyboardInterrupt
-    data = run_files.load(tmp_path / "run.json")
-    assert data["files"] == {"best.glb": hashlib.sha256(b"glb").hexdigest()}
+    stored = run_files.load(tmp_path / "run.json")
+    assert stored["files"] == {"best.glb": hashlib.sha256(b"glb").hexdigest()}
 
 
 def test_where_there_is_no_room_the_folder_stays_as_it_was(
