@@ -73,7 +73,9 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
             model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000
         )
         method, functions = _written(nw.mh(steps + 1, kernel=kernel, warmup=steps // 2))
-        text, proposals, accepted, faults = _engine.agreement(compiled, method, seed, steps, 20, functions)
+        difference, proposals, accepted, faults = _engine.agreement(
+            compiled, method, seed, steps, 20, functions
+        )
     except (_engine.EngineFault, NiwakiError):
         # No possible first state, or a fault at once.
         return ""
@@ -82,7 +84,7 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
         tally.proposals += 4 * proposals
         tally.accepted += accepted
         tally.faults += faults
-    return text or ""
+    return difference or ""
 
 
 def look(seeds: Iterator[int], steps: int, memo: bool = False) -> Tally:

@@ -136,8 +136,8 @@ def errors(result: nw.Result, truth: str, names: tuple[str, ...], turned: Any = 
     values = draws if turned is None else turned(draws)
     known = read("targets", "ground_truth", f"{truth}.py")
 
-    def all_of(name: str) -> np.ndarray:
-        keys = ["_".join(word for word in ("IDENTITY", name, name) if word) for name in names]
+    def all_of(quantity: str) -> np.ndarray:
+        keys = ["_".join(word for word in ("IDENTITY", name, quantity) if word) for name in names]
         return np.concatenate([np.ravel(known[key]) for key in keys])
 
     means, theirs = all_of("MEAN"), all_of("MEAN_STANDARD_ERROR")

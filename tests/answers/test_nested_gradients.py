@@ -251,15 +251,15 @@ def log_joint(of: Any, choices: dict[str, Any]) -> float:
 
 def differences(f: Callable[[np.ndarray], float], x: np.ndarray) -> np.ndarray:
     """Central differences, extrapolated once. The grid of scores has steps of 2^-32 nats."""
-    slopes = []
+    gradient = []
     for k in range(len(x)):
         step = np.zeros_like(x)
         slopes = []
         for h in (4e-3, 2e-3):
             step[k] = h
             slopes.append((f(x + step) - f(x - step)) / (2 * h))
-        slopes.append((4 * slopes[1] - slopes[0]) / 3)
-    return np.array(slopes)
+        gradient.append((4 * slopes[1] - slopes[0]) / 3)
+    return np.array(gradient)
 
 
 @pytest.mark.parametrize("seed", range(4))

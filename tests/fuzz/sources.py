@@ -241,14 +241,14 @@ def judged(path: Path) -> tuple[str, str]:
     try:
         if isinstance(there, dict):
             return "runs", compared(plain(choices=there["choices"]), there)
-        facts = plain(seed=1)
+        reference = plain(seed=1)
     except Late:
         return "late", ""
-    if isinstance(facts, dict):
-        there = engine(choices=facts["choices"])
-    if any(isinstance(run, NiwakiError) and run.code in ONE_SIDED for run in (facts, there)):
+    if isinstance(reference, dict):
+        there = engine(choices=reference["choices"])
+    if any(isinstance(run, NiwakiError) and run.code in ONE_SIDED for run in (reference, there)):
         return "one-sided", ""
-    return "fails", compared(facts, there)
+    return "fails", compared(reference, there)
 
 
 def child(first: int, count: int, folder: Path) -> None:

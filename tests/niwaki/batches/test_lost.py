@@ -135,8 +135,8 @@ def test_a_worker_that_leads_no_group_yet_ends_with_its_batch(monkeypatch: pytes
     # As one that is still being started: nobody would wait for it, and it waits for others.
     monkeypatch.setattr(pools, "end_group", lambda leader: None)
     workers = pools.Workers(processes=1)
-    assert workers._own is not None
-    workers._own.submit(time.sleep, 60)
+    assert workers._pool is not None
+    workers._pool.submit(time.sleep, 60)
     (process,) = workers._leaders().values()
     workers.close(at_once=True)
     assert process.exitcode == -signal.SIGKILL

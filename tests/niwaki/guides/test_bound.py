@@ -177,7 +177,7 @@ def test_faults_are_counted_or_shown() -> None:
 
 
 @pytest.mark.parametrize(
-    "given",
+    "settings",
     [{"rounds": (4,)}, {"searches": (nw.smc(5),)}, {"keep": lambda _: True}],
 )
 def test_what_only_examples_need_is_refused(settings: dict[str, Any]) -> None:
