@@ -25,12 +25,12 @@ from niwaki import batches, gallery
 SHIPS, KILLS, SEED = 1000, 10, 1
 
 
-def ships(count: int, folder: Path, **given: Any) -> str:
+def ships(count: int, folder: Path, **options: Any) -> str:
     """The hash of a batch of ships."""
     entry = gallery.entry("spaceship")
     assert entry is not None
     for _ in nw.batch(
-        entry.model, entry.target(), seeds=count, particles=50, voxel=0.5, folder=folder, **given
+        entry.model, entry.target(), seeds=count, particles=50, voxel=0.5, folder=folder, **options
     ):
         pass
     return batches.Store(folder).hash()
@@ -64,8 +64,10 @@ def killed(folder: Path) -> tuple[str, list[int]]:
             while len(there) <= KILLS and child.poll() is None and known(folder) <= there[-1]:
                 time.sleep(0.05)
             try:
-                said, _ = child.communicate(timeout=chance.uniform(0.0, 0.5) if len(there) <= KILLS else None)
-                return said.strip(), there[1:]
+                output, _ = child.communicate(
+                    timeout=chance.uniform(0.0, 0.5) if len(there) <= KILLS else None
+                )
+                return output.strip(), there[1:]
             except subprocess.TimeoutExpired:
                 child.send_signal(signal.SIGKILL)
                 child.communicate()
@@ -81,18 +83,18 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as place:
         root, start = Path(place), time.perf_counter()
         with ThreadPoolExecutor(1) as thread:
-            wanted = ships(SHIPS, root / "alone", executor=thread)
-        print(f"{SHIPS} ships in one thread: {time.perf_counter() - start:.1f} s, hash {wanted[:16]}")
-        found, kills = killed(root / "killed")
-        same = "equal" if found == wanted else "ANOTHER"
-        print(f"killed {len(kills)} times, with {kills} ships: hash {found[:16]}, {same}")
+            expected = ships(SHIPS, root / "alone", executor=thread)
+        print(f"{SHIPS} ships in one thread: {time.perf_counter() - start:.1f} s, hash {expected[:16]}")
+        after_kills, kills = killed(root / "killed")
+        verdict = "equal" if after_kills == expected else "ANOTHER"
+        print(f"killed {len(kills)} times, with {kills} ships: hash {after_kills[:16]}, {verdict}")
         empty = cost(4, root / "few", 1.0)
         for chunk in (0.1, 1.0):
-            whole, own = cost(SHIPS, root / f"cost-{chunk}", chunk)
-            beyond = (whole - own) - (empty[0] - empty[1])
+            whole, searching = cost(SHIPS, root / f"cost-{chunk}", chunk)
+            beyond = (whole - searching) - (empty[0] - empty[1])
             print(
-                f"chunks of {chunk:g} s: {whole:.1f} CPU s, searches {own:.1f}, starting {empty[0] - empty[1]:.1f}, "
-                f"beyond them {beyond:.2f} s, {100 * beyond / own:.1f} %"
+                f"chunks of {chunk:g} s: {whole:.1f} CPU s, searches {searching:.1f}, "
+                f"starting {empty[0] - empty[1]:.1f}, beyond them {beyond:.2f} s, {100 * beyond / searching:.1f} %"
             )
 
 

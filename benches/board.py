@@ -67,16 +67,16 @@ def measure_by(
     seeds: Sequence[int],
     times: float,
 ) -> int:
-    """The same with a function that maps: first what the default costs, then sizes, then the searches."""
-    default, others = METHODS[0], [how for how in methods if how.size]
-    alone = [one for one in problems if others and records.size(one.name, default) is None]
-    for row in each(sized, [(one.name, default.name, 0.0) for one in alone]):
+    """Measure with a function that maps: first what the default costs, then sizes, then the searches."""
+    default, alternatives = METHODS[0], [how for how in methods if how.size]
+    alone = [problem for problem in problems if alternatives and records.size(problem.name, default) is None]
+    for row in each(sized, [(problem.name, default.name, 0.0) for problem in alone]):
         records.add(row | {"times": 1.0})
     sizes = [
-        (one.name, how.name, times * records.size(one.name, default)["pilot_cpu"])
-        for one in problems
-        for how in others
-        if records.size(one.name, how, times) is None
+        (problem.name, how.name, times * records.size(problem.name, default)["pilot_cpu"])
+        for problem in problems
+        for how in alternatives
+        if records.size(problem.name, how, times) is None
     ]
     for done, row in enumerate(each(sized, sizes)):
         records.add(row | {"times": times})
@@ -96,12 +96,12 @@ def missing(
     times: float,
 ) -> Iterator[tuple[str, str, int, int]]:
     """Searches to do: methods take turns on each seed, so that a busy machine is busy for all of them."""
-    for one in problems:
+    for problem in problems:
         for seed in seeds:
             for how in methods:
-                if not records.has(how, one.name, seed, times):
-                    size = records.size(one.name, how, times)["size"] if how.size else 0
-                    yield one.name, how.name, size, seed
+                if not records.has(how, problem.name, seed, times):
+                    size = records.size(problem.name, how, times)["size"] if how.size else 0
+                    yield problem.name, how.name, size, seed
 
 
 def say(text: str) -> None:
@@ -113,7 +113,7 @@ def say(text: str) -> None:
 def chosen(table: Sequence, variable: str) -> list:
     """The rows of a table that a variable of the environment names, all without one."""
     names = [name.strip() for name in os.environ.get(variable, "").split(",") if name.strip()]
-    known = {one.name: one for one in table}
+    known = {row.name: row for row in table}
     if unknown := [name for name in names if name not in known]:
         raise SystemExit(f"{variable}: no {unknown[0]!r}; there are {', '.join(known)}")
     return [known[name] for name in names] or list(table)

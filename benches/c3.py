@@ -36,9 +36,9 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", default=os.environ.get("QUICK", "0") not in ("", "0"))
     parser.add_argument("--only", default=",".join(PARTS))
     parser.add_argument("--out", type=Path, default=CACHE / "c3")
-    given = parser.parse_args()
-    parts, quick = given.only.split(","), given.quick
-    report, peers = Report(given.out), Peers.prepared()
+    options = parser.parse_args()
+    parts, quick = options.only.split(","), options.quick
+    report, peers = Report(options.out), Peers.prepared()
     report.note(**machine(), load=os.getloadavg()[0], quick=quick)
     report.console.print(
         f"load average {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors; CPU time of one thread"
@@ -76,12 +76,12 @@ def draw_tree(report: Report, quick: bool) -> None:
     from niwaki.draw.picture import picture
     from niwaki.targets.examples import bent_tube
 
-    found = tree.measure(report, 2 if quick else 20, quick)
+    rows = tree.measure(report, 2 if quick else 20, quick)
     best = tree.fitted(report.folder, 5_000 if quick else 150_000)
     shown = {"size": (420, 620), "backdrop": "white", "azimuth": 75.0, "elevation": 8.0}
     figures.tree(
         report.folder / "tree-strategies.png",
-        found,
+        rows,
         picture(tree.scene_of(bent_tube()), None, **shown),
         best.picture(target=False, **shown),
     )

@@ -1,4 +1,4 @@
-"""What one more part costs each sketch when there are already many: CPU microseconds, which should not grow.
+"""The cost of another part for each sketch of a large scene: CPU microseconds, which should not grow.
 
 A row of turned boxes grows as a search grows it: before each part the sketch is copied and the old copy kept for a
 while, so that the cost of sharing is included. Run it alone on one core; the figures are this process's own CPU time.
@@ -69,7 +69,7 @@ def cost(score: Score, count: int, last: int = 50, repeats: int = 5) -> float:
 
 
 def empty(last: int = 50) -> float:
-    """The same without a sketch: what Python itself takes."""
+    """Return the time without a sketch: what Python itself takes."""
     return cost(Score(), last, last)
 
 

@@ -1,4 +1,4 @@
-"""What a search costs: CPU seconds against particles and against primitives.
+"""The cost of a search: CPU seconds against particles and against primitives.
 
     .venv/bin/python benches/cost.py docs/pictures/cost.png [MEASUREMENTS.jsonl]
 
@@ -57,13 +57,13 @@ def main(picture: Path, lines: Path | None) -> None:
 
 def ships() -> list[dict]:
     """The gallery's ship in its target."""
-    one = entry("spaceship")
-    assert one is not None
-    target = one.target()
+    ship = entry("spaceship")
+    assert ship is not None
+    target = ship.target()
     rows = []
     for particles in PARTICLES:
         for seed in SEEDS:
-            result = nw.grow(one.model, target, particles=particles, voxel=one.voxel, seed=seed, threads=1)
+            result = nw.grow(ship.model, target, particles=particles, voxel=ship.voxel, seed=seed, threads=1)
             rows.append(row(SHIP, particles, result))
     return rows
 

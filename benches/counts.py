@@ -69,13 +69,13 @@ def write_models() -> None:
     """Writes the models that are grown: core form, target, method."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in (path.split()[1] for path in PATHS if path.startswith("grow ")):
-        found = entry(name)
-        assert found is not None, name
-        core = found.model.core()
+        gallery_entry = entry(name)
+        assert gallery_entry is not None, name
+        core = gallery_entry.model.core()
         (FOLDER / f"{name}.core").write_text(core.text)
         (FOLDER / f"{name}.constants").write_text(json.dumps([constant(value) for value in core.constants]))
-        target = found.target()
-        lines = [f"voxel {found.voxel or 0.25}"]
+        target = gallery_entry.target()
+        lines = [f"voxel {gallery_entry.voxel or 0.25}"]
         lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in target.vertices.tolist()]
         lines += [f"f {a} {b} {c}" for a, b, c in target.faces.tolist()]
         (FOLDER / f"{name}.mesh").write_text("\n".join(lines))
@@ -117,8 +117,8 @@ def main(arguments: Sequence[str]) -> int:
         "paths", nargs="*", metavar="PATH", help='such as "step hmm"; all where none is named'
     )
     reading.add_argument("--write", action="store_true", help="write the table again")
-    given = reading.parse_args(arguments)
-    if unknown := set(given.paths) - set(PATHS):
+    options = reading.parse_args(arguments)
+    if unknown := set(options.paths) - set(PATHS):
         reading.error(f"no path {', '.join(sorted(unknown))}; there are: {', '.join(PATHS)}")
     if shutil.which("valgrind") is None:
         print("no valgrind found: instructions are not counted (apt-get install valgrind)")
@@ -128,7 +128,7 @@ def main(arguments: Sequence[str]) -> int:
     table = json.loads(TABLE.read_text(encoding="utf-8")) if TABLE.exists() else {}
     differs = []
     print(f"{'path':22} {'unit':14} {'instructions':>14} {'table':>14} {'change':>8}")
-    paths = list(given.paths or PATHS)
+    paths = list(options.paths or PATHS)
     # The longest first; a count does not depend on what else runs.
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         prices = dict(zip(paths[::-1], pool.map(lambda path: price(program, path), paths[::-1]), strict=True))
@@ -139,7 +139,7 @@ def main(arguments: Sequence[str]) -> int:
         if abs(change) > LOOSE.get(path, ALLOWED):
             differs.append(path)
         table[path] = now
-    if given.write:
+    if options.write:
         TABLE.write_text(json.dumps({path: table[path] for path in PATHS if path in table}, indent=2) + "\n")
         return 0
     if differs:

@@ -23,7 +23,7 @@ def hmm(steps: int = 100, states: int = 10, symbols: int = 10, seed: int = 11) -
 
 def lda(count: int = 5) -> dict[str, object]:
     """Words of documents (D, 20), below `vocabulary`; how many topics there are."""
-    return {"topics": 10, "vocabulary": 100, "documents": [list(one) for one in documents(count)]}
+    return {"topics": 10, "vocabulary": 100, "documents": [list(words) for words in documents(count)]}
 
 
 def gmm(points: int = 100) -> dict[str, object]:
@@ -34,7 +34,7 @@ def gmm(points: int = 100) -> dict[str, object]:
 def hlr(sequences: int = 20) -> dict[str, object]:
     """Times (5,) and what was measured at them (N, 5)."""
     times = [-2.0, -1.0, 0.0, 1.0, 2.0]
-    return {"times": times, "measured": [list(one) for one in growth(sequences)]}
+    return {"times": times, "measured": [list(values) for values in growth(sequences)]}
 
 
 #: What one size more adds, and who makes it.
@@ -52,8 +52,8 @@ def write_sized(folder: Path, program: str, size: int) -> Path:
     return save(folder / f"{program}-{size}.json", make(unit * size))
 
 
-def save(path: Path, found: dict) -> Path:
+def save(path: Path, data: dict) -> Path:
     """Write JSON, making its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(found))
+    path.write_text(json.dumps(data))
     return path

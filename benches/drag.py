@@ -68,7 +68,7 @@ def row(name: str, sample: Any, counts: str, drags: int) -> str:
     names = [address for address, family in sample.families.items() if family != "delta"]
     boxes = np.array([shape.aabb() for part in sample.parts for shape in part.shapes])
     size = float((boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)).max())
-    first, whole, found, refused, arrived = [], [], [], Counter[str](), 0
+    first, whole, reached, refused, arrived = [], [], [], Counter[str](), 0
     for _ in range(drags):
         part = sample.parts[rng.integers(len(sample.parts))]
         low, high = (np.array(corner) for corner in part.shapes[rng.integers(len(part.shapes))].aabb())
@@ -76,22 +76,22 @@ def row(name: str, sample: Any, counts: str, drags: int) -> str:
         aim -= view * (aim @ view)
         aim *= rng.uniform(0.01, 0.1) * size / np.linalg.norm(aim)
         middle = (low + high) / 2
-        held = [one for one in names if rng.random() < 0.25]
+        held = [name for name in names if rng.random() < 0.25]
         along = view if counts == "pointer" else None
-        begun = time.perf_counter()
+        start = time.perf_counter()
         drag = Dragging(sample.search, sample, part.address, grab=middle, along=along, hold=held)
         drag.move(middle + aim)
-        first.append(time.perf_counter() - begun)
+        first.append(time.perf_counter() - start)
         answer = drag.to(middle + aim)
-        whole.append(time.perf_counter() - begun)
+        whole.append(time.perf_counter() - start)
         check(sample, answer, held)
-        found.append(len(answer.answers))
+        reached.append(len(answer.answers))
         arrived += bool(answer.answers)
         if not answer.answers:
             assert answer.reason
             refused[refusal(answer.reason)] += 1
     many = ", ".join(f"{kind} {count}" for kind, count in refused.most_common()) or "0"
-    mean = statistics.mean(n for n in found if n) if arrived else 0.0
+    mean = statistics.mean(n for n in reached if n) if arrived else 0.0
     return (
         f"| {name} | {counts} | {arrived} | {many} | {1e3 * statistics.median(first):.0f} | "
         f"{1e3 * statistics.median(whole):.0f} | {mean:.1f} |"
@@ -100,10 +100,10 @@ def row(name: str, sample: Any, counts: str, drags: int) -> str:
 
 def check(sample: Any, answer: Drag, held: list[str]) -> None:
     """What was held stays to the bit, and an answer is where it says."""
-    for one in answer.answers:
-        after = one.sample.choices
+    for item in answer.answers:
+        after = item.sample.choices
         assert all(name not in after or after[name] == sample.choices[name] for name in held)
-        assert one.share <= NEAR
+        assert item.share <= NEAR
 
 
 if __name__ == "__main__":

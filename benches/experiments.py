@@ -26,7 +26,7 @@ RECOMMENDED: dict[str, Any] = {"power": 8.0, "anneal": [min(8.0, 2.0 + 0.2 * k) 
 
 @dataclass(frozen=True)
 class Experiment:
-    """What one figure needs from a model.
+    """The data of a figure's model.
 
     Attributes
     ----------
@@ -129,10 +129,10 @@ class Experiment:
         from niwaki.methods import smc
         from niwaki.search import run
 
-        found = entry(self.model)
-        assert found is not None
+        gallery_entry = entry(self.model)
+        assert gallery_entry is not None
         method = smc(**(self.settings(preset) | settings))
-        result = run(found.model, method=method, score=self.score(), seed=seed, threads=threads)
+        result = run(gallery_entry.model, method=method, score=self.score(), seed=seed, threads=threads)
         if preset == "original" or self.polish is None:
             return result
         onward = self.polish if steps is None else replace(self.polish, steps=steps)
@@ -236,4 +236,4 @@ EXPERIMENTS = (
 
 def experiment(name: str) -> Experiment:
     """Find the experiment of that name."""
-    return next(one for one in EXPERIMENTS if one.name == name)
+    return next(candidate for candidate in EXPERIMENTS if candidate.name == name)

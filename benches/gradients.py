@@ -41,17 +41,17 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", default=os.environ.get("QUICK", "0") not in ("", "0"))
     parser.add_argument("--only", default=",".join(PARTS))
     parser.add_argument("--out", type=Path, default=CACHE / "gradients")
-    given = parser.parse_args()
-    parts, quick = given.only.split(","), given.quick
-    report, programs = Report(given.out, "gradients"), Programs.prepared()
+    options = parser.parse_args()
+    parts, quick = options.only.split(","), options.quick
+    report, programs = Report(options.out, "gradients"), Programs.prepared()
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
-    found = peers.versions()
-    missing = [name for name in peers.NAMES if name not in found]
-    report.note(**machine(), load=os.getloadavg()[0], quick=quick, **found)
+    versions = peers.versions()
+    missing = [name for name in peers.NAMES if name not in versions]
+    report.note(**machine(), load=os.getloadavg()[0], quick=quick, **versions)
     report.console.print(
         f"load average {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors; one of them is used; "
-        + ", ".join(f"{name} {version}" for name, version in found.items())
+        + ", ".join(f"{name} {version}" for name, version in versions.items())
         + (f"; not installed, so left out: {', '.join(missing)}" if missing else "")
     )
     started = time.monotonic()
@@ -64,7 +64,7 @@ def main() -> int:
             continue
         match part:
             case "answers":
-                check(report, programs, found)
+                check(report, programs, versions)
                 effective.moments(report, programs, points["ring"], 3_000 if quick else 10_000)
             case "rates":
                 compiling = rates.measure(report, programs, points, 2 if quick else 5, share)
@@ -76,13 +76,13 @@ def main() -> int:
     return report.close()
 
 
-def check(report: Report, programs: Programs, found: dict[str, str]) -> None:
+def check(report: Report, programs: Programs, versions: dict[str, str]) -> None:
     """Values and gradients at points where they are known."""
     for model in densities.DIMS:
         for system, off in programs.check(model):
             report.answer(f"{model} by {system}: value, relative error", off["value"], ALLOWED)
             report.answer(f"{model} by {system}: gradient, relative error", off["gradient"], ALLOWED)
-        if "jax" not in found:
+        if "jax" not in versions:
             continue
         import jax
 
@@ -92,8 +92,8 @@ def check(report: Report, programs: Programs, found: dict[str, str]) -> None:
             there, slope = both(x)
             apart = np.abs(np.asarray(slope) - gradient).max() / np.abs(gradient).max()
             worst = np.maximum(worst, (abs(float(there) / value - 1.0), apart))
-        for what, error in zip(("value", "gradient"), worst, strict=True):
-            report.answer(f"{model} by JAX: {what}, relative error", error, ALLOWED)
+        for quantity, error in zip(("value", "gradient"), worst, strict=True):
+            report.answer(f"{model} by JAX: {quantity}, relative error", error, ALLOWED)
 
 
 if __name__ == "__main__":

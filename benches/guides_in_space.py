@@ -92,8 +92,8 @@ def train(name: str, seed: int = 1) -> Guide:
     targets = [score(target) for target in of.learned()]
     return guides.train_guide(
         of.model,
-        [one for i, one in enumerate(targets) if i % EVERY],
-        lambda one: one,
+        [target for i, target in enumerate(targets) if i % EVERY],
+        lambda target: target,
         held_out=targets[::EVERY],
         rounds=recipe.rounds,
         searches=(nw.improve(), LATER),
@@ -143,21 +143,21 @@ def as_costly(of: Kind, one: nw.Score, budget: float) -> int:
 def compare(of: Kind, guide: Guide, seeds: Sequence[int]) -> Iterator[dict[str, Any]]:
     """One record for each target."""
     for target in of.tried_on():
-        one = score(target)
+        target_score = score(target)
         guided, usual = smc(PARTICLES, of.name, guide), nw.improve()
         for method in (guided, usual):
-            searched(of, one, method, 0)  # compiled and voxelised now
-        same = as_costly(of, one, cost(of, one, guided))
+            searched(of, target_score, method, 0)  # compiled and voxelised now
+        same_cost = as_costly(of, target_score, cost(of, target_score, guided))
         methods = {
             "30 guided": guided,
-            "unguided": smc(same, of.name),
+            "unguided": smc(same_cost, of.name),
             "usual search": usual,
             "usual search, guided": nw.improve(guide=guide),
         }
         rows: dict[str, list[tuple[float, float]]] = {name: [] for name in methods}
         for seed in seeds:
             for name, method in methods.items():
-                rows[name].append(searched(of, one, method, seed))
+                rows[name].append(searched(of, target_score, method, seed))
         columns = {
             name: {
                 "scores": [round(s, 3) for s, _ in row],
@@ -168,8 +168,8 @@ def compare(of: Kind, guide: Guide, seeds: Sequence[int]) -> Iterator[dict[str, 
         yield {
             "model": of.name,
             "target": target.name,
-            "empty": round(empty(one), 2),
-            "particles": {"30 guided": PARTICLES, "unguided": same},
+            "empty": round(empty(target_score), 2),
+            "particles": {"30 guided": PARTICLES, "unguided": same_cost},
             "methods": columns,
         }
 
@@ -183,13 +183,13 @@ def table(records: Sequence[Mapping[str, Any]]) -> str:
         s = np.array(scores)
         return f"{s.mean():.1f} / {np.median(s):.1f} / {s.min():.1f}, {1000 * cpu:.0f} ms"
 
-    for one in records:
-        cells = [cell(one["methods"][name]["scores"], one["methods"][name]["cpu"]) for name in names]
-        lines.append(f"| {one['target']} | " + " | ".join(cells) + " |")
+    for record in records:
+        cells = [cell(record["methods"][name]["scores"], record["methods"][name]["cpu"]) for name in names]
+        lines.append(f"| {record['target']} | " + " | ".join(cells) + " |")
     together = []
     for name in names:
-        scores = [s for one in records for s in one["methods"][name]["scores"]]
-        together.append(cell(scores, float(np.mean([one["methods"][name]["cpu"] for one in records]))))
+        scores = [s for record in records for s in record["methods"][name]["scores"]]
+        together.append(cell(scores, float(np.mean([record["methods"][name]["cpu"] for record in records]))))
     return "\n".join([*lines, "| all | " + " | ".join(together) + " |"] if len(records) > 1 else lines)
 
 
@@ -207,14 +207,14 @@ def main(arguments: list[str]) -> int:
             )
         case ["compare", *places]:
             seeds = range(int(os.environ.get("SEEDS", "20")))
-            found = [Path(place) for place in places] or [
-                home(one.name) for one in KINDS if home(one.name).is_file()
+            places_found = [Path(place) for place in places] or [
+                home(model.name) for model in KINDS if home(model.name).is_file()
             ]
             old = json.loads(RECORD.read_text()) if RECORD.is_file() else []
-            for path in found:
+            for path in places_found:
                 guide = Guide.load(path)
                 name = guide.model.replace("_", "-")
-                old, records = [one for one in old if one["model"] != name], []
+                old, records = [record for record in old if record["model"] != name], []
                 for record in compare(kind(name), guide, seeds):
                     records.append(record)
                     print(table([record]).splitlines()[-1], flush=True)

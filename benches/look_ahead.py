@@ -44,16 +44,16 @@ def taught(name: str, looks: bool) -> nw.Guide:
     """The guide that ships with a model of the gallery, taught to look ahead, or to judge by the score so far alone."""
     entry = gallery.entry(name)
     assert entry is not None and entry.window is not None
-    page, own = entry.window, guides.shipped(entry.model)
-    assert own is not None
-    training = [drawings.drawing(one) for one in drawings.names("scribbles", "training")]
-    learned = [one for i, one in enumerate(training) if i % guides.EVERY]
+    page, shipped = entry.window, guides.shipped(entry.model)
+    assert shipped is not None
+    training = [drawings.drawing(drawing) for drawing in drawings.names("scribbles", "training")]
+    learned = [drawing for i, drawing in enumerate(training) if i % guides.EVERY]
     return guides.train_look_ahead(
-        own,
+        shipped,
         entry.model,
-        [*learned, *(one.mirrored() for one in learned)],
-        lambda one: one.score(page),
-        lambda one: one.place(page),
+        [*learned, *(drawing.mirrored() for drawing in learned)],
+        lambda drawing: drawing.score(page),
+        lambda drawing: drawing.place(page),
         held_out=training[:: guides.EVERY],
         searches=3000,
         looks=looks,
@@ -64,10 +64,10 @@ def taught(name: str, looks: bool) -> nw.Guide:
 def searched(search: nw.Search) -> tuple[float, float, float, float]:
     """Similarity of the best run, log evidence (nats), particle-steps and CPU milliseconds of a search."""
     start = time.process_time()
-    found: Any = search.run(threads=1)
+    result: Any = search.run(threads=1)
     cost = 1000 * (time.process_time() - start)
-    best = max(found, key=lambda one: one.log_joint)
-    return best.similarity, found.log_evidence, found.info.steps, cost
+    best = max(result, key=lambda sample: sample.log_joint)
+    return best.similarity, result.log_evidence, result.info.steps, cost
 
 
 def ways(particles: int, guide: nw.Guide, blind: nw.Guide) -> dict[str, nw.Smc]:
@@ -110,16 +110,16 @@ def compare(
     return rows
 
 
-def summed(found: np.ndarray[Any, Any], most: np.ndarray[Any, Any]) -> dict[str, Any]:
-    """What a row says: `(searches, 4)` of a method, and of the one with the most particles."""
-    alike, evidence, steps, cost = found.T
+def summed(scores: np.ndarray[Any, Any], most: np.ndarray[Any, Any]) -> dict[str, Any]:
+    """Return the text of a row: `(searches, 4)` of a method, and of the one with the most particles."""
+    alike, evidence, steps, cost = scores.T
 
     def by(column: int) -> tuple[float, float]:
-        more = found[:, column] - most[:, column]
+        more = scores[:, column] - most[:, column]
         return float(more.mean()), float(more.std() / math.sqrt(len(more)))
 
     return {
-        "searches": len(found),
+        "searches": len(scores),
         "mean": float(alike.mean()),
         "median": float(np.median(alike)),
         "p10": float(np.quantile(alike, 0.1)),
@@ -174,17 +174,17 @@ def main() -> int:
     parser.add_argument("--limit", type=int, help="so many drawings of each collection; all when left out")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--picture", type=Path)
-    given = parser.parse_args()
+    options = parser.parse_args()
     warnings.simplefilter("ignore", SearchWarning)
-    if given.picture is not None:
-        drawn(given.picture)
+    if options.picture is not None:
+        drawn(options.picture)
         return 0
     print(
         "| drawings | particles | mean | median | p10 | stumps | log evidence | steps | CPU, ms | less 1.5 N |"
     )
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     rows = []
-    for name in given.model or ("vines", "lightning"):
+    for name in options.model or ("vines", "lightning"):
         start, cpu = time.perf_counter(), time.process_time()
         guide = taught(name, looks=True)
         took = time.perf_counter() - start, time.process_time() - cpu
@@ -192,9 +192,9 @@ def main() -> int:
         print(
             f"{name}: {guide.report['look_ahead']}, {took[0]:.0f} s ({took[1]:.0f} s of CPU)", file=sys.stderr
         )
-        rows += compare(name, guide, blind, given.seeds, given.limit)
-    if given.json is not None:
-        given.json.write_text(json.dumps(rows, indent=1) + "\n")
+        rows += compare(name, guide, blind, options.seeds, options.limit)
+    if options.json is not None:
+        options.json.write_text(json.dumps(rows, indent=1) + "\n")
     return 0
 
 

@@ -164,7 +164,7 @@ def run(*command: str, folder: Path) -> None:
 
 
 def machine() -> dict[str, str]:
-    """What the numbers belong to."""
+    """Return the machine to which the numbers belong."""
     return {
         "processor": platform.processor() or platform.machine(),
         "cores": str(os.cpu_count()),

@@ -44,13 +44,13 @@ def measured(kernel: kernels.Kernel, seconds: float) -> list[str]:
     hue = 2 * math.pi * np.array([nw.words.to_hsv(sample.value[1][0]).x for sample in result])
     score = np.array([sample.log_score for sample in result])
     hues = min(diagnostics.ess_bulk(wave(hue)[None]) for wave in (np.sin, np.cos))
-    gradients = sum(one.gradients for one in result.trajectories)
+    gradients = sum(trajectory.gradients for trajectory in result.trajectories)
     time = result.cpu_seconds
     changes = sum(a != b for a, b in itertools.pairwise(schemes))
     return [
         f"{steps / time:.0f}",
         f"{gradients / time:.0f}",
-        f"{sum(one.structures for one in result.trajectories)}",
+        f"{sum(trajectory.structures for trajectory in result.trajectories)}",
         f"{changes / time:.1f}",
         f"{hues / time:.1f}",
         f"{diagnostics.ess_bulk(score[None]) / time:.1f}",

@@ -111,8 +111,8 @@ def trained(learned: list[Drawing], judged: list[Drawing], sees: bool, stony: bo
     return nw.train_guide(
         vines,
         learned,
-        lambda one: one.score(WINDOW),
-        lambda one: arguments(one, sees, stony),
+        lambda page: page.score(WINDOW),
+        lambda page: arguments(page, sees, stony),
         held_out=judged,
         rounds=(100, 200),
         keep=lambda sample: sample.has_ended and sample.primitives >= 8,
@@ -129,8 +129,10 @@ def measured(
     lost = 0
     cpu = time.process_time()
     for seed in SEEDS:
-        for one in judged:
-            search = nw.Search(vines, arguments(one, sees), score=one.score(WINDOW), method=method, seed=seed)
+        for page in judged:
+            search = nw.Search(
+                vines, arguments(page, sees), score=page.score(WINDOW), method=method, seed=seed
+            )
             best = None
             try:
                 best = search.run(threads=1).best
@@ -153,8 +155,8 @@ def measured(
 def main(folder: Path) -> None:
     """Train, measure, draw."""
     training = [drawings.drawing(name) for name in drawings.names("scribbles", "training")]
-    judged = [one for i, one in enumerate(training) if i % 8 == 0]
-    learned = [one for i, one in enumerate(training) if i % 8]
+    judged = [page for i, page in enumerate(training) if i % 8 == 0]
+    learned = [page for i, page in enumerate(training) if i % 8]
     clear, unseen = trained(learned, judged, False, False), trained(learned, judged, False, True)
     seen = trained(learned, judged, True, True)
     table: dict[str, Any] = {}
@@ -178,19 +180,19 @@ def main(folder: Path) -> None:
     rows, columns = len(pictures[5:]), 6
     sheet = Image.new("RGB", (columns * SIDE, rows * SIDE), "white")
     for row, samples in enumerate(pictures[5:]):
-        for column, (sample, one) in enumerate(zip(samples[:columns], judged, strict=False)):
-            sheet.paste(cell(sample, one), (column * SIDE, row * SIDE))
+        for column, (sample, page) in enumerate(zip(samples[:columns], judged, strict=False)):
+            sheet.paste(cell(sample, page), (column * SIDE, row * SIDE))
     sheet.save(folder / "obstacles.png", optimize=True)
 
 
-def cell(sample: nw.Sample | None, one: Drawing) -> Image.Image:
+def cell(sample: nw.Sample | None, target: Drawing) -> Image.Image:
     """A drawing in grey, its stones, and what grew; a cross where every particle was lost."""
-    paper = np.where(one.greys[:, :, None] < 255, 225, 255).astype(np.uint8).repeat(3, axis=2)
+    paper = np.where(target.greys[:, :, None] < 255, 225, 255).astype(np.uint8).repeat(3, axis=2)
     page = Image.fromarray(paper).resize((SIDE, SIDE), Image.Resampling.NEAREST)
     (left, low), (right, high) = WINDOW
     unit = SIDE / (right - left)
     brush = ImageDraw.Draw(page)
-    for x, y in stones_of(one):
+    for x, y in stones_of(target):
         middle = ((x - left) * unit, (high - y) * unit)
         brush.circle(middle, STONE * unit, fill=(150, 120, 110))
     if sample is None:

@@ -34,12 +34,12 @@ def searched(search: nw.Search) -> tuple[float, float, float] | None:
     """Best log score, log normalising constant and CPU seconds of a search; nothing where it died."""
     start = time.process_time()
     try:
-        found = search.run(threads=1)
+        result = search.run(threads=1)
     except nw.InputError as error:
         if error.code != "everything-impossible":
             raise
         return None
-    return found.best.log_score, found.info.log_normaliser, time.process_time() - start
+    return result.best.log_score, result.info.log_normaliser, time.process_time() - start
 
 
 def main(seeds: int = 40, particles: int = 100) -> int:
@@ -52,23 +52,23 @@ def main(seeds: int = 40, particles: int = 100) -> int:
         base = nw.Search(model, score=score_of(named_target(target), voxel))
         method = nw.smc(particles, power=POWER)
         start = time.process_time()
-        found = train_order(model, [base], method=method, seed=1)
+        training = train_order(model, [base], method=method, seed=1)
         took = time.process_time() - start
         orders = {
             "uniform": (nw.smc(particles, power=POWER), []),
-            "learned": (nw.smc(particles, power=POWER, order=found.rounds[-1]), []),
+            "learned": (nw.smc(particles, power=POWER, order=training.rounds[-1]), []),
             "depth first": (nw.smc(particles, power=POWER, order="depth-first"), []),
             "uniform, 1.5 times": (nw.smc(particles * 3 // 2, power=POWER), []),
         }
         # Methods take turns, so that a busy machine is busy for all of them.
         for seed in range(1000, 1000 + seeds):
-            for own, ends in orders.values():
-                ends.append(searched(nw.Search(model, score=base.score, method=own, seed=seed)))
-        for order, (own, ends) in orders.items():
-            lived = [one for one in ends if one is not None]
-            best, constant, cpu = (spread([one[i] for one in lived]) for i in range(3))
+            for order_of_name, ends in orders.values():
+                ends.append(searched(nw.Search(model, score=base.score, method=order_of_name, seed=seed)))
+        for order, (order_of_name, ends) in orders.items():
+            lived = [end for end in ends if end is not None]
+            best, constant, cpu = (spread([end[i] for end in lived]) for i in range(3))
             print(
-                f"| {name} | {order} | {own.particles} | {best[0]:.1f} ({best[1]:.1f}) "
+                f"| {name} | {order} | {order_of_name.particles} | {best[0]:.1f} ({best[1]:.1f}) "
                 f"| {constant[0]:.0f} ({constant[1]:.0f}) | {len(ends) - len(lived)} | {cpu[0]:.3f} |",
                 flush=True,
             )
@@ -80,8 +80,8 @@ def main(seeds: int = 40, particles: int = 100) -> int:
             "best by": by[0],
             "constant by": by[1],
             "training": took,
-            "order": found.rounds[-1].data(),
-            "judged": [found.learned, found.uniform, found.error, found.died],
+            "order": training.rounds[-1].data(),
+            "judged": [training.learned, training.uniform, training.error, training.died],
         }
         print(json.dumps(row), flush=True)
     return 0

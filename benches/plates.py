@@ -41,38 +41,51 @@ def draw(folder: Path, names: Collection[str] = ()) -> list[Path]:
         The files.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    chosen = [one for one in entries() if not names or one.name in names]
-    return [written(folder / f"{one.name}.png", plate(one)) for one in chosen if has_plate(one)]
+    chosen = [gallery_entry for gallery_entry in entries() if not names or gallery_entry.name in names]
+    return [
+        written(folder / f"{gallery_entry.name}.png", plate(gallery_entry))
+        for gallery_entry in chosen
+        if has_plate(gallery_entry)
+    ]
 
 
-def has_plate(one: Entry) -> bool:
+def has_plate(gallery_entry: Entry) -> bool:
     """Whether a model has a target, or an experiment instead of one."""
-    return one.target_name is not None or any(experiment.model == one.name for experiment in EXPERIMENTS)
+    return gallery_entry.target_name is not None or any(
+        experiment.model == gallery_entry.name for experiment in EXPERIMENTS
+    )
 
 
-def plate(one: Entry) -> Image.Image:
+def plate(gallery_entry: Entry) -> Image.Image:
     """One model: in its target and free, or with the shadow that it should cast."""
-    target = one.target()
+    target = gallery_entry.target()
     if target is None:
-        return cast_shadow(one)
-    found = grow(one.model, target, particles=one.particles, voxel=one.voxel, runs=RUNS, seed=1)
+        return cast_shadow(gallery_entry)
+    results = grow(
+        gallery_entry.model,
+        target,
+        particles=gallery_entry.particles,
+        voxel=gallery_entry.voxel,
+        runs=RUNS,
+        seed=1,
+    )
     settings: dict[str, Any] = {"size": (360, 320), "samples": 24, "margin": 0.05}
-    settings["elevation"] = 30.0 if "ship" in one.name else 16.0
-    return _beside(found.best.scene.picture(target, **settings), free(one).picture(**settings))
+    settings["elevation"] = 30.0 if "ship" in gallery_entry.name else 16.0
+    return _beside(results.best.scene.picture(target, **settings), free(gallery_entry).picture(**settings))
 
 
-def free(one: Entry) -> Scene:
+def free(gallery_entry: Entry) -> Scene:
     """A forward run of middling size that does not run through itself."""
-    tried = run(one.model, method=importance(TRIED), score=no_self_intersection(), seed=2)
+    tried = run(gallery_entry.model, method=importance(TRIED), score=no_self_intersection(), seed=2)
     sound = sorted((s for s in tried if s.log_score == 0.0), key=lambda sample: sample.primitives)
     return sound[2 * len(sound) // 3].scene
 
 
-def cast_shadow(one: Entry) -> Image.Image:
-    """What was wanted, what was made, and the scene that makes it."""
-    chosen = next(experiment for experiment in EXPERIMENTS if experiment.model == one.name)
-    found = [chosen.run(seed=seed).best for seed in range(1, RUNS + 1)]
-    best = max(found, key=lambda sample: sample.log_score)
+def cast_shadow(gallery_entry: Entry) -> Image.Image:
+    """Return the target, the result, and the scene that makes it."""
+    chosen = next(experiment for experiment in EXPERIMENTS if experiment.model == gallery_entry.name)
+    results = [chosen.run(seed=seed).best for seed in range(1, RUNS + 1)]
+    best = max(results, key=lambda sample: sample.log_score)
     return view_sheet(best.scene, chosen.score().views[0], height=240)
 
 

@@ -1,4 +1,4 @@
-"""What a primitive costs in each sketch, beside what is possible; and what a search spends its time on.
+"""The cost of a primitive in each sketch, beside the lowest possible cost; and what a search spends its time on.
 
     make bench-sketches                        # or: .venv/bin/python benches/primitives.py [SEED] [COUNT]
 
@@ -60,7 +60,7 @@ def main(seed: int = 1, count: int = 200) -> int:
         "sketch", "primitive", "add", "copy", "remove", "score", "by hand", "ratio", "parry3d", "ratio"
     )
     for row in sorted(
-        rows, key=lambda one: list(dict.fromkeys(r["sketch"] for r in rows)).index(one["sketch"])
+        rows, key=lambda row: list(dict.fromkeys(r["sketch"] for r in rows)).index(row["sketch"])
     ):
         hand, parry, of = (row.get(name) or math.nan for name in ("hand", "parry", "of"))
         differ = row.get("differ")
@@ -72,14 +72,18 @@ def main(seed: int = 1, count: int = 200) -> int:
             row["sketch"],
             row["kind"],
             *(f"{row[name]:,.0f}" for name in ("add", "copy", "remove", "score")),
-            *(text for limit in (hand, parry) for text in (said(limit), said(row["copy"] / limit, 1))),
+            *(
+                text
+                for limit in (hand, parry)
+                for text in (formatted(limit), formatted(row["copy"] / limit, 1))
+            ),
         )
     console = Console(width=120)
     console.print(table)
     made = {row["kind"]: row["make"] for row in rows}
     console.print("making the shape, ns: " + ", ".join(f"{kind} {ns:,.0f}" for kind, ns in made.items()))
-    for triangles, taken in voxelised().items():
-        console.print(f"trimesh, voxels of a mesh of {triangles} triangles: {1e9 * taken:,.0f} ns")
+    for triangles, seconds in voxelised().items():
+        console.print(f"trimesh, voxels of a mesh of {triangles} triangles: {1e9 * seconds:,.0f} ns")
     if shutil.which("perf") is None:
         console.print("no perf found: what a search spends its time on is not measured")
     else:
@@ -89,7 +93,7 @@ def main(seed: int = 1, count: int = 200) -> int:
     return int(wrong > 0)
 
 
-def said(value: float, digits: int = 0) -> str:
+def formatted(value: float, digits: int = 0) -> str:
     """A number, or nothing."""
     return "" if math.isnan(value) else f"{value:,.{digits}f}"
 
@@ -106,21 +110,21 @@ def measured(seed: int, count: int) -> list[dict]:
 
 def voxelised() -> dict[int, float]:
     """Seconds that trimesh takes for the filled cells of a ball one unit large, in cells of a tenth."""
-    found = {}
+    medians = {}
     for count in ((10, 6), (72, 72)):
         ball = trimesh.creation.uv_sphere(0.5, count=list(count))
         times = []
         for _ in range(5):
-            begun = time.perf_counter()
+            start = time.perf_counter()
             ball.voxelized(0.1).fill()
-            times.append(time.perf_counter() - begun)
-        found[len(ball.faces)] = statistics.median(times)
-    return found
+            times.append(time.perf_counter() - start)
+        medians[len(ball.faces)] = statistics.median(times)
+    return medians
 
 
 def shares(seed: int) -> dict[str, Counter[str]]:
     """Samples of each part, by search."""
-    found = {}
+    counters = {}
     # The engine of the package has no names of functions: a copy of the package gets one that has.
     run(*"cargo build --release --locked --quiet -p niwaki-py".split(), folder=HERE.parent)
     with tempfile.TemporaryDirectory() as folder:
@@ -147,14 +151,14 @@ def shares(seed: int) -> dict[str, Counter[str]]:
                 "-F",
                 "sample,dso,symbol",
             ]
-            said = subprocess.run(report, check=True, capture_output=True, text=True).stdout
-            found[name] = Counter()
-            for line in said.splitlines():
+            formatted = subprocess.run(report, check=True, capture_output=True, text=True).stdout
+            counters[name] = Counter()
+            for line in formatted.splitlines():
                 match = re.match(r"\s*(\d+)\s+(\S+)\s+\[.\]\s+(.*)", line)
                 # What Python does before and after is not the search.
                 if match and ("_engine" in match[2] or "libc" in match[2] or "kernel" in match[2]):
-                    found[name][part_of(match[3])] += int(match[1])
-    return found
+                    counters[name][part_of(match[3])] += int(match[1])
+    return counters
 
 
 def part_of(symbol: str) -> str:
@@ -162,10 +166,10 @@ def part_of(symbol: str) -> str:
     return next((part for part, pattern in PARTS if re.search(pattern, symbol)), "other")
 
 
-def as_table(found: dict[str, Counter[str]]) -> Table:
+def as_table(counters: dict[str, Counter[str]]) -> Table:
     """The shares of the parts, %."""
     table = Table("search", *(part for part, _ in PARTS), "other", "samples")
-    for name, counts in found.items():
+    for name, counts in counters.items():
         total = counts.total()
         parts = [*(part for part, _ in PARTS), "other"]
         table.add_row(name, *(f"{100 * counts[part] / total:.0f} %" for part in parts), str(total))

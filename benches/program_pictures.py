@@ -75,7 +75,7 @@ def stages() -> Image.Image:
 
 
 def harmony_ribbons() -> Image.Image:
-    """The same number of states of three chains, whose kernels can do more and more."""
+    """Draw equally many states of three chains, whose kernels can do more and more."""
     moves = {
         "Metropolis-Hastings": kernels.prior(),
         "discrete choices by Metropolis-Hastings, real ones along their gradient": harmonies.BOTH,
@@ -113,11 +113,11 @@ def axes(paint: Callable[[Axes, Result], None], result: Result, inches: tuple[fl
 
 def coin_bars(place: Axes, result: Result) -> None:
     """The exact distribution of the number of heads."""
-    found = result.distribution()
-    counts = sorted(found)
-    place.bar([str(n) for n in counts], [found[n] for n in counts], color=COOL, width=0.6)
+    distribution = result.distribution()
+    counts = sorted(distribution)
+    place.bar([str(n) for n in counts], [distribution[n] for n in counts], color=COOL, width=0.6)
     for at, n in enumerate(counts):
-        place.text(at, found[n] + 0.01, f"{found[n]:.3f}", ha="center")
+        place.text(at, distribution[n] + 0.01, f"{distribution[n]:.3f}", ha="center")
     place.set(xlabel="heads, where one of the first two coins shows one", ylabel="probability")
 
 

@@ -61,7 +61,7 @@ def main(runs: int = 20) -> int:
         )
     means = {}
     for model, name, particles, order, weights, least, most in SEARCHES:
-        found = niwaki.grow(
+        result = niwaki.grow(
             entry(model).model,
             niwaki.Target.load(folder / name),
             particles=particles,
@@ -74,9 +74,9 @@ def main(runs: int = 20) -> int:
             seed=1,
             threads=1,
         )
-        scores = [sample.log_score for sample in found]
+        scores = [sample.log_score for sample in result]
         median, means[model, order, particles] = statistics.median(scores), statistics.fmean(scores)
-        cpu = statistics.fmean(sample.cpu_seconds for sample in found)
+        cpu = statistics.fmean(sample.cpu_seconds for sample in result)
         missed += (least is not None and median < least) + (most is not None and cpu > most)
         row = {
             "model": model,

@@ -39,7 +39,7 @@ def smc(particles: int = N, **settings: Any) -> Any:
 
 
 def moving(kernel: Any, moves: int, at: Any, **settings: Any) -> Any:
-    """The same with moves."""
+    """Return the estimate with moves."""
     return smc(rejuvenate=kernel, moves=moves, at=at, **settings)
 
 
@@ -77,11 +77,11 @@ METHODS = {
 def shared(runs: list[dict[str, Any]], close: dict[str, float]) -> int:
     """How many runs there are of which no other has most choices, up to what is close."""
 
-    def same(address: str, a: Any, b: Any) -> bool:
+    def is_same(address: str, a: Any, b: Any) -> bool:
         return abs(a - b) <= close[address] if isinstance(a, float) else bool(a == b)
 
     def has_most(b: dict[str, Any], a: dict[str, Any]) -> bool:
-        common = sum(address in b and same(address, value, b[address]) for address, value in a.items())
+        common = sum(address in b and is_same(address, value, b[address]) for address, value in a.items())
         return 2 * common > len(a)
 
     return sum(not any(other is not run and has_most(other, run) for other in runs) for run in runs)
@@ -90,12 +90,12 @@ def shared(runs: list[dict[str, Any]], close: dict[str, float]) -> int:
 def apart(result: Any) -> int:
     """Distinct results where close values count as shared."""
     runs = [dict(sample.choices) for sample in result]
-    found: dict[str, list[float]] = {}
+    differences: dict[str, list[float]] = {}
     for run in runs:
         for address, value in run.items():
             if isinstance(value, float):
-                found.setdefault(address.rsplit("/", 1)[-1], []).append(value)
-    spread = {name: 0.1 * statistics.pstdev(values) for name, values in found.items()}
+                differences.setdefault(address.rsplit("/", 1)[-1], []).append(value)
+    spread = {name: 0.1 * statistics.pstdev(values) for name, values in differences.items()}
     return shared(
         runs, {address: spread.get(address.rsplit("/", 1)[-1], 0.0) for run in runs for address in run}
     )
@@ -160,10 +160,10 @@ def main(seeds: int = 20, first: int = 1, *names: str) -> int:
         record |= {"least distinct": min(row["distinct"] for row in rows)}
         record |= {"worst best": round(min(row["best"] for row in rows), 2)}
         moved = [row["moved"] for row in rows if row["moved"] is not None]
-        for place, which in enumerate(("running", "ended")):
+        for place, kind in enumerate(("running", "ended")):
             made, kept = (sum(pairs[place][k] for pairs in moved) for k in (0, 1))
             if made:
-                record[f"moves kept, {which}"] = f"{kept} of {made}"
+                record[f"moves kept, {kind}"] = f"{kept} of {made}"
         print(json.dumps(record), flush=True)
     for name in methods:
         for other in methods:

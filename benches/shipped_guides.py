@@ -33,17 +33,17 @@ def flat(name: str) -> nw.Guide:
     entry = gallery.entry(name)
     assert entry is not None and entry.window is not None
     page: Window = entry.window
-    training = [drawings.drawing(one) for one in drawings.names("scribbles", "training")]
-    learned = [one for i, one in enumerate(training) if i % guides.EVERY]
+    training = [drawings.drawing(drawing) for drawing in drawings.names("scribbles", "training")]
+    learned = [drawing for i, drawing in enumerate(training) if i % guides.EVERY]
 
-    def score(one: Drawing) -> nw.Score:
-        return one.score(page)
+    def score(drawing: Drawing) -> nw.Score:
+        return drawing.score(page)
 
     return nw.train_guide(
         entry.model,
-        [*learned, *(one.mirrored() for one in learned)],
+        [*learned, *(drawing.mirrored() for drawing in learned)],
         score,
-        lambda one: one.place(page),
+        lambda drawing: drawing.place(page),
         held_out=training[:: guides.EVERY],
         rounds=ROUNDS,
         keep=lambda sample: sample.has_ended and sample.primitives >= LEAST,
@@ -69,15 +69,15 @@ def compare(name: str) -> None:
         (600, None),
     ):
         method = nw.methods.smc(particles, resampling="tempered", guide=guide)
-        found, began = [], time.process_time()
-        for one in map(drawings.drawing, drawings.names("scribbles", "training")[:: guides.EVERY]):
+        rows, began = [], time.process_time()
+        for drawing in map(drawings.drawing, drawings.names("scribbles", "training")[:: guides.EVERY]):
             for seed in range(3):
-                place, score = one.place(entry.window), one.score(entry.window)
+                place, score = drawing.place(entry.window), drawing.score(entry.window)
                 result = nw.run(entry.model, *place, method=method, score=score, seed=seed, threads=1)
-                found.append(max(result, key=lambda sample: sample.log_joint).similarity)
-        cost = 1000 * (time.process_time() - began) / len(found)
-        who = "not guided" if guide is None else "guided"
-        print(f"{name}, {who}, {particles} particles: {sentence(summary(found))}; {cost:.1f} ms of CPU")
+                rows.append(max(result, key=lambda sample: sample.log_joint).similarity)
+        cost = 1000 * (time.process_time() - began) / len(rows)
+        label = "not guided" if guide is None else "guided"
+        print(f"{name}, {label}, {particles} particles: {sentence(summary(rows))}; {cost:.1f} ms of CPU")
 
 
 def main(names: list[str]) -> None:

@@ -49,7 +49,7 @@ def marginals(proposals: int, strategy: str = "c3") -> np.ndarray:
     draws = run(small, method=method, seed=7, threads=1).by_chain
     shares = np.zeros((CHAINS, 6, 3))
     for chain, samples in enumerate(draws):
-        values = np.array([list(one.value) for one in samples])
+        values = np.array([list(sample.value) for sample in samples])
         for state in range(3):
             shares[chain, :, state] = (values == state).mean(axis=0)
     return shares
@@ -76,14 +76,14 @@ def bits_apart(name: str, states: int) -> float:
 
 def check(report: Report, peers: Peers, folder: Path, quick: bool) -> None:
     """Check all answers."""
-    found = off(marginals(2_000 if quick else 12_000))
-    report.answer("HMM marginals, standard errors from forward-backward", found, ALLOWED)
+    deviation = off(marginals(2_000 if quick else 12_000))
+    report.answer("HMM marginals, standard errors from forward-backward", deviation, ALLOWED)
     for name in PROGRAMS:
         states = 5 if quick else 50
         report.answer(f"{name}: carried score less a fresh one, nats", bits_apart(name, states), 0.0)
     data = {"hmm": DATA, "lda": lda(), "gmm": gmm(), "hlr": hlr()}
-    for name, made in data.items():
-        path = save(folder / f"{name}-check.json", made)
+    for name, values_of in data.items():
+        path = save(folder / f"{name}-check.json", values_of)
         checked = peers.of_limit("check", name, path, 0, 2)
         report.answer(f"{name}, limit: local ratios, relative error", checked["worst"], 1e-7)
         if name == "hmm":
@@ -107,7 +107,7 @@ def regression(limit: list[float], quick: bool) -> float:
     steps = 40_000 if quick else 120_000
     method = mh(steps=steps, warmup=steps // 5, thin=200, chains=20, kernel=program.kernel(20))
     draws = run(program.model, 20, method=method, seed=9, threads=1).by_chain
-    means = np.array([np.mean([one.value[0] for one in samples], axis=0) for samples in draws])
+    means = np.array([np.mean([sample.value[0] for sample in samples], axis=0) for samples in draws])
     error = means.std(axis=0, ddof=1) / np.sqrt(len(means))
     return float(np.abs((means.mean(axis=0) - np.array(limit)) / error).max())
 

@@ -60,7 +60,9 @@ def draw_strategies(path: Path, measured: list[Series], runs: int) -> None:
     figure, panels = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
     for row, series, (_, title, label, _, steps) in zip(panels, measured, ROWS, strict=True):
         rates: Series = {
-            strategy: {size: [steps / one for one in all_runs] for size, all_runs in points.items()}
+            strategy: {
+                size: [steps / run_steps for run_steps in all_runs] for size, all_runs in points.items()
+            }
             for strategy, points in series.items()
         }
         curves(row[0], series)
@@ -108,7 +110,7 @@ def draw_speedups(path: Path, series: Series, runs: int) -> None:
     save(figure, path, runs)
 
 
-def tree(path: Path, found: list[Measured], target: object, fit: object) -> None:
+def tree(path: Path, rows_of_all: list[Measured], target: object, fit: object) -> None:
     """Figure 3.5: the tube, a tree that chains found for it, and proposals per second of the four strategies."""
     figure = plt.figure(figsize=(10, 4.2), layout="constrained")
     left, middle, right = figure.subplots(1, 3, width_ratios=(0.62, 0.62, 1.4))
@@ -118,12 +120,12 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
         panel.spines[:].set_visible(False)
     names = list(NAMES)
     for number, (smallest, color) in enumerate(zip(SMALLEST, colors(), strict=False)):
-        rows = [one for one in found if one.smallest == smallest]
-        rates = [[one.rates[name] for one in rows] for name in names]
+        rows = [row for row in rows_of_all if row.smallest == smallest]
+        rates = [[row.rates[name] for row in rows] for name in names]
         where = np.arange(len(names)) + (number - 1) * 0.25
-        error = [spread(one) for one in rates] if len(rows) > 1 else None
-        count = statistics.fmean(one.segments for one in rows)
-        means = [statistics.fmean(one) for one in rates]
+        error = [spread(row) for row in rates] if len(rows) > 1 else None
+        count = statistics.fmean(row.segments for row in rows)
+        means = [statistics.fmean(row) for row in rates]
         right.bar(
             where,
             means,
@@ -137,7 +139,7 @@ def tree(path: Path, found: list[Measured], target: object, fit: object) -> None
     right.set(ylabel="proposals per second")
     right.legend(frameon=False, loc="upper left")
     right.grid(alpha=0.3, axis="y", which="both", linewidth=0.5)
-    save(figure, path, len(found) // len(SMALLEST))
+    save(figure, path, len(rows_of_all) // len(SMALLEST))
 
 
 def save(figure: plt.Figure, path: Path, runs: int) -> None:

@@ -33,7 +33,8 @@ def forms(report: Report, rounds: int, seconds: float) -> None:
     for name, all_forms in (("hmm", hmm_forms.FORMS), ("gmm", gmm_forms.FORMS)):
         kernel = None if name == "hmm" else of_gmm(POINTS)
         chains = {
-            form: Timed(made, POINTS, kernel=kernel).warm(seconds / 2) for form, made in all_forms.items()
+            form: Timed(variant, POINTS, kernel=kernel).warm(seconds / 2)
+            for form, variant in all_forms.items()
         }
         rates: dict[str, list[float]] = {form: [] for form in chains}
         counters: dict[str, dict[str, float]] = {}
@@ -42,12 +43,12 @@ def forms(report: Report, rounds: int, seconds: float) -> None:
                 rate = chain.window(seconds)
                 rates[form].append(rate.per_second)
                 counters[form] = rate.counters
-        fastest = max(statistics.median(found) for found in rates.values())
-        for form, found in rates.items():
+        fastest = max(statistics.median(values) for values in rates.values())
+        for form, values in rates.items():
             seen = counters[form]
-            table.add_row(name, form, middle(found), f"{seen['entered']:.2f}", f"{seen['instructions']:.1f}")
-            report.note(form=form, program=name, rates=found, counters=seen)
-            report.ask(f"{name} {form}: fastest form over it", fastest / statistics.median(found), most=2)
+            table.add_row(name, form, middle(values), f"{seen['entered']:.2f}", f"{seen['instructions']:.1f}")
+            report.note(form=form, program=name, rates=values, counters=seen)
+            report.ask(f"{name} {form}: fastest form over it", fastest / statistics.median(values), most=2)
         report.ask(
             f"{name} returned list, proposals/s", statistics.median(rates["returned list"]), least=0.5e6
         )
@@ -69,8 +70,8 @@ def global_choices(report: Report, peers: Peers, rounds: int, seconds: float) ->
             rate = chain.window(seconds)
             ours.append(rate.per_second)
             entered = rate.counters["entered"]
-            found = peers.of_limit("globals", name, write_sized(CACHE / "data", name, 10), seconds, seed)
-            theirs.append(1e9 * found["cpu_seconds"] / found["proposals"] / found["readers"])
+            rates = peers.of_limit("globals", name, write_sized(CACHE / "data", name, 10), seconds, seed)
+            theirs.append(1e9 * rates["cpu_seconds"] / rates["proposals"] / rates["readers"])
         price = [1e9 / rate / readers for rate in ours]
         table.add_row(name, short(readers), middle(ours), f"{entered:.0f}", middle(price), middle(theirs))
         report.note(globals=name, readers=readers, rates=ours, entered=entered, limit=theirs)
@@ -142,8 +143,8 @@ def lengths(report: Report, rounds: int, seconds: float, most: int = LENGTHS[-1]
     fastest = statistics.median(rates[100])
     for length, limit in ((10_000, 1.3), (100_000, 2.5)):
         if length in rates:
-            found = fastest / statistics.median(rates[length])
-            report.ask(f"HMM: time at {length} steps over 100", found, most=limit)
+            ratio = fastest / statistics.median(rates[length])
+            report.ask(f"HMM: time at {length} steps over 100", ratio, most=limit)
     per = [counters[length]["bytes"] / length for length in chosen]
     report.ask("HMM: bytes per step, most over least", max(per) / min(per), most=1.25)
 

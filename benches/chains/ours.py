@@ -58,11 +58,11 @@ class Timed:
         """Proposals for about so many CPU seconds."""
         before, proposals, spent, block = self.engine.counters(), 0, 0.0, 16
         while spent < seconds:
-            taken = max(self.seconds(block) - self.floor, 1e-9)
-            proposals, spent = proposals + block, spent + taken
+            elapsed = max(self.seconds(block) - self.floor, 1e-9)
+            proposals, spent = proposals + block, spent + elapsed
             # Up to a hundredth of a second to a call at first, then a fifth of the window.
             aim = max(0.01, seconds / 5)
-            block = max(16, min(int(block * aim / taken), block * 8))
+            block = max(16, min(int(block * aim / elapsed), block * 8))
         after = self.engine.counters()
         per = {
             key: (after[key] - before[key]) / proposals for key in after if key not in ("bytes", "choices")

@@ -47,7 +47,7 @@ class Program:
 def weighted(*parts: tuple[int, str | list[str], Kernel]) -> Kernel:
     """Each kernel on its sites, as often as there are choices there: every choice has the same selection weight."""
     counts, sites, inner = zip(*parts, strict=True)
-    restricted = [kernels.on(site, one) for site, one in zip(sites, inner, strict=True)]
+    restricted = [kernels.on(site, kernel) for site, kernel in zip(sites, inner, strict=True)]
     return kernels.mixture(*restricted, weights=counts)
 
 

@@ -26,7 +26,7 @@ def short(value: float) -> str:
 
 
 class Report:
-    """What was found; `wrong` counts answers that are wrong, `missed` targets of speed."""
+    """The results; `wrong` counts answers that are wrong, `missed` targets of speed."""
 
     def __init__(self, folder: Path, name: str = "c3") -> None:
         folder.mkdir(parents=True, exist_ok=True)

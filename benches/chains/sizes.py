@@ -38,22 +38,22 @@ def measure(report: Report, peers: Peers, sizes: tuple[int, ...], rounds: int, s
                 here["limit"].append(limit["proposals"] / limit["cpu_seconds"])
                 report.note(system="limit", program=name, size=size, seed=seed, rate=here["limit"][-1])
                 for method in METHODS:
-                    found = peers.rate_of_webppl(name, size, method, seconds, seed)
-                    here[method].append(found["proposals"] / found["cpu_seconds"])
+                    rate = peers.rate_of_webppl(name, size, method, seconds, seed)
+                    here[method].append(rate["proposals"] / rate["cpu_seconds"])
                     report.note(
                         system=method,
                         program=name,
                         size=size,
                         seed=seed,
                         rate=here[method][-1],
-                        first=found["first"],
+                        first=rate["first"],
                     )
     show(report, rates)
     hold(report, rates, sizes)
 
 
 def ratios(here: dict[str, list[float]], over: str, under: str) -> list[float]:
-    """Of measurements that were taken one after the other."""
+    """Return the ratios of measurements that were taken one after the other."""
     return [a / b for a, b in zip(here[over], here[under], strict=True)]
 
 
@@ -79,15 +79,15 @@ def hold(
     over = {key: statistics.median(ratios(here, "c3", "incrementalMH")) for key, here in rates.items()}
     worst = min(over, key=lambda key: over[key])
     report.ask(f"C3 over WebPPL's C3, worst row ({worst[0]} {worst[1]})", over[worst], least=60)
-    mean = exp(statistics.fmean(log(one) for one in over.values()))
+    mean = exp(statistics.fmean(log(value) for value in over.values()))
     report.ask("C3 over WebPPL's C3, geometric mean (aim: 300)", mean, least=150)
     for name in PROGRAMS:
         here = rates[name, sizes[-1]]
         most = OF_LIMIT[name]
-        found = statistics.median(ratios(here, "limit", "c3"))
+        ratio = statistics.median(ratios(here, "limit", "c3"))
         report.ask(
-            f"{name} {sizes[-1]}: limit over C3, {short(statistics.median(here['c3']))}/s", found, most=most
+            f"{name} {sizes[-1]}: limit over C3, {short(statistics.median(here['c3']))}/s", ratio, most=most
         )
     for name in PROGRAMS:
-        found = statistics.median(ratios(rates[name, sizes[-1]], "c3", "rerun"))
-        report.ask(f"{name} {sizes[-1]}: C3 over rerun", found, least=OVER_RERUN[name])
+        ratio = statistics.median(ratios(rates[name, sizes[-1]], "c3", "rerun"))
+        report.ask(f"{name} {sizes[-1]}: C3 over rerun", ratio, least=OVER_RERUN[name])

@@ -51,9 +51,9 @@ def score() -> Score:
 
 def measured(smallest: float, seed: int, warmup: int, steps: int, windows: int = 4) -> Measured:
     """The four strategies after the same proposals, in turns; each makes the same ones."""
-    wanted = score()
+    target_score = score()
     chains = {
-        strategy: Timed(gnarly_tree, smallest, strategy=strategy, seed=seed, score=wanted)
+        strategy: Timed(gnarly_tree, smallest, strategy=strategy, seed=seed, score=target_score)
         for strategy in STRATEGIES
     }
     for chain in chains.values():
@@ -77,35 +77,37 @@ def measured(smallest: float, seed: int, warmup: int, steps: int, windows: int =
 def measure(report: Report, runs: int, quick: bool) -> list[Measured]:
     """Chains on trees of several sizes; answers what figure 3.5 shows."""
     warmup, steps = (200, 200) if quick else (300, 600)
-    found = [measured(smallest, seed, warmup, steps) for smallest in SMALLEST for seed in range(1, runs + 1)]
+    results = [
+        measured(smallest, seed, warmup, steps) for smallest in SMALLEST for seed in range(1, runs + 1)
+    ]
     columns = ("least radius", "segments", *STRATEGIES, "bound", "C3 / rerun", "of the bound")
     table = report.table(f"a tree in a bent tube: {steps} proposals after {warmup}, {runs} chains", *columns)
     for smallest in SMALLEST:
-        rows = [one for one in found if one.smallest == smallest]
+        rows = [result for result in results if result.smallest == smallest]
         table.add_row(
             short(smallest),
-            middle([one.segments for one in rows]),
-            *(middle([one.rates[strategy] for one in rows]) for strategy in STRATEGIES),
-            middle([one.bound for one in rows]),
-            middle([one.gain for one in rows]),
-            middle([one.gain / one.bound for one in rows]),
+            middle([result.segments for result in rows]),
+            *(middle([result.rates[strategy] for result in rows]) for strategy in STRATEGIES),
+            middle([result.bound for result in rows]),
+            middle([result.gain for result in rows]),
+            middle([result.gain / result.bound for result in rows]),
         )
     report.show(table)
-    for one in found:
-        report.note(tree=one.smallest, segments=one.segments, bound=one.bound, rates=one.rates)
+    for result in results:
+        report.note(tree=result.smallest, segments=result.segments, bound=result.bound, rates=result.rates)
     report.ask(
         "tree: C3 over rerun, of the bound",
-        statistics.median(one.gain / one.bound for one in found),
+        statistics.median(result.gain / result.bound for result in results),
         least=0.7,
     )
-    large = [one.gain for one in found if one.segments >= 150]
+    large = [result.gain for result in results if result.segments >= 150]
     if large:
         report.ask(
             f"tree of 150 segments or more ({len(large)} chains): C3 over rerun",
             statistics.median(large),
             least=10,
         )
-    return found
+    return results
 
 
 def scene_of(target: Target) -> Scene:
@@ -118,8 +120,8 @@ def fitted(folder: Path, proposals: int, chains: int = 4) -> Any:
     moves = kernels.mixture(kernels.prior(), kernels.drift(0.3), kernels.regenerate(), weights=[3, 3, 1])
     kernel = kernels.anneal(moves, 4 * proposals // 5, 0.01, 1.0)
     method = mh(steps=proposals, chains=chains, keep=0, kernel=kernel, warmup=proposals // 10)
-    wanted = match_volume(bent_tube(), VOXEL, STRICT)
-    result = run(gnarly_tree, *LIMBS, method=method, score=wanted, seed=4, threads=1)
+    target_score = match_volume(bent_tube(), VOXEL, STRICT)
+    result = run(gnarly_tree, *LIMBS, method=method, score=target_score, seed=4, threads=1)
     best = result.best
     best.save(folder / "tree.png", size=(480, 640))
     return best

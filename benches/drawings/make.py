@@ -85,18 +85,18 @@ def scribbles() -> Iterable[tuple[str, NDArray[np.uint8]]]:
 
 def font_glyphs(folder: Path) -> Page:
     """The glyphs of all fonts by names such as `lobster-B`; capitals and small letters differ."""
-    found: Page = {}
+    page: Page = {}
     for font in FONTS:
-        found |= _named(font, glyphs(folder / font, LETTERS + OTHERS))
+        page |= _named(font, glyphs(folder / font, LETTERS + OTHERS))
     filling = _named(LAST_FONT, glyphs(folder / LAST_FONT, LETTERS)).items()
-    return found | dict(islice(filling, GLYPHS - len(found)))
+    return page | dict(islice(filling, GLYPHS - len(page)))
 
 
 def _named(font: str, shapes: Page) -> Page:
     stem = font.partition(".")[0]
     return {
-        f"{stem}-{one if one.isascii() and one.isalnum() else f'u{ord(one):04x}'}": ink
-        for one, ink in shapes.items()
+        f"{stem}-{character if character.isascii() and character.isalnum() else f'u{ord(character):04x}'}": ink
+        for character, ink in shapes.items()
     }
 
 
@@ -121,8 +121,8 @@ def main(fonts: Path, clip_art: Path) -> None:
         rows.writerow(["name", "cell", "x", "y", "ahead_x", "ahead_y", "use"])
         for collection, page in pages.items():
             _write(place / f"{collection}.png", list(page.values()))
-            for cell, (one, greys) in enumerate(page.items()):
-                name = f"{collection}/{one}"
+            for cell, (name, greys) in enumerate(page.items()):
+                name = f"{collection}/{name}"
                 x, y = start_of(name, greys)
                 use = "training" if collection == "scribbles" and cell < TRAINING else "held-out"
                 rows.writerow([name, cell, f"{x:.4f}", f"{y:.4f}", 0, 1, use])

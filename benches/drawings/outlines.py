@@ -15,14 +15,14 @@ EM, LEAST, EDGE, SMALL = 96, 500, 2, 50
 
 #: Letters and figures first: where there are too many, the last are left out.
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-OTHERS = "&$¢£¥€§?!ÆŒØÇçßæœøłŁđĦħ¶†@#%ΓΔΛΞΠΣΦΨΩµπ∂√∞∫ﬁﬂ{}"
+OTHER_CHARACTERS = "&$¢£¥€§?!ÆŒØÇçßæœøłŁđĦħ¶†@#%ΓΔΛΞΠΣΦΨΩµπ∂√∞∫ﬁﬂ{}"
 
 
 def glyphs(font: Path, characters: str) -> dict[str, NDArray[np.uint8]]:
     """The glyphs in one piece without enclosed paper, (50, 50) with 255 for paper, by character."""
     face = ImageFont.truetype(str(font), EM * 4)
     missing = _ink(face, "\ue123")
-    found: dict[str, NDArray[np.uint8]] = {}
+    images: dict[str, NDArray[np.uint8]] = {}
     for character in characters:
         ink = _ink(face, character)
         if ink is None or (missing is not None and ink.shape == missing.shape and (ink == missing).all()):
@@ -30,8 +30,8 @@ def glyphs(font: Path, characters: str) -> dict[str, NDArray[np.uint8]]:
         if ink.sum() < LEAST * 16 or ndimage.label(ink, np.ones((3, 3)))[1] != 1:
             continue
         if ndimage.label(~np.pad(ink, 1))[1] == 1:
-            found[character] = squared(ink)
-    return found
+            images[character] = squared(ink)
+    return images
 
 
 def letters(font: Path, characters: str) -> dict[str, NDArray[np.uint8]]:

@@ -41,9 +41,9 @@ def _is_good(ink: NDArray[np.bool_], dice: np.random.Generator) -> bool:
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     tall, wide = len(rows) / LARGE, len(columns) / LARGE
     fill = ink.mean()
-    one = ndimage.label(ink, np.ones((3, 3)))[1] == 1
+    is_connected = ndimage.label(ink, np.ones((3, 3)))[1] == 1
     at_start = ink[round((1.0 - START[1]) * LARGE), LARGE // 2]
-    good = one and at_start and tall >= 0.35 and max(tall, wide) >= 0.62 and 0.075 <= fill <= 0.45
+    good = is_connected and at_start and tall >= 0.35 and max(tall, wide) >= 0.62 and 0.075 <= fill <= 0.45
     return bool(good and (fill > 0.13 or dice.random() < 0.25))
 
 
@@ -74,15 +74,15 @@ def _small(ink: NDArray[np.bool_]) -> NDArray[np.uint8]:
 def _spline(points: Curve, steps: int = 60) -> Curve:
     """A smooth curve through the points (Catmull & Rom 1974)."""
     ends = np.concatenate([[2 * points[0] - points[1]], points, [2 * points[-1] - points[-2]]])
-    made = []
+    pieces = []
     for a, b, c, d in zip(ends, ends[1:], ends[2:], ends[3:], strict=False):
         t = np.linspace(0.0, 1.0, steps, endpoint=False)[:, None]
         square, cube = t * t, t * t * t
-        made.append(
+        pieces.append(
             0.5
             * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * square + (3 * b - a - 3 * c + d) * cube)
         )
-    return np.concatenate([*made, points[-1:]])
+    return np.concatenate([*pieces, points[-1:]])
 
 
 def _inside(line: Curve) -> bool:

@@ -69,9 +69,9 @@ def coins(strength):
 
 def of_coins(places: Places) -> Mapping[str, list[float]]:
     """The probabilities of 0 to 4 heads: the truth, and by guides."""
-    found = nw.run(coins, STRENGTH, method=nw.enumerate_all())
-    truth = {int(heads): chance for heads, chance in found.distribution().items()}
-    told: dict[str, list[float]] = {"posterior": [truth[k] for k in range(5)]}
+    result = nw.run(coins, STRENGTH, method=nw.enumerate_all())
+    truth = {int(heads): chance for heads, chance in result.distribution().items()}
+    bounds_by_name: dict[str, list[float]] = {"posterior": [truth[k] for k in range(5)]}
     steps = 50 if places.quick else 600
     for name, objective, reads in (
         ("by examples; each coin sees the others", "examples", True),
@@ -79,37 +79,37 @@ def of_coins(places: Places) -> Mapping[str, list[float]]:
         ("by examples; no coin sees another", "examples", False),
         ("by the bound; no coin sees another", "bound", False),
     ):
-        own = {"reads": reads, "looks": False, "hidden": (8, 8), "steps": steps}
-        more: dict[str, Any] = {"training": Training.bound(**own, rate=0.01, batch=4)}
+        settings = {"reads": reads, "looks": False, "hidden": (8, 8), "steps": steps}
+        more: dict[str, Any] = {"training": Training.bound(**settings, rate=0.01, batch=4)}
         if objective == "examples":
             # Traces from the posterior itself: the likeliest run of one particle is that particle.
-            more = {"training": Training(**own), "rounds": (1000,), "keep": lambda _: True}
+            more = {"training": Training(**settings), "rounds": (1000,), "keep": lambda _: True}
             more["searches"] = (nw.rejection(1, bound=4 * STRENGTH),)
-        guide = train_guide(coins, (STRENGTH,) * 8, lambda _: nw.floor(0), lambda one: (one,), seed=1, **more)
+        guide = train_guide(coins, (STRENGTH,) * 8, lambda _: nw.floor(0), lambda run: (run,), seed=1, **more)
         runs = nw.run(coins, STRENGTH, method=nw.importance(RUNS, guide=guide), seed=1)
-        counts = Counter(int(one.value) for one in runs)
-        told[name] = [counts[k] / RUNS for k in range(5)]
-        told[name].append(float(np.mean([one.log_weight for one in runs])))
-        print(name, told[name], f"log evidence {found.log_evidence:.3f}", flush=True)
-    return told
+        counts = Counter(int(run.value) for run in runs)
+        bounds_by_name[name] = [counts[k] / RUNS for k in range(5)]
+        bounds_by_name[name].append(float(np.mean([run.log_weight for run in runs])))
+        print(name, bounds_by_name[name], f"log evidence {result.log_evidence:.3f}", flush=True)
+    return bounds_by_name
 
 
 def by_bound(objective: str, start: Guide | None, places: Places) -> Guide:
     """A guide of the vines by a bound."""
     learned, judged = scribbles()
     steps = 4 if places.quick else STEPS
-    begun = time.process_time()
-    made = train_guide(
+    start_time = time.process_time()
+    guide = train_guide(
         vines.MODEL,
         learned,
-        lambda one: one.score(vines.WINDOW),
-        lambda one: one.place(vines.WINDOW),
+        lambda page: page.score(vines.WINDOW),
+        lambda page: page.place(vines.WINDOW),
         held_out=judged[:4] if places.quick else judged,
         training=Training.bound(objective=objective, steps=steps),
         start=start,
         seed=1,
     )
-    return made.reported(made.report | {"cpu": time.process_time() - begun})
+    return guide.reported(guide.report | {"cpu": time.process_time() - start_time})
 
 
 def of_vines(places: Places) -> dict[str, Guide]:
@@ -130,10 +130,10 @@ def traced(places: Places) -> tuple[list[Search], _engine.Lessons, list[Sample]]
     every = held_out("scribbles", places.quick)[:TRACED]
     method = nw.smc(60 if places.quick else 600, resampling="tempered")
     lessons, searches, picked = _engine.Lessons(), list[Search](), list[Sample]()
-    for number, one in enumerate(every):
-        search = search_of(one, method, number)
-        found = search.run(threads=1)
-        ended = [run for run in found if run.has_ended]
+    for number, page in enumerate(every):
+        search = search_of(page, method, number)
+        result = search.run(threads=1)
+        ended = [run for run in result if run.has_ended]
         chances = np.exp([run.log_weight for run in ended])
         pick = np.random.default_rng(number).choice(len(ended), p=chances / chances.sum())
         lessons.add(search.task, ended[pick]._run, False)
@@ -142,10 +142,10 @@ def traced(places: Places) -> tuple[list[Search], _engine.Lessons, list[Sample]]
     return searches, lessons, picked
 
 
-def search_of(one: Drawing, method: Any, seed: int) -> Search:
+def search_of(page: Drawing, method: Any, seed: int) -> Search:
     """A search for vines in a drawing."""
     return Search(
-        vines.MODEL, one.place(vines.WINDOW), score=one.score(vines.WINDOW), method=method, seed=seed
+        vines.MODEL, page.place(vines.WINDOW), score=page.score(vines.WINDOW), method=method, seed=seed
     )
 
 
@@ -154,14 +154,14 @@ def structure(run: Sample) -> tuple[Any, ...]:
     return tuple(sorted((path, x) for path, x in run.choices.items() if not isinstance(x, float)))
 
 
-def ink(run: Sample, one: Drawing) -> Any:
-    """Which of 50 by 50 pixels a run covers."""
-    page = drawing(run.scene, size=(50, 50), style="ink", window=one.window(vines.WINDOW))
+def ink(run: Sample, target: Drawing) -> Any:
+    """Return the pixels, of 50 by 50, that a run covers."""
+    page = drawing(run.scene, size=(50, 50), style="ink", window=target.window(vines.WINDOW))
     return np.asarray(page.convert("L")) < 128
 
 
 def apart(pages: Sequence[Any]) -> float:
-    """Of two results the share of pixels that only one covers, of those that either covers; the mean over pairs."""
+    """Return the share of pixels that only one of two results covers, of all covered pixels; the mean over pairs."""
     flat = np.array([page.ravel() for page in pages], dtype=np.float64)
     both = flat @ flat.T
     sizes = flat.sum(1)
@@ -180,18 +180,18 @@ def measured(
         every = held_out("scribbles", places.quick)
         results = 6 if places.quick else RESULTS
         bounds, alone = [], []
-        for number, one in enumerate(every):
-            runs = search_of(one, nw.importance(64, guide=guide), number).run(threads=1)
+        for number, page in enumerate(every):
+            runs = search_of(page, nw.importance(64, guide=guide), number).run(threads=1)
             possible = [run.log_weight for run in runs if np.isfinite(run.log_weight)]
             bounds.append(np.mean(possible))
             alone += [run.similarity for run in runs]
         structures, spreads, alike = [], [], []
-        for one in every[:GROWN]:
+        for page in every[:GROWN]:
             method = nw.smc(10, resampling="tempered", guide=guide)
-            found = [search_of(one, method, seed).run(threads=1) for seed in range(results)]
-            best = [max(runs, key=lambda run: run.log_score + run.log_prior) for runs in found]
+            results_of_page = [search_of(page, method, seed).run(threads=1) for seed in range(results)]
+            best = [max(runs, key=lambda run: run.log_score + run.log_prior) for runs in results_of_page]
             structures.append(len({structure(run) for run in best}))
-            spreads.append(apart([ink(run, one) for run in best]))
+            spreads.append(apart([ink(run, page) for run in best]))
             alike += [run.similarity for run in best]
         return {
             "cpu": round(guide.report.get("cpu", 0.0), 1),
@@ -211,7 +211,7 @@ def measured(
 
 def draw(places: Places) -> None:
     """Draw the figure."""
-    told = of_coins(places)
+    bounds_by_name = of_coins(places)
     guides = of_vines(places)
     *traces, picked = traced(places)
     rows = {name: measured(places, name, guide, *traces) for name, guide in guides.items()}
@@ -223,13 +223,13 @@ def draw(places: Places) -> None:
         )
     figure, panels = plt.subplots(1, 3, figsize=(12, 4.4), layout="constrained", width_ratios=(1.3, 1.1, 1))
     shades = ("#444444", "#5a9a8f", "#e8a44c", "#1b4965", "#9b2226")
-    for number, ((name, chances), shade) in enumerate(zip(told.items(), shades, strict=True)):
+    for number, ((name, chances), shade) in enumerate(zip(bounds_by_name.items(), shades, strict=True)):
         panels[0].bar(np.arange(5) + 0.16 * (number - 2), chances[:5], 0.16, label=name, color=shade)
     panels[0].set(title="four coins that should agree", xlabel="heads", ylabel="probability", ylim=(0, 1.35))
     panels[0].legend(frameon=False, fontsize=8, loc="upper left")
     sides = {"held-out traces": leaves(places, "traces", lambda: picked)}
     for name, guide in guides.items():
-        sides[KINDS[name][0]] = leaves(places, name, lambda own=guide: alone(places, own))
+        sides[KINDS[name][0]] = leaves(places, name, lambda guide_of_kind=guide: alone(places, guide_of_kind))
     for number, (name, row) in enumerate(sides.items()):
         left = 0.0
         for kind, shade in zip(LEAVES, ("#d9d6cf", "#5a9a8f", "#1b4965"), strict=True):
@@ -259,8 +259,8 @@ LEAVES = ("none", "left", "right")
 def alone(places: Places, guide: Guide) -> list[Sample]:
     """Single runs of a guide at held-out scribbles."""
     every = held_out("scribbles", places.quick)[:GROWN]
-    found = [search_of(one, nw.importance(40, guide=guide), number) for number, one in enumerate(every)]
-    return [run for search in found for run in search.run(threads=1)]
+    results = [search_of(page, nw.importance(40, guide=guide), number) for number, page in enumerate(every)]
+    return [run for search in results for run in search.run(threads=1)]
 
 
 def leaves(places: Places, name: str, runs: Callable[[], Sequence[Sample]]) -> Row:

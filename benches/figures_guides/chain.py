@@ -16,26 +16,27 @@ def draw(places: Places) -> None:
     """Draw: forward samples and ten particles, without a guide and with ours."""
     guide = ours(places, chain)
     every = held_out("scribbles")
-    shown = [one for one in every if one.name in SHOWN]
+    shown = [drawing for drawing in every if drawing.name in SHOWN]
     kinds = [
         (1, "systematic", None),
         (10, "residual", None),
         (1, "systematic", guide),
         (10, "tempered", guide),
     ]
-    rows = [[cell(chain, one, None, 170) for one in shown]]
+    rows = [[cell(chain, drawing, None, 170) for drawing in shown]]
     rows += [
-        [cell(chain, one, grown(chain, one, n, how, own, 1), 170) for one in shown] for n, how, own in kinds
+        [cell(chain, drawing, grown(chain, drawing, n, how, guide_of_kind, 1), 170) for drawing in shown]
+        for n, how, guide_of_kind in kinds
     ]
     turned = [list(column) for column in zip(*rows, strict=True)]
     titles = ("drawing", "forward", "N = 10", "guided, forward", "guided, N = 10")
     saved(places, "figure-6-2.png", sheet(turned, titles=titles))
-    for n, how, own in kinds:
+    for n, how, guide_of_kind in kinds:
         judged(
             places,
             chain,
-            "unguided" if own is None else "ours",
-            own,
+            "unguided" if guide_of_kind is None else "ours",
+            guide_of_kind,
             n,
             resampling=how,
             collection="scribbles",

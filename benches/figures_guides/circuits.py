@@ -60,8 +60,8 @@ def guide_of(places: Places) -> Guide:
 def grown(particles: int, resampling: str, guide: Guide | None, seed: int) -> Sample:
     """The result of one search: the run with the highest prior and score."""
     method = nw.smc(particles, resampling=resampling, guide=guide)
-    found = nw.run(circuit.MODEL, score=circuit.SCORE(), method=method, seed=seed, threads=1)
-    return likeliest(found)
+    result = nw.run(circuit.MODEL, score=circuit.SCORE(), method=method, seed=seed, threads=1)
+    return likeliest(result)
 
 
 def filled(run: Sample) -> float:
@@ -102,8 +102,11 @@ def draw(places: Places) -> None:
     figure, panels = plt.subplots(1, 2, figsize=(10, 3.8), layout="constrained", sharey=True)
     for name, resampling, color, text in LINES:
         counts: Sequence[int] = GUIDED if name == "guided" else UNGUIDED
-        own = guide if name == "guided" else None
-        rows = [measured(places, name, own, n, resampling) for n in (counts[:2] if places.quick else counts)]
+        guide_of_kind = guide if name == "guided" else None
+        rows = [
+            measured(places, name, guide_of_kind, n, resampling)
+            for n in (counts[:2] if places.quick else counts)
+        ]
         middles = [statistics.median(row["scores"]) for row in rows]
         low, high = ([np.quantile(row["scores"], q) for row in rows] for q in (0.1, 0.9))
         for panel, at in zip(

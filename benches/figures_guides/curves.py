@@ -121,12 +121,14 @@ def mixtures(places: Places) -> None:
     theirs = {
         name: taught(places, name) for name in (*(f"full-{count}" for count in COMPONENTS[:-1]), "full")
     }
-    own = {f"ours, {count} of 4": ours(places, vines, components=count) for count in COMPONENTS[:-1]}
-    own["ours"] = ours(places, vines)
+    guides_by_name = {
+        f"ours, {count} of 4": ours(places, vines, components=count) for count in COMPONENTS[:-1]
+    }
+    guides_by_name["ours"] = ours(places, vines)
     figure, panels = plt.subplots(1, 2, figsize=(10, 4), layout="constrained", sharey=True)
     kinds = (
         ("the dissertation's network", theirs, "residual"),
-        ("ours, tempered resampling", own, "tempered"),
+        ("ours, tempered resampling", guides_by_name, "tempered"),
     )
     for panel, (title, guides, resampling) in zip(panels, kinds, strict=True):
         for (name, guide), color, count in zip(

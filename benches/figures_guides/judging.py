@@ -34,19 +34,19 @@ def likeliest(runs: Iterable[Sample]) -> Sample:
 
 
 def grown(
-    model: ModuleType, one: Drawing, particles: int, resampling: str, guide: Guide | None, seed: int
+    model: ModuleType, drawing: Drawing, particles: int, resampling: str, guide: Guide | None, seed: int
 ) -> Sample:
     """The result of one search."""
     method = nw.smc(particles, resampling=resampling, guide=guide)
-    found = nw.run(
+    result = nw.run(
         model.MODEL,
-        *one.place(model.WINDOW),
-        score=one.score(model.WINDOW),
+        *drawing.place(model.WINDOW),
+        score=drawing.score(model.WINDOW),
         method=method,
         seed=seed,
         threads=1,
     )
-    return likeliest(found)
+    return likeliest(result)
 
 
 def judged(
@@ -75,13 +75,14 @@ def judged(
         # The first search compiles.
         grown(model, every[0], particles, resampling, guide, seed)
         start = time.process_time()
-        found = [
-            grown(model, one, particles, resampling, guide, seed + 1000 * i) for i, one in enumerate(every)
+        samples = [
+            grown(model, drawing, particles, resampling, guide, seed + 1000 * i)
+            for i, drawing in enumerate(every)
         ]
         seconds = (time.process_time() - start) / len(every)
         row: Row = {
             "cpu": round(seconds, 6),
-            "similarities": [round(run.similarity or 0.0, 4) for run in found],
+            "similarities": [round(run.similarity or 0.0, 4) for run in samples],
         }
         print(described(key | row), flush=True)
         return row
@@ -105,9 +106,9 @@ def summary(rows: Sequence[Row]) -> dict[str, Any]:
 
 def described(row: Row) -> str:
     """A row for people."""
-    own = summary([row])
+    stats = summary([row])
     return (
         f"{row['model']:<10}{row['guide']:<22}{row['set']:<12}N={row['particles']:<4}{row['resampling']:<11}"
-        f"mean {own['mean']:.3f}  median {own['median']:.3f}  p10 {own['p10']:.3f}  stumps {own['stumps']:4.0%}"
-        f"  {own['ms']:6.1f} ms"
+        f"mean {stats['mean']:.3f}  median {stats['median']:.3f}  p10 {stats['p10']:.3f}  stumps {stats['stumps']:4.0%}"
+        f"  {stats['ms']:6.1f} ms"
     )

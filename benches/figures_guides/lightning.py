@@ -18,12 +18,15 @@ def draw(places: Places) -> None:
     letters = [drawings.drawing(f"letters/{letter}") for letter in WORD]
     grown(lightning, letters[0], 10, "tempered", guide, 1)
     cells, texts = [], []
-    for number, one in enumerate(letters):
+    for number, drawing in enumerate(letters):
         start = time.process_time()
-        run = grown(lightning, one, 10, "tempered", guide, 1 + number)
+        run = grown(lightning, drawing, 10, "tempered", guide, 1 + number)
         texts.append(f"{1000.0 * (time.process_time() - start):.0f} ms")
-        cells.append(cell(lightning, one, run, 200))
+        cells.append(cell(lightning, drawing, run, 200))
     saved(places, "figure-6-7.png", sheet(wrapped(cells, 4), below=wrapped(texts, 4)))
     every = held_out("letters", places.quick)
-    cells = [cell(lightning, one, grown(lightning, one, 10, "tempered", guide, 1), 110) for one in every]
+    cells = [
+        cell(lightning, drawing, grown(lightning, drawing, 10, "tempered", guide, 1), 110)
+        for drawing in every
+    ]
     saved(places, "lightning-letters.png", sheet(wrapped(cells, 9), gap=2))

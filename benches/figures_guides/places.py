@@ -23,13 +23,13 @@ class Places:
 
     def rows(self) -> list[Row]:
         """All that was measured."""
-        found = []
+        stored = []
         for place in sorted(self.folder.glob("*.jsonl")):
-            found += [json.loads(line) for line in place.read_text().splitlines() if line]
-        return found
+            stored += [json.loads(line) for line in place.read_text().splitlines() if line]
+        return stored
 
     def row(self, part: str, key: Mapping[str, Any], measure: Callable[[], Row]) -> Row:
-        """What was measured under this key, or is measured."""
+        """Return the measurement under a key; measure it if there is none."""
         place = self.folder / f"{part}.jsonl"
         for row in self.rows():
             if all(row.get(name) == value for name, value in key.items()):

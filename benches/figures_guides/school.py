@@ -51,8 +51,8 @@ SEEDS = (1, 2)
 def scribbles() -> tuple[list[Drawing], list[Drawing]]:
     """Scribbles to learn from, with their mirror images, and others of the training scribbles to judge by."""
     every = [drawings.drawing(name) for name in drawings.names("scribbles", "training")]
-    learned = [one for i, one in enumerate(every) if i % EVERY]
-    return learned + [one.mirrored() for one in learned], every[::EVERY]
+    learned = [drawing for i, drawing in enumerate(every) if i % EVERY]
+    return learned + [drawing.mirrored() for drawing in learned], every[::EVERY]
 
 
 def ended(sample: Sample) -> bool:
@@ -68,22 +68,22 @@ def best(sample: Search) -> Sample:
 def traced(model: ModuleType, count: int, seed: int = 1) -> list[tuple[Search, Sample]]:
     """So many traces of a gallery's model."""
     learned, _ = scribbles()
-    draw, found = np.random.default_rng(seed), []
+    draw, traces = np.random.default_rng(seed), []
     with ThreadPoolExecutor(cpu_count()) as pool:
-        while len(found) < count:
-            picks = [learned[i] for i in draw.integers(len(learned), size=count - len(found))]
+        while len(traces) < count:
+            picks = [learned[i] for i in draw.integers(len(learned), size=count - len(traces))]
             jobs = [
                 Search(
                     model.MODEL,
-                    one.place(model.WINDOW),
-                    score=one.score(model.WINDOW),
+                    drawing.place(model.WINDOW),
+                    score=drawing.score(model.WINDOW),
                     method=nw.smc(600, resampling="residual"),
                     seed=int(draw.integers(2**63)),
                 )
-                for one in picks
+                for drawing in picks
             ]
-            found += [(job, run) for job, run in zip(jobs, pool.map(best, jobs), strict=True) if ended(run)]
-    return found
+            traces += [(job, run) for job, run in zip(jobs, pool.map(best, jobs), strict=True) if ended(run)]
+    return traces
 
 
 def fitted(pairs: Sequence[tuple[Search, Sample]], training: Training, seed: int = 1) -> Guide:
@@ -92,8 +92,8 @@ def fitted(pairs: Sequence[tuple[Search, Sample]], training: Training, seed: int
     for number, (job, run) in enumerate(pairs):
         lessons.add(job.task, run._run, number < max(1, len(pairs) // 10))
     settings = asdict(training) | {"model": pairs[0][0].model.name, "seed": seed}
-    engine, told = lessons.train(pairs[0][0].task, json.dumps(settings), None, None)
-    assert told["diverged"] is None, told["diverged"]
+    engine, report = lessons.train(pairs[0][0].task, json.dumps(settings), None, None)
+    assert report["diverged"] is None, report["diverged"]
     return Guide(engine.data())
 
 
@@ -151,8 +151,8 @@ def ours(places: Places, model: ModuleType, seed: int = 1, **settings: Any) -> G
         lambda: train_guide(
             model.MODEL,
             learned,
-            lambda one: one.score(model.WINDOW),
-            lambda one: one.place(model.WINDOW),
+            lambda drawing: drawing.score(model.WINDOW),
+            lambda drawing: drawing.place(model.WINDOW),
             held_out=judged,
             keep=ended,
             rounds=(10, 10) if places.quick else (150, 400),

@@ -14,12 +14,12 @@ from places import Places
 INK = (84, 82, 78)
 
 
-def cell(model: ModuleType, one: Drawing, run: Sample | None, side: int) -> Image.Image:
+def cell(model: ModuleType, page: Drawing, run: Sample | None, side: int) -> Image.Image:
     """A run over its drawing, pale; the drawing alone without one."""
-    window = one.window(model.WINDOW)
+    window = page.window(model.WINDOW)
     if run is None:
-        return Image.fromarray(one.greys).convert("RGB").resize((side, side), Image.Resampling.BICUBIC)
-    style: dict[str, Any] = {"style": model.DRAWS, "window": window, "under": one.greys < 255}
+        return Image.fromarray(page.greys).convert("RGB").resize((side, side), Image.Resampling.BICUBIC)
+    style: dict[str, Any] = {"style": model.DRAWS, "window": window, "under": page.greys < 255}
     return drawing(run.scene, size=(side, side), **style).convert("RGB")
 
 

@@ -43,42 +43,42 @@ def draw(places: Places) -> None:
     for row in places.rows():
         if "similarities" in row:
             groups[tuple(row[key] for key in KEYS)].append(row)
-    found = [dict(zip(KEYS, key, strict=True)) | rounded(rows) for key, rows in groups.items()]
-    found.sort(key=lambda row: [str(row[key]) if key != "particles" else f"{row[key]:06}" for key in KEYS])
-    lines = ",\n".join(json.dumps(row) for row in found)
+    rows = [dict(zip(KEYS, key, strict=True)) | rounded(rows) for key, rows in groups.items()]
+    rows.sort(key=lambda row: [str(row[key]) if key != "particles" else f"{row[key]:06}" for key in KEYS])
+    lines = ",\n".join(json.dumps(row) for row in rows)
     (places.pictures / "measured.json").write_text(f"[\n{lines}\n]\n", encoding="utf-8")
     if not places.quick:
-        put("networks", networks(found))
-        put("seeds", seeds(found))
-        put("sets", sets(found))
+        put("networks", networks(rows))
+        put("seeds", seeds(rows))
+        put("sets", sets(rows))
 
 
-def put(name: str, own: str) -> None:
+def put(name: str, text: str) -> None:
     """Write a table where the manual has a place for it."""
     before, rest = PAGE.read_text(encoding="utf-8").split(f"% table {name}\n")
     after = rest.partition("% end\n")[2]
-    PAGE.write_text(f"{before}% table {name}\n\n{own}\n\n% end\n{after}", encoding="utf-8")
+    PAGE.write_text(f"{before}% table {name}\n\n{text}\n\n% end\n{after}", encoding="utf-8")
 
 
 def rounded(rows: list[Row]) -> Row:
     """A summary of rows, with few digits."""
-    own = summary(rows) | {"seeds": sorted(row["seed"] for row in rows)}
-    return {key: round(value, 3) if isinstance(value, float) else value for key, value in own.items()}
+    numbers = summary(rows) | {"seeds": sorted(row["seed"] for row in rows)}
+    return {key: round(value, 3) if isinstance(value, float) else value for key, value in numbers.items()}
 
 
-def networks(found: list[Row]) -> str:
+def networks(rows: list[Row]) -> str:
     """Guides on the held-out glyphs."""
-    lines = [(title, row) for title, *key in NETWORKS for row in known(found, *key)]
+    lines = [(title, row) for title, *key in NETWORKS for row in known(rows, *key)]
     cells = [(title, row["particles"], row["resampling"], *numbers(row)) for title, row in lines]
     return table(("guide", "N", "resampling", *HEAD), cells)
 
 
-def seeds(found: list[Row]) -> str:
+def seeds(measured: list[Row]) -> str:
     """Our guide by five training seeds."""
     cells = []
     names = ("ours", *(f"ours-{seed}" for seed in TRAINED[1:]))
     for particles in (10, 20):
-        rows = [row for name in names for row in known(found, name, particles, "tempered")]
+        rows = [row for name in names for row in known(measured, name, particles, "tempered")]
         for key in ("mean", "median", "p10", "stumps") if rows else ():
             values = [row[key] for row in rows]
             ends = (f"{value:.3f}" for value in (min(values), statistics.fmean(values), max(values)))
@@ -86,13 +86,13 @@ def seeds(found: list[Row]) -> str:
     return table(("", "least", "mean", "most", "training seeds"), cells)
 
 
-def sets(found: list[Row]) -> str:
+def sets(rows: list[Row]) -> str:
     """Guides on the other held-out drawings."""
     cells = [
         (title, collection, row["particles"], row["resampling"], *numbers(row))
         for collection in ("scribbles", "silhouettes")
         for title, *key in SETS
-        for row in known(found, *key, collection)
+        for row in known(rows, *key, collection)
     ]
     return table(("guide", "drawings", "N", "resampling", *HEAD), cells)
 
@@ -100,13 +100,13 @@ def sets(found: list[Row]) -> str:
 def known(
     found: list[Row], guide: str, particles: int, resampling: str, collection: str = "glyphs"
 ) -> list[Row]:
-    """What was measured of a guide of the vines, if anything."""
+    """Return the measurement of a guide of the vines, or None."""
     key = dict(zip(KEYS, ("vines", guide, particles, resampling, collection), strict=True))
     return [row for row in found if all(row[name] == value for name, value in key.items())]
 
 
 def numbers(row: Row) -> tuple[object, ...]:
-    """What the columns of `HEAD` show."""
+    """Return the values of the columns of `HEAD`."""
     three = (f"{row[key]:.2f}" for key in ("mean", "median", "p10"))
     return (*three, f"{row['stumps']:.0%}", f"{row['ms']:.1f}", row["searches"])
 
@@ -115,4 +115,4 @@ def table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
     """Rows as Markdown."""
     first = list(head)
     lines = [first, ["---"] * len(first), *rows]
-    return "\n".join("| " + " | ".join(str(one) for one in line) + " |" for line in lines)
+    return "\n".join("| " + " | ".join(str(value) for value in line) + " |" for line in lines)

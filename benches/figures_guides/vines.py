@@ -30,16 +30,16 @@ SAME_TIME = 50
 def draw(places: Places) -> None:
     """Draw all."""
     guides = dissertation(places)
-    own, theirs = ours(places, vines), guides["full"]
+    our_guide, theirs = ours(places, vines), guides["full"]
     letters = [drawings.drawing(name) for name in WORD if name in drawings.table()]
     kinds = [
-        (10, "tempered", own),
+        (10, "tempered", our_guide),
         (10, "residual", theirs),
         (10, "residual", None),
         (SAME_TIME, "residual", None),
     ]
     rows = [
-        [cell(vines, one, grown(vines, one, n, resampling, guide, 1), 190) for one in letters]
+        [cell(vines, drawing, grown(vines, drawing, n, resampling, guide, 1), 190) for drawing in letters]
         for n, resampling, guide in kinds
     ]
     saved(places, "figure-6-1.png", sheet(rows))
@@ -53,15 +53,18 @@ def draw(places: Places) -> None:
         "unguided, N = 50",
     )
     lines, below = [], []
-    for one in shown:
+    for drawing in shown:
         runs = [
-            grown(vines, one, n, resampling, guide, 1)
+            grown(vines, drawing, n, resampling, guide, 1)
             for n, resampling, guide in [(600, "residual", None), *kinds]
         ]
-        lines.append([cell(vines, one, None, 170), *(cell(vines, one, run, 170) for run in runs)])
+        lines.append([cell(vines, drawing, None, 170), *(cell(vines, drawing, run, 170) for run in runs)])
         below.append(["", *(f"similarity {run.similarity:.2f}" for run in runs)])
     saved(places, "figure-6-6.png", sheet(lines, titles=titles, below=below))
     for collection, (side, across) in SIDES.items():
         every = held_out(collection, places.quick)
-        cells = [cell(vines, one, grown(vines, one, 10, "tempered", own, 1), side) for one in every]
+        cells = [
+            cell(vines, drawing, grown(vines, drawing, 10, "tempered", our_guide, 1), side)
+            for drawing in every
+        ]
         saved(places, f"vines-{collection}.png", sheet(wrapped(cells, across), gap=2))

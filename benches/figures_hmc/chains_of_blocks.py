@@ -12,7 +12,7 @@ import numpy as np
 import original
 from chains_of_numbers import Chains
 from niwaki import stacks
-from niwaki.stacks.starting import height
+from niwaki.stacks.starts import height
 
 DRAWS, STEPS, WIDTH = 200, 1000, 0.005
 
@@ -20,25 +20,25 @@ DRAWS, STEPS, WIDTH = 200, 1000, 0.005
 def originals(seed: int, draws: int = DRAWS, steps: int = STEPS) -> Chains:
     """The original's chain."""
     density, x = stacks.start(stacks.stack, seed=seed, width=WIDTH)
-    begun = time.process_time()
-    found, accepted = original.hmc(partial(height, density), x, draws, steps, seed)
-    spent = time.process_time() - begun
-    heights = np.array([[density(x) for x in found]])
-    return Chains(found[None], draws * steps, spent, accepted, heights)
+    start_time = time.process_time()
+    draws_found, accepted = original.hmc(partial(height, density), x, draws, steps, seed)
+    spent = time.process_time() - start_time
+    heights = np.array([[density(x) for x in draws_found]])
+    return Chains(draws_found[None], draws * steps, spent, accepted, heights)
 
 
 def ours(seed: int) -> Chains:
     """Our default sampler on one thread."""
-    begun = time.process_time()
-    found = nw.run(stacks.stack, width=WIDTH, method=nw.explore(), seed=seed, threads=1)
-    spent = time.process_time() - begun
-    accepted = float(found.stats["acceptance_rate"].mean())
-    return Chains(np.array(found.positions), found.gradients, spent, accepted, found.log_density)
+    start_time = time.process_time()
+    result = nw.run(stacks.stack, width=WIDTH, method=nw.explore(), seed=seed, threads=1)
+    spent = time.process_time() - start_time
+    accepted = float(result.stats["acceptance_rate"].mean())
+    return Chains(np.array(result.positions), result.gradients, spent, accepted, result.log_density)
 
 
 def level(draws: int) -> float:
     """The median log density of a long chain, in a metric that suits it."""
     density, x = stacks.start(stacks.stack, seed=1, width=WIDTH)
     method = nw.nuts(draws=draws, warmup=draws, chains=1, metric="low-rank")
-    found = nw.run(stacks.stack, width=WIDTH, method=method, choices=density.values(x), seed=1, threads=1)
-    return float(np.median(found.log_density))
+    result = nw.run(stacks.stack, width=WIDTH, method=method, choices=density.values(x), seed=1, threads=1)
+    return float(np.median(result.log_density))

@@ -30,10 +30,10 @@ def task(name: str) -> tuple[Drawing, tuple[Any, ...]]:
 @cache
 def originals(name: str, seed: int, draws: int = DRAWS) -> dict[str, Chains]:
     """Both samplers of the original, from one burn-in."""
-    drawing, given = task(name)
-    density = nw.log_density(nw.run(coloring, *given, seed=seed).best)
+    drawing, arguments = task(name)
+    density = nw.log_density(nw.run(coloring, *arguments, seed=seed).best)
     density.compile()
-    ask, found = density.value_and_gradient, {}
+    ask, draws_by_name = density.value_and_gradient, {}
     burnt, _ = original.mh(ask, density.start, BURN_IN, seed, UNIT)
     proposals = 2 * STEPS * draws
     samplers = {
@@ -46,8 +46,8 @@ def originals(name: str, seed: int, draws: int = DRAWS) -> dict[str, Chains]:
         spent = time.process_time() - start
         colors = 1.0 / (1.0 + np.exp(-coordinates.reshape(1, draws, len(drawing.names), 3)))
         heights = np.array([ask(x)[0] for x in coordinates])
-        found[sampler] = Chains(colors, evaluations, spent, accepted, heights)
-    return found
+        draws_by_name[sampler] = Chains(colors, evaluations, spent, accepted, heights)
+    return draws_by_name
 
 
 @cache
@@ -68,11 +68,11 @@ def level(name: str, warmup: int = 300) -> float:
 @cache
 def timed(name: str, method: Any, seed: int) -> Chains:
     """A gradient sampler of the engine on one thread."""
-    drawing, given = task(name)
+    drawing, arguments = task(name)
     start = time.process_time()
-    found = nw.run(coloring, *given, method=method, seed=seed, threads=1)
+    result = nw.run(coloring, *arguments, method=method, seed=seed, threads=1)
     spent = time.process_time() - start
-    colors = np.stack(list(found.draws.values()), axis=-1)
+    colors = np.stack(list(result.draws.values()), axis=-1)
     shape = (*colors.shape[:2], len(drawing.names), 3)
-    accepted = float(found.stats["acceptance_rate"].mean())
-    return Chains(colors.reshape(shape), found.gradients, spent, accepted, found.log_density)
+    accepted = float(result.stats["acceptance_rate"].mean())
+    return Chains(colors.reshape(shape), result.gradients, spent, accepted, result.log_density)

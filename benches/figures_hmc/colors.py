@@ -69,14 +69,14 @@ def gallery(names: tuple[str, ...]) -> Image.Image:
 def as_rules(drawing: Drawing, rules: Rules) -> dict[str, str]:
     """The rules as colours: one hue for shades of one colour, darker by a chain of lightness."""
     group = {name: name for name in drawing.names}
-    for one in rules:
-        if one.kind == "same-chroma":
-            old, new = group[one.second], group[one.first]
+    for rule in rules:
+        if rule.kind == "same-chroma":
+            old, new = group[rule.second], group[rule.first]
             group = {name: new if of == old else of for name, of in group.items()}
     sizes = {of: list(group.values()).count(of) for of in group.values()}
     tied = [of for of, size in sizes.items() if size > 1]
     depth = dict.fromkeys(drawing.names, 0)
-    ranked = [(one.first, one.second) for one in rules if one.kind in ("lightness", "lighter")]
+    ranked = [(rule.first, rule.second) for rule in rules if rule.kind in ("lightness", "lighter")]
     for _ in drawing.names:
         for light, dark in ranked:
             depth[dark] = max(depth[dark], depth[light] + 1)
@@ -123,32 +123,32 @@ def comparison(names: tuple[str, ...], draws: int) -> plt.Figure:
 
 def timings(name: str, draws: int) -> list[dict[str, Any]]:
     """Rows of the table of figure 4.6: the engine's MH and HMC with the original's lengths, and `explore`."""
-    drawing, given = task(name)
+    drawing, arguments = task(name)
     theirs_mh, theirs_hmc = PUBLISHED[name]
     rows = []
     proposals = 2 * STEPS * draws
-    found = nw.run(
+    result = nw.run(
         coloring,
-        *given,
+        *arguments,
         method=nw.mh(proposals, kernel=kernels.drift(target=0.23), keep=draws),
         seed=1,
         threads=1,
     )
-    colors = np.array([sample.value for sample in found]).reshape(len(found), -1)
-    sites = found.acceptance.values()
+    colors = np.array([sample.value for sample in result]).reshape(len(result), -1)
+    sites = result.acceptance.values()
     accepted = sum(site.accepted for site in sites) / sum(site.proposed for site in sites)
     rows.append(
-        row("MH", drawing, theirs_mh[0], found.cpu_seconds, accepted, draws, diagnostics.ess_vector(colors))
+        row("MH", drawing, theirs_mh[0], result.cpu_seconds, accepted, draws, diagnostics.ess_vector(colors))
     )
     samplers = {
         "HMC": (theirs_hmc[0], nw.hmc(draws, STEPS, chains=1, metric="unit", warmup=200, climb=100)),
         "explore": (None, nw.explore()),
     }
     for sampler, (published, method) in samplers.items():
-        made = timed(name, method, 1)
-        count = made.values.shape[0] * made.values.shape[1]
-        rows.append(row(sampler, drawing, published, made.cpu, made.accepted, count, made.effective))
-    return [{"drawing": name, **one} for one in rows]
+        run = timed(name, method, 1)
+        count = run.values.shape[0] * run.values.shape[1]
+        rows.append(row(sampler, drawing, published, run.cpu, run.accepted, count, run.effective))
+    return [{"drawing": name, **line} for line in rows]
 
 
 def row(

@@ -17,8 +17,8 @@ DEEPEST = 0.35
 
 def bins(colors: NDArray[np.float64]) -> NDArray[np.int64]:
     """The bin of each colour in [0, 1], (..., 3) to (...)."""
-    found = np.floor((lab.of_rgb(colors) + np.array([0.0, 100.0, 100.0])) / EDGE).astype(np.int64)
-    return np.asarray(np.clip(found, 0, (3, 7, 7)) @ np.array([64, 8, 1]))
+    indices = np.floor((lab.of_rgb(colors) + np.array([0.0, 100.0, 100.0])) / EDGE).astype(np.int64)
+    return np.asarray(np.clip(indices, 0, (3, 7, 7)) @ np.array([64, 8, 1]))
 
 
 def reached(colors: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -27,9 +27,9 @@ def reached(colors: NDArray[np.float64]) -> NDArray[np.int64]:
     return np.array([len(np.unique(number[:, k])) for k in range(number.shape[1])])
 
 
-def picture(drawing: Drawing, found: NDArray[np.int64], size: int = 400) -> Image.Image:
+def picture(drawing: Drawing, covered: NDArray[np.int64], size: int = 400) -> Image.Image:
     """The drawing, each region from white to blue by the bins that it reached."""
-    shares = np.clip(found / ALL / DEEPEST, 0.0, 1.0)
+    shares = np.clip(covered / ALL / DEEPEST, 0.0, 1.0)
     shades = {
         name: lab.hexed((WHITE + share * (BLUE - WHITE)) / 255.0)
         for name, share in zip(drawing.names, shares, strict=True)

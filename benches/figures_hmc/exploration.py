@@ -25,44 +25,46 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     names, draws, seeds = (("bug",), 40, SEEDS[:1]) if quick else (DRAWINGS, DRAWS, SEEDS)
     print(f"{'design':8} {'sampler':22} gradients    cpu s   bins  effective   least   below")
     for name in names:
-        own = ours(name, seeds[0])
-        as_many = max(1, round(own.values.shape[0] * STEPS * draws / own.gradients))
+        chains_of_name = ours(name, seeds[0])
+        as_many = max(1, round(chains_of_name.values.shape[0] * STEPS * draws / chains_of_name.gradients))
         samplers = {
             "HMC as the original": [originals(name, seed, draws)["HMC"] for seed in seeds],
             "explore": [ours(name, seed) for seed in seeds],
             "explore, as many": [ours(name, seed, as_many) for seed in seeds],
         }
         high = level(name, 20 if quick else 300)
-        for sampler, made in samplers.items():
-            tell(shown(name, sampler, made, high, reach(made)))
+        for sampler, chains_of_sampler in samplers.items():
+            tell(shown(name, sampler, chains_of_sampler, high, reach(chains_of_sampler)))
     steps = {"draws": 20, "steps": 50} if quick else {}
     samplers = {
         "HMC as the original": [blocks.originals(seed, **steps) for seed in seeds],
         "explore": [blocks.ours(seed) for seed in seeds],
     }
     high = blocks.level(30 if quick else 500)
-    for sampler, made in samplers.items():
-        tell(shown("stack", sampler, made, high))
+    for sampler, chains_of_sampler in samplers.items():
+        tell(shown("stack", sampler, chains_of_sampler, high))
 
 
-def reach(made: list[Chains]) -> float:
+def reach(chains_of_sampler: list[Chains]) -> float:
     """Bins of CIELAB that a region's draws reach, the mean over regions and seeds."""
-    return float(np.mean([coverage.reached(one.all_draws).mean() for one in made]))
+    return float(np.mean([coverage.reached(chains.all_draws).mean() for chains in chains_of_sampler]))
 
 
 def shown(
-    design: str, sampler: str, made: list[Chains], high: float, bins: float | None = None
+    design: str, sampler: str, chains_of_sampler: list[Chains], high: float, bins: float | None = None
 ) -> dict[str, Any]:
     """A row for one sampler on one design, whose long run lies at `high` nats: means over seeds, printed."""
-    below = np.mean([high - np.quantile(one.log_density, (0.5, 0.05)) for one in made], axis=0)
+    below = np.mean(
+        [high - np.quantile(chains.log_density, (0.5, 0.05)) for chains in chains_of_sampler], axis=0
+    )
     line = {
         "design": design,
         "sampler": sampler,
-        "gradients": round(float(np.mean([one.gradients for one in made]))),
-        "cpu": round(float(np.mean([one.cpu for one in made])), 3),
+        "gradients": round(float(np.mean([chains.gradients for chains in chains_of_sampler]))),
+        "cpu": round(float(np.mean([chains.cpu for chains in chains_of_sampler])), 3),
         "bins": None if bins is None else round(bins, 1),
-        "effective": round(float(np.mean([one.effective for one in made])), 1),
-        "least": round(float(np.mean([one.least for one in made])), 1),
+        "effective": round(float(np.mean([chains.effective for chains in chains_of_sampler])), 1),
+        "least": round(float(np.mean([chains.least for chains in chains_of_sampler])), 1),
         "below": [round(float(nats)) for nats in below],
     }
     print(

@@ -20,18 +20,18 @@ COLUMNS = 4
 
 def failures(path: Path, folder: Path) -> None:
     """Draw the first failures of each kind; no page where there are none."""
-    found = [
+    rows = [
         (name, row)
         for name in KINDS
         for row in [row for row in Verdicts(folder, name, "nuts") if not passes(row)][:SHOWN]
     ]
-    if not found:
+    if not rows:
         return
-    down = -(-len(found) // COLUMNS)
+    down = -(-len(rows) // COLUMNS)
     figure, axes = plt.subplots(down, COLUMNS, figsize=(3.5 * COLUMNS, 4.0 * down), squeeze=False)
     for cell in axes.flat:
         cell.axis("off")
-    for cell, (name, row) in zip(axes.flat, found, strict=False):
+    for cell, (name, row) in zip(axes.flat, rows, strict=False):
         scene = scene_of(KINDS[name], chains(folder, name, "nuts"), (row["chain"], row["draw"]))
         cell.imshow(framed(scene, None))
         cell.set_title(f"{name}: {why(row)}", fontsize=9)
@@ -41,7 +41,7 @@ def failures(path: Path, folder: Path) -> None:
 
 
 def why(row: dict[str, Any]) -> str:
-    """What the judges have against a draw."""
+    """Return the faults that the judges find in a draw."""
     if "refused" in row:
         text = row["refused"].replace("-", " ")
     else:

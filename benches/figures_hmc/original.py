@@ -23,7 +23,7 @@ def hmc(density: Gradient, x: Reals, draws: int, steps: int, seed: int) -> tuple
     random = np.random.default_rng(seed)
     value, slope = density(x)
     step = first_step(density, x, random)
-    drawn_to, error, accepted, found = step, 0.0, 0, np.empty((draws, len(x)))
+    drawn_to, error, accepted, states = step, 0.0, 0, np.empty((draws, len(x)))
     for k in range(1, draws + 1):
         momentum = random.normal(size=len(x))
         energy = value - 0.5 * momentum @ momentum
@@ -39,10 +39,10 @@ def hmc(density: Gradient, x: Reals, draws: int, steps: int, seed: int) -> tuple
         chance = math.exp(min(0.0, change)) if math.isfinite(change) else 0.0
         if random.uniform() < chance:
             x, value, slope, accepted = there, at, turn, accepted + 1
-        found[k - 1] = x
+        states[k - 1] = x
         error += (ACCEPTED - chance - error) / (k + 10)
         step = math.exp(drawn_to - 0.5 * math.sqrt(k) / 0.05 * error)
-    return found, accepted / draws
+    return states, accepted / draws
 
 
 def first_step(density: Gradient, x: Reals, random: np.random.Generator) -> float:
@@ -80,12 +80,12 @@ def mh(
     inside = (high - low) * CLOSEST
     y = low + (high - low) / (1.0 + np.exp(-x))
     value = density(x)[0]
-    widths, proposed, taken = np.full(len(x), width), np.zeros(len(x)), np.zeros(len(x))
-    found = np.empty((iterations // thin, len(x)))
+    widths, proposed, accepted_counts = np.full(len(x), width), np.zeros(len(x)), np.zeros(len(x))
+    states = np.empty((iterations // thin, len(x)))
     for k in range(iterations):
         i = int(random.integers(len(x)))
-        wanted = y[i] + widths[i] * random.normal()
-        moved = min(max(wanted, low + inside), high - inside)
+        candidate = y[i] + widths[i] * random.normal()
+        moved = min(max(candidate, low + inside), high - inside)
         there = x.copy()
         there[i] = math.log(moved - low) - math.log(high - moved)
         at = density(there)[0]
@@ -95,13 +95,13 @@ def mh(
             # The Jacobian of a bounded number is (y - low) (high - y), up to a factor. What would be moved back to the
             # bounds is refused: the reverse move is a different one.
             log_ratio += math.log((y[i] - low) * (high - y[i]) / ((moved - low) * (high - moved)))
-            log_ratio = log_ratio if moved == wanted else -math.inf
+            log_ratio = log_ratio if moved == candidate else -math.inf
         if math.log(1.0 - random.uniform()) < log_ratio:
             x, value = there, at
             y[i] = moved
-            taken[i] += 1
+            accepted_counts[i] += 1
         if adapts:
-            widths[i] *= 1.01 if taken[i] / proposed[i] > MH_ACCEPTED else 1.0 / 1.01
+            widths[i] *= 1.01 if accepted_counts[i] / proposed[i] > MH_ACCEPTED else 1.0 / 1.01
         if (k + 1) % thin == 0:
-            found[(k + 1) // thin - 1] = x
-    return found, float(taken.sum() / iterations)
+            states[(k + 1) // thin - 1] = x
+    return states, float(accepted_counts.sum() / iterations)

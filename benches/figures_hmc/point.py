@@ -28,11 +28,11 @@ DRAWS, STEPS, LAGS = 2000, 100, 200
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     """Both figures, and each chain's effective sample size."""
     draws = 100 if quick else DRAWS
-    found = {}
+    results = {}
     for width in (WIDE, NARROW):
         density = nw.log_density(nw.run(point, width, seed=1).best)
         walk = WALK[width]
-        found["MH", width] = timed(
+        results["MH", width] = timed(
             tell,
             f"MH, width {width}",
             2 * STEPS * draws,
@@ -48,7 +48,7 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
             ),
         )
     density = nw.log_density(nw.run(point, NARROW, seed=1).best)
-    found["HMC", NARROW] = timed(
+    results["HMC", NARROW] = timed(
         tell,
         f"HMC, width {NARROW}",
         STEPS * draws,
@@ -58,9 +58,9 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     ours = nw.run(point, NARROW, method=nw.nuts(draws, chains=1), seed=2, threads=1)
     xy = np.stack([ours.draws[name][0] for name in ours.draws], axis=1)
     row(tell, f"NUTS, width {NARROW}", xy, ours.gradients, time.process_time() - start, None)
-    found["NUTS", NARROW] = xy
-    samples(found).savefig(folder / "figure-4-2.png", dpi=110)
-    correlations(found).savefig(folder / "figure-4-3.png", dpi=110)
+    results["NUTS", NARROW] = xy
+    samples(results).savefig(folder / "figure-4-2.png", dpi=110)
+    correlations(results).savefig(folder / "figure-4-3.png", dpi=110)
     plt.close("all")
 
 
@@ -93,34 +93,34 @@ def row(
     print(f"{name:22} {evaluations:8} evaluations, {effective:7.1f} effective draws", flush=True)
 
 
-def samples(found: dict) -> plt.Figure:
+def samples(results: dict) -> plt.Figure:
     """Figure 4.2: densities on the left, draws coloured by time on the right."""
     grid = np.arange(-EDGE, EDGE + GRID, GRID)
     x, y = np.meshgrid(grid, grid)
     figure, axes = plt.subplots(2, 4, figsize=(11.2, 5.9), layout="constrained")
-    for one in axes.flat:
-        one.set(xticks=[], yticks=[], aspect="equal", xlim=(-EDGE, EDGE), ylim=(-EDGE, EDGE))
+    for axis in axes.flat:
+        axis.set(xticks=[], yticks=[], aspect="equal", xlim=(-EDGE, EDGE), ylim=(-EDGE, EDGE))
     for line, width in enumerate((WIDE, NARROW)):
         away = (y**4 - y**2 + x**2 - 0.25) / width
         extent = (-EDGE, EDGE, -EDGE, EDGE)
         axes[line, 0].imshow(np.exp(-0.5 * away**2), cmap="Greys", extent=extent, origin="lower")
         axes[line, 0].set_title(f"density, width {width}")
         for column, name in enumerate(("MH", "HMC", "NUTS"), 1):
-            if (name, width) not in found:
+            if (name, width) not in results:
                 axes[line, column].set_axis_off()
                 continue
-            xy = found[name, width]
+            xy = results[name, width]
             axes[line, column].scatter(*xy.T, c=np.arange(len(xy)), cmap="turbo", s=4, linewidths=0)
             axes[line, column].set_title(f"{name}, {len(xy)} draws")
     return figure
 
 
-def correlations(found: dict) -> plt.Figure:
+def correlations(results: dict) -> plt.Figure:
     """Figure 4.3: autocorrelations for the narrow curve."""
     figure, one = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
     one.axhline(0.0, color="0.6", linewidth=0.8)
     for name, color in (("MH", "#3a923a"), ("HMC", "#3274a1"), ("NUTS", "#c03d3e")):
-        lags = diagnostics.autocorrelation(found[name, NARROW])[:LAGS]
+        lags = diagnostics.autocorrelation(results[name, NARROW])[:LAGS]
         one.plot(lags, color=color, label=name)
     one.set(xlabel="lag, draws", ylabel="autocorrelation", ylim=(-0.4, 1.05))
     one.legend(frameon=False)

@@ -49,10 +49,10 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     print("\n".join(HEAD), flush=True)
     for sampler in (FOLLOWING, "mh-original", "mh-adaptive"):
         for name in FOLLOWED:
-            found = summary(KINDS[name], sampler, chains)
-            if found:
-                tell(found)
-                print(line(found), flush=True)
+            row = summary(KINDS[name], sampler, chains)
+            if row:
+                tell(row)
+                print(line(row), flush=True)
     seconds(folder, chains)
     pages.overview(folder / "structures.png", chains)
     pages.compared(folder / "figure-4-8.png", chains, ("stack", "lean", "top_heavy"))
@@ -75,13 +75,14 @@ def seconds(folder: Path, chains: Path) -> None:
             "mh-original": published[2:],
             "mh-adaptive": published[2:],
         }.items():
-            one = summary(KINDS[name], sampler, chains)
-            if one:
-                spent = max(one["seconds"], 1e-9)
+            numbers = summary(KINDS[name], sampler, chains)
+            if numbers:
+                spent = max(numbers["seconds"], 1e-9)
+                before = numbers["start_seconds"] + numbers["warmup_seconds"]
                 lines.append(
-                    f"| {name} ({sampler}) | {one['choices']} | {one['start_seconds'] + one['warmup_seconds']:.1f} "
-                    f"| {burn_in} | {one['seconds']:.1f} | {sampling} | {one['acceptance']:.2f} "
-                    f"| {one['acceptance'] * one['draws'] / spent:.2f} | {one['effective'] / spent:.2f} |"
+                    f"| {name} ({sampler}) | {numbers['choices']} | {before:.1f} "
+                    f"| {burn_in} | {numbers['seconds']:.1f} | {sampling} | {numbers['acceptance']:.2f} "
+                    f"| {numbers['acceptance'] * numbers['draws'] / spent:.2f} | {numbers['effective'] / spent:.2f} |"
                 )
     (folder / "figure-4-10.md").write_text("\n".join(lines) + "\n")
     print("\n".join(lines), flush=True)

@@ -42,36 +42,42 @@ OVERVIEW = (
 )
 
 
-def scene_of(kind: Kind, found: list[Drawn], place: tuple[int, int]) -> Scene:
+def scene_of(kind: Kind, all_chains: list[Drawn], place: tuple[int, int]) -> Scene:
     """The scene of a draw."""
     chain, draw = place
-    return nw.run(kind.model, width=kind.width, choices=found[chain].choices(draw)).best.scene
+    return nw.run(kind.model, width=kind.width, choices=all_chains[chain].choices(draw)).best.scene
 
 
-def far_apart(kind: Kind, folder: Path, found: list[Drawn], count: int) -> list[tuple[int, int]]:
+def far_apart(kind: Kind, folder: Path, all_chains: list[Drawn], count: int) -> list[tuple[int, int]]:
     """Draws that pass, each as far as can be from those before it; the first is nearest to the mean."""
     rows = list(Verdicts(folder, kind.name, "nuts"))
     good = [(row["chain"], row["draw"]) for row in [row for row in rows if passes(row)] or rows]
-    at = corners(kind, found)
+    at = corners(kind, all_chains)
     flat = np.array([at[place] for place in good if place[1] < at.shape[1]])
-    taken = [int(np.argmin(((flat - flat.mean(axis=0)) ** 2).sum(axis=1)))]
-    while len(taken) < min(count, len(flat)):
-        near = ((flat[:, None] - flat[taken][None]) ** 2).sum(axis=2).min(axis=1)
-        taken.append(int(near.argmax()))
-    return [good[k] for k in taken]
+    chosen = [int(np.argmin(((flat - flat.mean(axis=0)) ** 2).sum(axis=1)))]
+    while len(chosen) < min(count, len(flat)):
+        near = ((flat[:, None] - flat[chosen][None]) ** 2).sum(axis=2).min(axis=1)
+        chosen.append(int(near.argmax()))
+    return [good[k] for k in chosen]
 
 
 def framed(scene: Scene, frame: Scene | None, size: int = SIDE, **view: float) -> Image.Image:
     return scene.picture(size=(size, size), frame=frame, **(VIEW | view)).convert("RGB")
 
 
-def mean_picture(kind: Kind, found: list[Drawn], frame: Scene, most: int = 60, **view: float) -> Image.Image:
+def mean_picture(
+    kind: Kind, all_chains: list[Drawn], frame: Scene, most: int = 60, **view: float
+) -> Image.Image:
     """The mean of pictures of draws, at most `most` of them, evenly spread."""
-    places = [(chain, draw) for chain, one in enumerate(found) for draw in range(len(one.values))]
+    places = [
+        (chain, draw)
+        for chain, chain_draws in enumerate(all_chains)
+        for draw in range(len(chain_draws.values))
+    ]
     places = [places[k] for k in np.unique(np.linspace(0, len(places) - 1, most).astype(int))]
     total = np.zeros((SIDE // 2, SIDE // 2, 3))
     for place in places:
-        picture = scene_of(kind, found, place).picture(
+        picture = scene_of(kind, all_chains, place).picture(
             size=(SIDE // 2, SIDE // 2), samples=4, frame=frame, **(VIEW | view)
         )
         total += np.asarray(picture.convert("RGB"), dtype=np.float64)
@@ -86,8 +92,8 @@ def overview(path: Path, folder: Path) -> None:
     for cell in axes.flat:
         cell.axis("off")
     for cell, name in zip(axes.flat, names, strict=False):
-        kind, found = KINDS[name], chains(folder, name, "nuts")
-        scene = scene_of(kind, found, far_apart(kind, folder, found, 2)[-1])
+        kind, all_chains = KINDS[name], chains(folder, name, "nuts")
+        scene = scene_of(kind, all_chains, far_apart(kind, folder, all_chains, 2)[-1])
         cell.imshow(framed(scene, scene))
         cell.set_title(NAMES[name], fontsize=11)
     figure.tight_layout()
@@ -102,12 +108,12 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
         return
     figure, axes = plt.subplots(len(names), 6, figsize=(18, 3.2 * len(names)), squeeze=False)
     for row, name in zip(axes, names, strict=True):
-        kind, found = KINDS[name], chains(folder, name, "nuts")
-        places = far_apart(kind, folder, found, 3)
-        scenes = [scene_of(kind, found, place) for place in places]
-        largest = scene_of(kind, found, widest(kind, found))
+        kind, all_chains = KINDS[name], chains(folder, name, "nuts")
+        places = far_apart(kind, folder, all_chains, 3)
+        scenes = [scene_of(kind, all_chains, place) for place in places]
+        largest = scene_of(kind, all_chains, widest(kind, all_chains))
         shown = [framed(scene, largest) for scene in scenes]
-        shown.append(mean_picture(kind, found, largest))
+        shown.append(mean_picture(kind, all_chains, largest))
         theirs = chains(folder, name, "mh-original")
         if theirs:
             shown.append(mean_picture(kind, theirs, largest))
@@ -123,9 +129,9 @@ def compared(path: Path, folder: Path, names: tuple[str, ...]) -> None:
     plt.close(figure)
 
 
-def widest(kind: Kind, found: list[Drawn]) -> tuple[int, int]:
+def widest(kind: Kind, all_chains: list[Drawn]) -> tuple[int, int]:
     """The draw with the largest extent."""
-    at = corners(kind, found)
+    at = corners(kind, all_chains)
     boxes = np.ptp(at.reshape(*at.shape[:2], -1, 3), axis=2)
     chain, draw = np.unravel_index(np.linalg.norm(boxes, axis=-1).argmax(), at.shape[:2])
     return int(chain), int(draw)
@@ -140,9 +146,9 @@ def extent(scene: Scene) -> float:
 def curves(cell: Any, kind: Kind, folder: Path) -> None:
     """Autocorrelations of all corners, by draws."""
     for sampler, title in TITLES.items():
-        found = chains(folder, kind.name, sampler)
-        if found and len(found[0].values) > 2:
-            lags = autocorrelation(corners(kind, found))
+        all_chains = chains(folder, kind.name, sampler)
+        if all_chains and len(all_chains[0].values) > 2:
+            lags = autocorrelation(corners(kind, all_chains))
             cell.plot(lags[: max(2, len(lags) * 4 // 5)], label=title)
     cell.axhline(0.0, color="0.7", linewidth=0.8)
     cell.set_ylim(-0.6, 1.05)
@@ -158,8 +164,8 @@ def gallery(path: Path, folder: Path, names: tuple[str, ...], **view: float) -> 
         return
     figure, axes = plt.subplots(len(names), 3, figsize=(10.5, 3.6 * len(names)), squeeze=False)
     for row, name in zip(axes, names, strict=True):
-        kind, found = KINDS[name], chains(folder, name, "nuts")
-        scenes = [scene_of(kind, found, place) for place in far_apart(kind, folder, found, 3)]
+        kind, all_chains = KINDS[name], chains(folder, name, "nuts")
+        scenes = [scene_of(kind, all_chains, place) for place in far_apart(kind, folder, all_chains, 3)]
         largest = max(scenes, key=extent)
         for cell in row:
             cell.axis("off")
@@ -173,10 +179,10 @@ def gallery(path: Path, folder: Path, names: tuple[str, ...], **view: float) -> 
 
 def tilted(path: Path, folder: Path) -> None:
     """One tower on ground tilted by 10 degrees to the left, level, and to the right."""
-    kind, found = KINDS["tilt_stack"], chains(folder, "tilt_stack", "nuts")
-    if not found:
+    kind, all_chains = KINDS["tilt_stack"], chains(folder, "tilt_stack", "nuts")
+    if not all_chains:
         return
-    scene = scene_of(kind, found, far_apart(kind, folder, found, 1)[0])
+    scene = scene_of(kind, all_chains, far_apart(kind, folder, all_chains, 1)[0])
     figure, axes = plt.subplots(1, 3, figsize=(10.5, 3.8))
     for cell, degrees in zip(axes, (-10.0, 0.0, 10.0), strict=True):
         picture = framed(scene, scene, azimuth=0.0, elevation=4.0, size=2 * SIDE)

@@ -86,27 +86,27 @@ COLORS = {"stochastic": "#ca6702", "depth-first": "#5a9a8f", CHAINS: "#7a6c9c", 
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     """Measure and draw one panel for each model and target."""
     sizes, runs = ((10,), 2) if quick else (PARTICLES, RUNS)
-    for whose, targets in meshes().items():
+    for owner, targets in meshes().items():
         rows = []
         for (model, voxel, _, _), target in zip(CASES, targets, strict=True):
             for row in measured(model, target, voxel, sizes, runs):
-                rows.append({"model": model, "target": Path(target.name).stem, "whose": whose} | row)
+                rows.append({"model": model, "target": Path(target.name).stem, "whose": owner} | row)
                 tell(rows[-1])
                 print(described(rows[-1]), flush=True)
-        curves(rows, folder / f"figure-5-9-{whose}.png")
+        curves(rows, folder / f"figure-5-9-{owner}.png")
 
 
 def meshes() -> dict[str, list[nw.Target]]:
     """Targets in the order of `CASES`: ours, and the original's where a folder is named."""
-    found = {"ours": [named_target(case[2]) for case in CASES]}
+    targets_by_owner = {"ours": [named_target(case[2]) for case in CASES]}
     named = os.environ.get("NIWAKI_REFERENCE_TARGETS")
     if named:
-        found["reference"] = [nw.Target.load(Path(named) / case[3]) for case in CASES]
+        targets_by_owner["reference"] = [nw.Target.load(Path(named) / case[3]) for case in CASES]
     else:
         print(
             "figure 5.9 on our own targets only: NIWAKI_REFERENCE_TARGETS names no folder of reference meshes"
         )
-    return found
+    return targets_by_owner
 
 
 def measured(
@@ -119,14 +119,16 @@ def measured(
     for particles in sizes:
         budget = 0.0
         # Searches of the methods take turns, so that a busy machine is busy for all of them.
-        found: dict[str, list[tuple[float | None, float]]] = {method: [] for method in METHODS}
+        ends_by_method: dict[str, list[tuple[float | None, float]]] = {method: [] for method in METHODS}
         for seed in range(1, runs + 1):
             for name, method in METHODS.items():
-                found[name].append(searched(program, score, method(particles), seed))
-        budget = statistics.fmean(cpu for _, cpu in found["stochastic"])
-        found[CHAINS] = [chained(program, score, moves(program), budget, seed) for seed in range(1, runs + 1)]
-        for method, ends in found.items():
-            scores = [one for one, _ in ends if one is not None]
+                ends_by_method[name].append(searched(program, score, method(particles), seed))
+        budget = statistics.fmean(cpu for _, cpu in ends_by_method["stochastic"])
+        ends_by_method[CHAINS] = [
+            chained(program, score, moves(program), budget, seed) for seed in range(1, runs + 1)
+        ]
+        for method, ends in ends_by_method.items():
+            scores = [score for score, _ in ends if score is not None]
             yield {
                 "particles": particles,
                 "method": method,
@@ -150,12 +152,12 @@ def searched(program: nw.Model, score: nw.Score, method: Method, seed: int) -> t
     """The best log score of one search, nothing where it died; CPU seconds."""
     start = time.process_time()
     try:
-        found = nw.run(program, method=method, score=score, seed=seed, threads=1)
+        result = nw.run(program, method=method, score=score, seed=seed, threads=1)
     except nw.InputError as error:
         if error.code != "everything-impossible":
             raise
         return None, time.process_time() - start
-    return found.best.log_score, found.cpu_seconds
+    return result.best.log_score, result.cpu_seconds
 
 
 def chained(

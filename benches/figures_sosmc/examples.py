@@ -51,57 +51,57 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     print(
         f"{'experiment':<18}{'particles':>10}{'their s':>9}{'CPU s':>8}{'s, all threads':>16}{'times':>7}  scores"
     )
-    for one in EXPERIMENTS:
-        if one.name not in PUBLISHED:
+    for example in EXPERIMENTS:
+        if example.name not in PUBLISHED:
             continue
         rows = []
         for preset in ("original", "ours"):
-            found = searches(one, preset, seeds, quick)
-            if not found:
-                tell({"experiment": one.name, "preset": preset, "impossible": len(seeds)})
-                print(f"{one.name}, {preset}: all {len(seeds)} searches became impossible", flush=True)
+            results = searches(example, preset, seeds, quick)
+            if not results:
+                tell({"experiment": example.name, "preset": preset, "impossible": len(seeds)})
+                print(f"{example.name}, {preset}: all {len(seeds)} searches became impossible", flush=True)
                 continue
-            record = row(one, preset, found, len(seeds) - len(found))
+            record = row(example, preset, results, len(seeds) - len(results))
             tell(record)
             print(line(record), flush=True)
-            best = max(found, key=lambda pair: pair[0].best.log_score)[0].best
-            rows.append((TITLES[preset], panels(one, best, draft=quick)))
+            best = max(results, key=lambda pair: pair[0].best.log_score)[0].best
+            rows.append((TITLES[preset], panels(example, best, draft=quick)))
         if rows:
-            written(folder / f"figure-{one.figure.replace('.', '-')}-{one.name}.png", stacked(rows))
+            written(folder / f"figure-{example.figure.replace('.', '-')}-{example.name}.png", stacked(rows))
     written(folder / "figure-5-2.png", order_matters(quick))
 
 
 def searches(
-    one: Experiment, preset: str, seeds: tuple[int, ...], quick: bool
+    example: Experiment, preset: str, seeds: tuple[int, ...], quick: bool
 ) -> list[tuple[nw.Result, float]]:
     """Results of all seeds, on one thread, each with the seconds that it takes on all threads."""
-    found = []
+    results = []
     for seed in seeds:
         less = {"particles": 30, "populations": 1} if quick else {}
-        less |= {"moves": 1} if quick and "moves" in one.settings(preset) else {}
+        less |= {"moves": 1} if quick and "moves" in example.settings(preset) else {}
         less |= {"steps": 1000} if quick else {}
         try:
-            result = one.run(preset, seed=seed, threads=1, **less)
+            result = example.run(preset, seed=seed, threads=1, **less)
         except nw.InputError as error:
             if error.code != "everything-impossible":
                 raise
             continue
-        found.append((result, one.run(preset, seed=seed, **less).seconds))
-    return found
+        results.append((result, example.run(preset, seed=seed, **less).seconds))
+    return results
 
 
-def row(one: Experiment, preset: str, found: list[tuple[nw.Result, float]], impossible: int) -> dict:
+def row(example: Experiment, preset: str, results: list[tuple[nw.Result, float]], impossible: int) -> dict:
     """The line of the table for an experiment."""
     return {
-        "experiment": one.name,
+        "experiment": example.name,
         "preset": preset,
-        "particles": one.settings(preset)["particles"],
-        "published": PUBLISHED[one.name] if preset == "original" else None,
-        "cpu": statistics.fmean(result.cpu_seconds for result, _ in found),
-        "wall": statistics.fmean(seconds for _, seconds in found),
-        "scores": [result.best.log_score for result, _ in found],
+        "particles": example.settings(preset)["particles"],
+        "published": PUBLISHED[example.name] if preset == "original" else None,
+        "cpu": statistics.fmean(result.cpu_seconds for result, _ in results),
+        "wall": statistics.fmean(seconds for _, seconds in results),
+        "scores": [result.best.log_score for result, _ in results],
         "impossible": impossible,
-        "primitives": [result.best.primitives for result, _ in found],
+        "primitives": [result.best.primitives for result, _ in results],
     }
 
 
@@ -115,19 +115,19 @@ def line(record: dict) -> str:
     return text + (f"  {record['impossible']} impossible" if record["impossible"] else "")
 
 
-def panels(one: Experiment, sample: nw.Sample, draft: bool) -> Image.Image:
+def panels(example: Experiment, sample: nw.Sample, draft: bool) -> Image.Image:
     """The target beside the result."""
     scene, samples = sample.scene, 2 if draft else 16
-    if one.image is not None:
-        left = view_sheet(scene, one.score().views[0], height=SIZE[1], samples=samples, captions=False)
-        azimuth, elevation = SIDES[one.model]
+    if example.image is not None:
+        left = view_sheet(scene, example.score().views[0], height=SIZE[1], samples=samples, captions=False)
+        azimuth, elevation = SIDES[example.model]
         side = scene.picture(size=SIZE, samples=samples, azimuth=azimuth, elevation=elevation, margin=0.04)
         return beside([left, side.convert("RGB")])
-    target = named_target(one.fill)
+    target = named_target(example.fill)
     target_scene = together(Scene([]), target)
-    azimuth, elevation = EYES[one.model]
+    azimuth, elevation = EYES[example.model]
     look = {"size": SIZE, "samples": samples, "elevation": elevation, "margin": 0.03}
-    obstacle = None if one.avoid is None else named_target(one.avoid)
+    obstacle = None if example.avoid is None else named_target(example.avoid)
     shown = scene if obstacle is None else together(scene, obstacle)
     look["frame"] = together(shown, target)
     views = [target_scene.picture(azimuth=azimuth, **look), scene.picture(target, azimuth=azimuth, **look)]
@@ -140,10 +140,10 @@ def order_matters(quick: bool) -> Image.Image:
     target = entry("simple-ship").target()
     scenes, captions = [], []
     for order in ("depth-first", "stochastic"):
-        found = nw.grow(
+        result = nw.grow(
             SIMPLE_SHIP, target, particles=20 if quick else 100, order=order, runs=2 if quick else 4, seed=1
         )
-        for sample in sorted(found, key=lambda sample: -sample.log_score)[: 2 if quick else 4]:
+        for sample in sorted(result, key=lambda sample: -sample.log_score)[: 2 if quick else 4]:
             scenes.append(sample.scene)
             captions.append(f"{order}: {sample.log_score:.1f}")
     samples = 2 if quick else 16

@@ -1,4 +1,4 @@
-"""What a primitive costs when there are many already: the gnarly tree, made larger by its arguments.
+"""The cost of a primitive in a scene of many: the gnarly tree, made larger by its arguments.
 
 The tree's least radius, and the coins for a side branch and for continuing, are arguments: SIZES makes trees of about
 50, 200, 800 and 3200 segments. A population grows each, with a score of the volume that hardly selects, so that all
@@ -69,17 +69,19 @@ MODELS = {"turned boxes": tower, "welded segments": pole}
 def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     """Measure and print; the folder gets no picture of its own."""
     costs = []
-    for wanted, habit in list(SIZES.items())[: 1 if quick else None]:
+    for size, habit in list(SIZES.items())[: 1 if quick else None]:
         grown, spent = [], 0.0
         for seed in SEEDS[: 1 if quick else None]:
-            found = nw.run(gnarly_tree, *habit, method=nw.smc(PARTICLES), score=score(), seed=seed, threads=1)
-            grown += [sample.primitives for sample in found]
-            spent += found.cpu_seconds
+            result = nw.run(
+                gnarly_tree, *habit, method=nw.smc(PARTICLES), score=score(), seed=seed, threads=1
+            )
+            grown += [sample.primitives for sample in result]
+            spent += result.cpu_seconds
         costs.append(1e6 * spent / sum(grown))
         mean = sum(grown) / len(grown)
-        tell({"segments wanted": wanted, "mean segments": mean, "microseconds a segment": costs[-1]})
+        tell({"segments wanted": size, "mean segments": mean, "microseconds a segment": costs[-1]})
         print(
-            f"trees of about {wanted:>5}: {mean:7.0f} segments, {costs[-1]:6.1f} us of CPU for each",
+            f"trees of about {size:>5}: {mean:7.0f} segments, {costs[-1]:6.1f} us of CPU for each",
             flush=True,
         )
     print(f"largest over smallest: {max(costs) / min(costs):.2f}, target: at most {FLAT}")
@@ -110,10 +112,10 @@ def resident(solids: str, particles: int, primitives: int, sigma: float) -> floa
 
 def populate(solids: str, particles: int, primitives: int, sigma: float) -> None:
     """Grow a population of such solids and print this process's largest resident set, megabytes."""
-    wanted = nw.no_self_intersection() * nw.match_volume(targets.gem(), 0.4, sigma)
+    score = nw.no_self_intersection() * nw.match_volume(targets.gem(), 0.4, sigma)
     method = nw.smc(particles)
-    found = nw.run(
-        MODELS[solids], primitives, method=method, score=wanted, seed=1, threads=1, max_memory=1 << 34
+    result = nw.run(
+        MODELS[solids], primitives, method=method, score=score, seed=1, threads=1, max_memory=1 << 34
     )
-    assert min(sample.primitives for sample in found) == primitives
+    assert min(sample.primitives for sample in result) == primitives
     print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0)

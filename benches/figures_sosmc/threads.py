@@ -20,27 +20,30 @@ def draw(folder: Path, tell: Callable[[dict], None], quick: bool) -> None:
     """Measure and print; the folder gets no picture of its own."""
     print(f"{'experiment':<18}{'particles':>10}{'1 thread, s':>13}{'2 threads, s':>14}{'share':>7}")
     shares = []
-    for one in map(experiment, NAMES):
+    for example in map(experiment, NAMES):
         wall = [0.0, 0.0]
         for seed in SEEDS[: 1 if quick else None]:
-            least = fastest(one, seed, 1 if quick else REPEATS)
+            least = fastest(example, seed, 1 if quick else REPEATS)
             wall = [sum(pair) for pair in zip(wall, least, strict=True)]
         shares.append(wall[1] / wall[0])
-        tell({"experiment": one.name, "particles": one.particles, "seconds": wall, "share": shares[-1]})
+        tell(
+            {"experiment": example.name, "particles": example.particles, "seconds": wall, "share": shares[-1]}
+        )
         print(
-            f"{one.name:<18}{one.particles:>10}{wall[0]:>13.3f}{wall[1]:>14.3f}{shares[-1]:>7.2f}", flush=True
+            f"{example.name:<18}{example.particles:>10}{wall[0]:>13.3f}{wall[1]:>14.3f}{shares[-1]:>7.2f}",
+            flush=True,
         )
     print(f"largest share: {max(shares):.2f}, target: at most {MOST}")
 
 
-def fastest(one: Experiment, seed: int, repeats: int) -> list[float]:
+def fastest(example: Experiment, seed: int, repeats: int) -> list[float]:
     """Least wall seconds for each number of threads."""
     least = [float("inf")] * len(THREADS)
-    found: list[list[float]] = []
+    times: list[list[float]] = []
     for _ in range(repeats):
         for i, threads in enumerate(THREADS):
-            result = one.run("original", seed=seed, threads=threads)
+            result = example.run("original", seed=seed, threads=threads)
             least[i] = min(least[i], result.seconds)
-            found.append([sample.log_score for sample in result])
-    assert all(scores == found[0] for scores in found), "threads changed what was found"
+            times.append([sample.log_score for sample in result])
+    assert all(scores == times[0] for scores in times), "threads changed what was found"
     return least

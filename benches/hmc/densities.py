@@ -41,13 +41,13 @@ def start(name: str) -> np.ndarray:
 
 def known(name: str) -> list[tuple[np.ndarray, float, np.ndarray]]:
     """Points at which value and gradient are known."""
-    found = []
+    rows = []
     for line in (HERE / "reference.txt").read_text().splitlines():
         words = line.split()
         if words[0] == name:
             n, numbers = int(words[1]), np.array(words[2:], float)
-            found.append((numbers[1 : 1 + n], float(numbers[0]), numbers[1 + n :]))
-    return found
+            rows.append((numbers[1 : 1 + n], float(numbers[0]), numbers[1 + n :]))
+    return rows
 
 
 def sigmoid(xp: Any, v: Any) -> Any:
@@ -92,8 +92,8 @@ def coloring(xp: Any, x: Any) -> Any:
     l, a, b = 116.0 * f[:, 1] - 16.0, 500.0 * (f[:, 0] - f[:, 1]), 200.0 * (f[:, 1] - f[:, 2])  # noqa: E741
     c2 = a * a + b * b
     saturation = xp.sqrt(c2 / (c2 + l * l))
-    wanted = np.where(np.arange(len(area)) == 0, 0.3, 0.7)
-    log = (-0.5 * area * (saturation - wanted) ** 2).sum()
+    share = np.where(np.arange(len(area)) == 0, 0.3, 0.7)
+    log = (-0.5 * area * (saturation - share) ** 2).sum()
     i, j = edges[:, 0], edges[:, 1]
     dl, da, db = (z[i] - z[j] for z in (l, a, b))
     apart = np.where((i == 0) | (j == 0), 0.3, 0.2)

@@ -22,15 +22,15 @@ def measure(report: Report, programs: Programs, models: tuple[str, ...], share: 
         f"NUTS, one chain, {int(share * WARMUP)} + {int(share * DRAWS)} transitions: effective samples",
         *("model", "system", "gradients", "seconds", "effective", "per second", "acceptance", "compile, s"),
     )
-    found = peers.versions()
+    versions = peers.versions()
     for model in models:
         point, sizes = densities.start(model), (int(share * WARMUP), int(share * DRAWS))
         runs: dict[str, tuple[Run, float]] = {"niwaki": (programs.nuts(model, point, *sizes, seed=5), 0.0)}
-        if "numpyro" in found:
+        if "numpyro" in versions:
             run, first = peers.numpyro_nuts(model, point, *sizes, seed=5)
             runs["NumPyro"] = run, first - run.seconds
         # A Python call for each gradient: the small densities show what it costs.
-        if "nutpie" in found and model != "stack":
+        if "nutpie" in versions and model != "stack":
             runs["nutpie"] = peers.nutpie_nuts(model, point, *sizes, seed=5), 0.0
         for name, (run, compiling) in runs.items():
             size = effective_size(run.draws)
@@ -71,8 +71,8 @@ def compare(report: Report, programs: Programs, point: np.ndarray, draws: int) -
     runs = {"niwaki": programs.chain("ring", point, draws, seed=9).draws}
     if "jax" in peers.versions():
         runs["JAX"] = peers.Chains("ring", draws, 1, peers.raw)(point, 9).draws
-    for name, found in runs.items():
+    for name, run in runs.items():
         for k, expected in enumerate(exact):
-            squares = found[None, :, k] ** 2
+            squares = run[None, :, k] ** 2
             off = abs(squares.mean() - expected) / diagnostics.mcse_mean(squares)
             report.answer(f"ring by {name}: mean of {'xy'[k]}^2, standard errors off", off, 4.5)

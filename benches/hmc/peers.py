@@ -18,19 +18,19 @@ NAMES = ("jax", "numpyro", "nutpie")
 
 
 def versions() -> dict[str, str]:
-    """Which peers are installed."""
-    found = {}
+    """Return the peers that are installed."""
+    table = {}
     for name in NAMES:
         try:
-            found[name] = importlib.metadata.version(name)
+            table[name] = importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:
             continue
-    return found
+    return table
 
 
 @dataclass
 class Run:
-    """What one run did: gradients of all chains, clocks, and draws of the first chain, (draws, dim)."""
+    """The result of a run: gradients of all chains, clocks, and draws of the first chain, (draws, dim)."""
 
     gradients: int
     seconds: float
@@ -50,7 +50,7 @@ class Run:
 
 
 def timed(f: Callable[[], Any]) -> tuple[Any, float, float]:
-    """What it gives once it is there, wall and CPU seconds."""
+    """Return the compiled value, wall seconds and CPU seconds."""
     import jax
 
     wall, cpu = time.perf_counter(), time.process_time()
@@ -111,8 +111,8 @@ def raw(name: str, draws: int, chains: int) -> Any:
         return jax.lax.scan(draw, (x, log(x), slope(x)), jax.random.split(key, draws))[1]
 
     if chains == 1:
-        one = jax.jit(chain)
-        return lambda point, seed: one(jnp.asarray(point), jax.random.key(seed))
+        compiled_chain = jax.jit(chain)
+        return lambda point, seed: compiled_chain(jnp.asarray(point), jax.random.key(seed))
     many = jax.jit(jax.vmap(chain))
     return lambda point, seed: many(
         jnp.tile(jnp.asarray(point), (chains, 1)), jax.random.split(jax.random.key(seed), chains)

@@ -32,7 +32,7 @@ def measure(
 ) -> dict[str, float]:
     """Times all systems on all models; gives the seconds that each peer's first run took beyond a later one."""
     starts: dict[str, float] = {}
-    found = peers.versions()
+    versions = peers.versions()
     for chains in (1, CHAINS):
         table = report.table(
             f"gradients per second of wall, {'one chain' if chains == 1 else f'{chains} chains'}, one thread",
@@ -40,7 +40,7 @@ def measure(
         )
         for model, point in points.items():
             draws = max(1, int(share * (DRAWS if chains == 1 else DRAWS_OF_64)[model]))
-            systems = systems_of(programs, model, point, draws, chains, found)
+            systems = systems_of(programs, model, point, draws, chains, versions)
             runs: dict[str, list[Run]] = {name: [] for name in systems}
             for seed in range(1, rounds + 2):
                 for name, system in systems.items():
@@ -54,7 +54,7 @@ def measure(
 
 
 def systems_of(
-    programs: Programs, model: str, point: np.ndarray, draws: int, chains: int, found: dict[str, str]
+    programs: Programs, model: str, point: np.ndarray, draws: int, chains: int, versions: dict[str, str]
 ) -> dict[str, Callable[[int], Run]]:
     """Each system as a function of the seed."""
 
@@ -67,9 +67,9 @@ def systems_of(
     systems = {"niwaki": lambda seed: programs.chain(model, point, more * draws, seed, lanes=chains > 1)}
     if chains == 1 and model in OF_LIMIT:
         systems["limit"] = lambda seed: programs.by_hand(model, point, more * draws, seed)
-    if "jax" in found:
+    if "jax" in versions:
         systems["JAX"] = compiled(peers.raw)
-    if "numpyro" in found and chains == 1:
+    if "numpyro" in versions and chains == 1:
         systems["NumPyro"] = compiled(peers.numpyro)
     return systems
 

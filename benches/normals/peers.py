@@ -41,11 +41,11 @@ def autoguide(
     name: str, family: str, start: np.ndarray, looks: list[int], goal: float, near: float, draws: int
 ) -> dict[str, Any]:
     """The quickest of several learning rates to come near the goal; where none does, the one of the best bound."""
-    found = [guide_at(name, family, start, looks, goal, near, draws, rate) for rate in RATES]
-    reached = [one for one in found if one["bound"] >= goal - near]
+    fits = [guide_at(name, family, start, looks, goal, near, draws, rate) for rate in RATES]
+    reached = [fit for fit in fits if fit["bound"] >= goal - near]
     if reached:
-        return min(reached, key=lambda one: one["seconds"])
-    return max(found, key=lambda one: one["bound"])
+        return min(reached, key=lambda fit: fit["seconds"])
+    return max(fits, key=lambda fit: fit["bound"])
 
 
 def guide_at(
@@ -82,17 +82,23 @@ def guide_at(
     clock = time.perf_counter()
     jax.block_until_ready(steps(state, 1))
     compiled = time.perf_counter() - clock
-    taken, seconds, bound = 0, 0.0, -np.inf
+    steps_taken, seconds, bound = 0, 0.0, -np.inf
     for look in looks:
         clock = time.perf_counter()
-        state = jax.block_until_ready(steps(state, look - taken))
+        state = jax.block_until_ready(steps(state, look - steps_taken))
         seconds += time.perf_counter() - clock
-        taken = look
+        steps_taken = look
         now = guide_bound(name, family, svi.get_params(state), draws)
         bound = max(bound, now) if np.isfinite(now) else bound
         if bound >= goal - near or seconds > LONGEST:
             break
-    return {"rate": rate, "bound": bound, "steps": taken, "seconds": seconds, "compile_seconds": compiled}
+    return {
+        "rate": rate,
+        "bound": bound,
+        "steps": steps_taken,
+        "seconds": seconds,
+        "compile_seconds": compiled,
+    }
 
 
 def guide_bound(name: str, family: str, params: dict[str, Any], draws: int) -> float:

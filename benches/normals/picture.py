@@ -43,12 +43,12 @@ def main() -> None:
     for axis, density, reach in ((axes[0], tilted, 2.2), (axes[1], funnel, 4.0)):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", GradientWarning)
-            found = {
+            results = {
                 family: nw.run(density, method=nw.vi(family, paths=1, draws=4000), seed=1)
                 for family in FAMILIES
             }
         contours(axis, density, reach)
-        for family, result in found.items():
+        for family, result in results.items():
             mean, cover = result.means[0], result.covariances[0]
             cover = np.diag(cover) if cover.ndim == 1 else cover
             turn = np.linspace(0.0, 2.0 * np.pi, 200)
@@ -60,7 +60,7 @@ def main() -> None:
         axis.legend(fontsize=7, loc="upper left")
         if density is tilted:
             for family in ("mean-field", "full-rank"):
-                bounds = found[family].bounds[0]
+                bounds = results[family].bounds[0]
                 axes[2].plot(bounds, color=FAMILIES[family], lw=0.8, label=family)
             axes[2].axhline(-0.5 * math.log(25.0), color="black", lw=0.8, ls="--", label="log evidence")
             axes[2].set(title="bound by step, tilted, nats", xlabel="step")

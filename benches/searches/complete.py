@@ -1,4 +1,4 @@
-"""What a person would call complete: for each problem the least share that a result must have of each part.
+"""The rule for a complete result: for each problem the least share that a result must have of each part.
 
 The key of a share is a word of the part's name; a part without such a word need not be there. Shares lie in the gap
 between results that have the part and results that lack it, as seen on the tuning seeds, where there is a gap.
@@ -112,8 +112,8 @@ def has_enough(problem: str, shares: Mapping[str, float]) -> bool:
     """Whether the shares of a scene's parts are enough."""
     least, _ = LEAST[problem]
     return all(
-        share >= asked
+        share >= least_share
         for name, share in shares.items()
-        for word, asked in least.items()
+        for word, least_share in least.items()
         if word in name.split()
     )

@@ -20,13 +20,13 @@ def skyline(random: np.random.Generator) -> dict[str, Mask]:
     widths = random.uniform(2.4, 3.6, 5)
     edges = np.concatenate([[0.0], np.cumsum(widths)])
     edges -= edges[random.integers(1, 4)] + random.uniform(0.3, 0.7) * widths[0]
-    found = {}
+    heights = {}
     for k, (low, high) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
         mask = np.zeros(SKYLINE, dtype=bool)
         first, last = (round(columns / 2 + scale * x) for x in (low, high))
         mask[rows - round(scale * random.uniform(2.5, 11.5)) :, max(first, 0) : last] = True
-        found[f"tower {k + 1}"] = mask
-    return found
+        heights[f"tower {k + 1}"] = mask
+    return heights
 
 
 def stroke(random: np.random.Generator, side: int = 96, thick: int = 9) -> dict[str, Mask]:

@@ -25,7 +25,7 @@ def inside(mesh: Mesh, voxel: float) -> Points:
 
 
 def cells_of(target: Target, voxel: float) -> Points:
-    """The same for a target."""
+    """Return the measures of a target."""
     return middles(_engine.Target(target.vertices, target.faces, voxel), voxel)
 
 
@@ -52,5 +52,5 @@ def covered(scene: Scene, parts: Mapping[str, Points], voxel: float) -> dict[str
 def agreeing(scene: Scene, view: View, parts: Mapping[str, Mask]) -> dict[str, float]:
     """The share of the pixels that are wanted in each part and are on; and `all`, those that are right in the image."""
     drawn = view.mask(scene)
-    found = {name: float(drawn[mask & view.image].mean()) for name, mask in parts.items()}
-    return found | {"all": float((drawn == view.image).mean())}
+    shares = {name: float(drawn[mask & view.image].mean()) for name, mask in parts.items()}
+    return shares | {"all": float((drawn == view.image).mean())}

@@ -68,4 +68,4 @@ METHODS = (
 
 def method(name: str) -> Method:
     """Find the method of that name."""
-    return next(one for one in METHODS if one.name == name)
+    return next(candidate for candidate in METHODS if candidate.name == name)

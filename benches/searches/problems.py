@@ -172,9 +172,9 @@ def wall_and_tower(seed: int) -> Case:
 
 def model(name: str) -> nw.Model[..., Any]:
     """A model of the gallery."""
-    found = entry(name)
-    assert found is not None, f"no model {name} in the gallery"
-    return found.model
+    gallery_entry = entry(name)
+    assert gallery_entry is not None, f"no model {name} in the gallery"
+    return gallery_entry.model
 
 
 TREE, BUILDING = model("gnarly-tree"), model("building")
@@ -389,4 +389,4 @@ PROBLEMS = (
 
 def problem(name: str) -> Problem:
     """Find the problem of that name."""
-    return next(one for one in PROBLEMS if one.name == name)
+    return next(candidate for candidate in PROBLEMS if candidate.name == name)

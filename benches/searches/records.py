@@ -20,15 +20,15 @@ from searches.methods import Method
 
 HERE = Path(__file__).parent
 #: The files here that decide no search by themselves: a record has its method's settings.
-OTHERS = ("complete.py", "methods.py", "records.py", "sheets.py", "table.py")
+NOT_HASHED = ("complete.py", "methods.py", "records.py", "sheets.py", "table.py")
 
 
 @cache
 def version() -> str:
     """A hash of the package, its engine and the problems, 12 hexadecimal digits."""
     package, hashed = Path(niwaki.__file__).parent, hashlib.sha256()
-    own = [path for path in sorted(HERE.glob("*.py")) if path.name not in OTHERS]
-    for path in [*sorted(package.rglob("*.py")), Path(_engine.__file__), *own]:
+    hashed_files = [path for path in sorted(HERE.glob("*.py")) if path.name not in NOT_HASHED]
+    for path in [*sorted(package.rglob("*.py")), Path(_engine.__file__), *hashed_files]:
         hashed.update(path.name.encode() + path.read_bytes())
     return hashed.hexdigest()[:12]
 
@@ -36,9 +36,9 @@ def version() -> str:
 @cache
 def commit() -> str:
     """The commit, with `-dirty` where files differ from it; empty outside of a repository."""
-    asked = ["git", "-C", str(HERE), "describe", "--always", "--dirty", "--abbrev=12"]
-    found = subprocess.run(asked, capture_output=True, text=True)
-    return found.stdout.strip()
+    command = ["git", "-C", str(HERE), "describe", "--always", "--dirty", "--abbrev=12"]
+    process = subprocess.run(command, capture_output=True, text=True)
+    return process.stdout.strip()
 
 
 class Records(Lines):
@@ -53,32 +53,34 @@ class Records(Lines):
 
         Of this version, or the newest whose hash or commit begins with `of`.
         """
-        wanted = version()
+        version_wanted = version()
         if of is not None:
             named = [row["version"] for row in self.rows if is_of(row, of)]
             if not named:
                 raise SystemExit(f"{self.path}: no record of {of}; there are {', '.join(self.versions())}")
-            wanted = named[-1]
+            version_wanted = named[-1]
         return [
-            row for row in self.rows if (row["version"], row["times"]) == (wanted, times) and "seed" in row
+            row
+            for row in self.rows
+            if (row["version"], row["times"]) == (version_wanted, times) and "seed" in row
         ]
 
-    def has(self, one: Method, problem: str, seed: int, times: float = 1.0) -> bool:
+    def has(self, method: Method, problem: str, seed: int, times: float = 1.0) -> bool:
         """Whether this version has searched with these settings and CPU seconds."""
         return any(
-            (row["problem"], row["method"], row["seed"]) == (problem, one.name, seed)
-            and row["settings"] == one.text(row["size"])
+            (row["problem"], row["method"], row["seed"]) == (problem, method.name, seed)
+            and row["settings"] == method.text(row["size"])
             for row in self.searches(times=times)
         )
 
-    def size(self, problem: str, one: Method, times: float = 1.0) -> dict[str, Any] | None:
+    def size(self, problem: str, method: Method, times: float = 1.0) -> dict[str, Any] | None:
         """The size that this version has found for a method on a problem, and the CPU seconds of the pilot."""
         for row in reversed(self.rows):
             known = (row["version"], row["problem"], row["method"], row["times"])
             if (
-                known == (version(), problem, one.name, times)
+                known == (version(), problem, method.name, times)
                 and "seed" not in row
-                and row["settings"] == one.text(row["size"])
+                and row["settings"] == method.text(row["size"])
             ):
                 return row
         return None

@@ -55,8 +55,8 @@ def grown(one: Problem, case: Case, how: Method, size: int, seed: int) -> nw.Res
 @cache
 def compiled(name: str) -> None:
     """Compile a model, with a search that is too small to cost anything."""
-    one = problem(name)
-    grown(one, case_of(name, PILOT[0]), Method("", lambda n: {"particles": n}), 2, 0)
+    task_problem = problem(name)
+    grown(task_problem, case_of(name, PILOT[0]), Method("", lambda n: {"particles": n}), 2, 0)
 
 
 def searched(job: Job) -> dict[str, Any]:

@@ -21,20 +21,20 @@ from searches.searching import case_of, grown
 SIZE = (320, 300)
 
 
-def drawn(one: Problem, rows: table.Rows, folder: Path) -> Path:
+def drawn(task_problem: Problem, rows: table.Rows, folder: Path) -> Path:
     """Draw a problem into a folder."""
-    found = sorted(table.of(rows, one.name, METHODS[0].name).values(), key=table.score)
-    ranks = {"median": found[len(found) // 2], "worst": found[0]}
+    results = sorted(table.of(rows, task_problem.name, METHODS[0].name).values(), key=table.score)
+    ranks = {"median": results[len(results) // 2], "worst": results[0]}
     strips = []
     for rank, row in ranks.items():
-        case = case_of(one.name, row["seed"])
-        result = grown(one, case, METHODS[0], 0, row["seed"])
+        case = case_of(task_problem.name, row["seed"])
+        result = grown(task_problem, case, METHODS[0], 0, row["seed"])
         scene = Scene([]) if result is None else result.best.scene
         state = "complete" if is_complete(row) else "not complete"
         shares = ", ".join(f"{name} {share:.2f}" for name, share in row["shares"].items())
-        text = f"{one.name}, {rank}, seed {row['seed']}: {table.score(row):.1f}, {state}: {shares or 'dead'}"
+        text = f"{task_problem.name}, {rank}, seed {row['seed']}: {table.score(row):.1f}, {state}: {shares or 'dead'}"
         strips.append((text, strip(case, scene)))
-    path = folder / f"{one.name.replace(' ', '-')}.png"
+    path = folder / f"{task_problem.name.replace(' ', '-')}.png"
     stacked(strips).save(path)
     return path
 

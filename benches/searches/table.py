@@ -33,17 +33,17 @@ def of(rows: Rows, problem: str, method: str) -> dict[int, dict[str, Any]]:
     return {row["seed"]: row for row in rows if (row["problem"], row["method"]) == (problem, method)}
 
 
-def summary(found: Rows) -> dict[str, Any]:
+def summary(rows: Rows) -> dict[str, Any]:
     """Median, worst, those far behind, dead, complete and mean CPU seconds of searches of a problem."""
-    median = statistics.median(map(score, found))
+    median = statistics.median(map(score, rows))
     return {
-        "searches": len(found),
+        "searches": len(rows),
         "median": median,
-        "behind": sum(score(row) < median - BEHIND for row in found),
-        "worst": min(map(score, found)),
-        "dead": sum(row["score"] is None for row in found),
-        "complete": sum(is_complete(row) for row in found),
-        "cpu": statistics.fmean(row["cpu"] for row in found),
+        "behind": sum(score(row) < median - BEHIND for row in rows),
+        "worst": min(map(score, rows)),
+        "dead": sum(row["score"] is None for row in rows),
+        "complete": sum(is_complete(row) for row in rows),
+        "cpu": statistics.fmean(row["cpu"] for row in rows),
     }
 
 
@@ -54,23 +54,24 @@ def interval(strata: Sequence[Sequence[float]]) -> tuple[float, float, float]:
     """
     random = np.random.default_rng(SEED)
     drawn = [
-        np.asarray(one)[random.integers(len(one), size=(DRAWS, len(one)))].mean(axis=1) for one in strata
+        np.asarray(stratum)[random.integers(len(stratum), size=(DRAWS, len(stratum)))].mean(axis=1)
+        for stratum in strata
     ]
     low, high = np.percentile(np.mean(drawn, axis=0), (2.5, 97.5))
-    return float(np.mean([np.mean(one) for one in strata])), float(low), float(high)
+    return float(np.mean([np.mean(stratum) for stratum in strata])), float(low), float(high)
 
 
 def pairs(
-    ours: dict[int, dict[str, Any]], others: dict[int, dict[str, Any]]
+    ours: dict[int, dict[str, Any]], theirs: dict[int, dict[str, Any]]
 ) -> list[tuple[dict[str, Any], dict[str, Any]]]:
     """Searches with the same seed on both sides."""
-    return [(ours[seed], others[seed]) for seed in sorted(ours.keys() & others.keys())]
+    return [(ours[seed], theirs[seed]) for seed in sorted(ours.keys() & theirs.keys())]
 
 
-def gains(found: list[tuple[dict[str, Any], dict[str, Any]]]) -> tuple[list[float], list[float]]:
+def gains(both_rows: list[tuple[dict[str, Any], dict[str, Any]]]) -> tuple[list[float], list[float]]:
     """Differences of pairs: log scores in nats, and complete or not (1, 0 or -1)."""
-    scores = [score(a) - score(b) for a, b in found]
-    complete = [float(is_complete(a)) - is_complete(b) for a, b in found]
+    scores = [score(a) - score(b) for a, b in both_rows]
+    complete = [float(is_complete(a)) - is_complete(b) for a, b in both_rows]
     return scores, complete
 
 
@@ -80,15 +81,15 @@ def defaults(rows: Rows, method: str = "default") -> list[str]:
         "| problem | kind | CPU s | median | worst | 15 behind | empty scene | dead | complete |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
-    for one in PROBLEMS:
-        found = list(of(rows, one.name, method).values())
-        if found:
-            s = summary(found)
-            nothing = statistics.median(row["empty"] for row in found)
+    for case in PROBLEMS:
+        results = list(of(rows, case.name, method).values())
+        if results:
+            s = summary(results)
+            empty = statistics.median(row["empty"] for row in results)
             complete = f"{s['complete']} of {s['searches']}"
             lines.append(
-                f"| {one.name} | {one.kind}{', made' if one.is_made else ''} | {s['cpu']:.2f} | {s['median']:.1f} "
-                f"| {s['worst']:.1f} | {s['behind']} | {nothing:.0f} | {s['dead']} | {complete} |"
+                f"| {case.name} | {case.kind}{', made' if case.is_made else ''} | {s['cpu']:.2f} | {s['median']:.1f} "
+                f"| {s['worst']:.1f} | {s['behind']} | {empty:.0f} | {s['dead']} | {complete} |"
             )
     return lines
 
@@ -96,20 +97,20 @@ def defaults(rows: Rows, method: str = "default") -> list[str]:
 def methods(rows: Rows, names: Sequence[str]) -> list[str]:
     """Medians of all methods, with the share that is complete, and how many died."""
     lines = ["| problem | " + " | ".join(names) + " |", "| --- " * (len(names) + 1) + "|"]
-    for one in PROBLEMS:
+    for case in PROBLEMS:
         cells = []
         for name in names:
-            found = list(of(rows, one.name, name).values())
-            if not found:
+            results = list(of(rows, case.name, name).values())
+            if not results:
                 cells.append("")
                 continue
-            s = summary(found)
+            s = summary(results)
             died = f", {s['dead']} dead" if s["dead"] else ""
             cells.append(
                 f"{s['median']:.1f} / {s['worst']:.0f}, {100 * s['complete'] / s['searches']:.0f} %{died}"
             )
         if any(cells):
-            lines.append(f"| {one.name} | " + " | ".join(cells) + " |")
+            lines.append(f"| {case.name} | " + " | ".join(cells) + " |")
     return lines
 
 
@@ -124,25 +125,27 @@ def against(rows: Rows, names: Sequence[str], base_rows: Rows, base: str | None 
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in names:
-        found = {
-            one: both
-            for one in PROBLEMS
-            if (both := pairs(of(rows, one.name, name), of(base_rows, one.name, base or name)))
+        by_case = {
+            case: both
+            for case in PROBLEMS
+            if (both := pairs(of(rows, case.name, name), of(base_rows, case.name, base or name)))
         }
-        if not found:
+        if not by_case:
             continue
-        gained = {one: gains(both) for one, both in found.items()}
+        gained = {case: gains(both) for case, both in by_case.items()}
         ends = [interval([scores])[1:] for scores, _ in gained.values()]
         better, worse = sum(low > 0.0 for low, _ in ends), sum(high < 0.0 for _, high in ends)
-        share = statistics.fmean(statistics.fmean(is_complete(a) for a, _ in both) for both in found.values())
+        share = statistics.fmean(
+            statistics.fmean(is_complete(a) for a, _ in both) for both in by_case.values()
+        )
         spent = statistics.median(
-            sum(a["cpu"] for a, _ in both) / sum(b["cpu"] for _, b in both) for both in found.values()
+            sum(a["cpu"] for a, _ in both) / sum(b["cpu"] for _, b in both) for both in by_case.values()
         )
         all_of_them = percent([complete for _, complete in gained.values()])
-        of_made = percent([complete for one, (_, complete) in gained.items() if one.is_made])
+        of_made = percent([complete for case, (_, complete) in gained.items() if case.is_made])
         lines.append(
-            f"| {name} | {base or 'before'} | {sum(map(len, found.values()))} | {100 * share:.0f} % | {all_of_them} "
-            f"| {of_made} | {better} of {len(found)} | {worse} | {spent:.2f} |"
+            f"| {name} | {base or 'before'} | {sum(map(len, by_case.values()))} | {100 * share:.0f} % | {all_of_them} "
+            f"| {of_made} | {better} of {len(by_case)} | {worse} | {spent:.2f} |"
         )
     return lines
 
@@ -161,13 +164,13 @@ def by_problem(rows: Rows, name: str, base_rows: Rows, base: str) -> list[str]:
         f"| problem | pairs | {name} less {base}: log score, 95 % | complete |",
         "| --- | --- | --- | --- |",
     ]
-    for one in PROBLEMS:
-        found = pairs(of(rows, one.name, name), of(base_rows, one.name, base))
-        if found:
-            scores, complete = gains(found)
+    for case in PROBLEMS:
+        results = pairs(of(rows, case.name, name), of(base_rows, case.name, base))
+        if results:
+            scores, complete = gains(results)
             mean, low, high = interval([scores])
             lines.append(
-                f"| {one.name} | {len(found)} | {mean:+.1f} ({low:+.1f} to {high:+.1f}) "
-                f"| {sum(complete):+.0f} of {len(found)} |"
+                f"| {case.name} | {len(results)} | {mean:+.1f} ({low:+.1f} to {high:+.1f}) "
+                f"| {sum(complete):+.0f} of {len(results)} |"
             )
     return lines

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from niwaki import stacks
 from niwaki.result.gradient import LogDensity
-from niwaki.stacks.starting import density_of, height
+from niwaki.stacks.starts import density_of, height
 
 from stacking.files import Drawn
 from stacking.kinds import Kind

@@ -20,7 +20,7 @@ class ChainMaker(Maker):
     def remembered(self, loop: bool) -> list[str]:
         """Calls of memoised functions: of the module, and closures that capture choices."""
         v, w, r, i = self.fresh("v"), self.fresh("w"), self.fresh("r"), self.fresh("i")
-        own = [
+        statements = [
             f"{v} = {self.sampled()}",
             f"def {w}(i):",
             f"    y = gaussian({self.pick(v, '0')}, 1)",
@@ -38,11 +38,15 @@ class ChainMaker(Maker):
             ],
             lambda: [f"xs = [noise({i}) for {i} in range({self.pick('2', '1 + poisson(1) % 3')})]"],
             lambda: ["f = f + (noise(1) if flip(0.5) else climb(2)) + force(future(noise, n % 3))"],
-            *([lambda: [*own, f"f = f + {r}({self.integer(1)} % 2) + {r}(1)"]] * 2 if not loop else []),
+            *(
+                [lambda: [*statements, f"f = f + {r}({self.integer(1)} % 2) + {r}(1)"]] * 2
+                if not loop
+                else []
+            ),
             *(
                 [
                     lambda: [
-                        *own,
+                        *statements,
                         f"for {i} in range(1 + poisson(1)):",
                         f"    f = f + {r}(n % 2) * {r}({i} % 2)",
                     ]

@@ -199,8 +199,8 @@ class Reader:
             return table[int(args[0])](*[self.value(part, v) for part in args[1:]])
         if head == "method":
             target = self.value(args[0], v)
-            made = getattr(target, args[1])(*[self.value(part, v) for part in args[2:]])
-            return list(made) if args[1] in ("keys", "values", "items") else made
+            shape = getattr(target, args[1])(*[self.value(part, v) for part in args[2:]])
+            return list(shape) if args[1] in ("keys", "values", "items") else shape
         values = [self.value(part, v) for part in args]
         if head in ("apply", "future_apply"):
             return self.apply(values[0], values[1:], label)

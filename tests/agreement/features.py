@@ -321,8 +321,10 @@ def _every_shape() -> str:
     lines = ["def m():", "    x = uniform(1, 2)"]
     for word, (_, rows) in _engine.SHAPES.items():
         data = {"vertices": "V", "faces": "F"}
-        given = (f"{row[0]}={data.get(row[0]) or _FITS[row[1]].format(k=k)}" for k, row in enumerate(rows))
-        lines.append(f"    emit({word}({', '.join(given)}))")
+        arguments = (
+            f"{row[0]}={data.get(row[0]) or _FITS[row[1]].format(k=k)}" for k, row in enumerate(rows)
+        )
+        lines.append(f"    emit({word}({', '.join(arguments)}))")
     return "\n" + "\n".join([*lines, "    return x", ""])
 
 

@@ -83,7 +83,7 @@ class Maker:
         self.count += 1
         return f"{stem}{self.count}"
 
-    def know(self, kind: str, name: str) -> None:
+    def declare(self, kind: str, name: str) -> None:
         """From here on the name can be read."""
         self.scope = replace(self.scope, **{kind: (*getattr(self.scope, kind), name)})
 
@@ -106,7 +106,7 @@ class Maker:
             yield
         self.in_closure = outside
 
-    def one(self, options: list[Callable[[], str]]) -> str:
+    def choose(self, options: list[Callable[[], str]]) -> str:
         return self.random.choice(options)()
 
     def chance(self, share: float) -> bool:
@@ -122,7 +122,7 @@ class Maker:
             lambda: self.random.choice(s.integers),
         ]
         if depth <= 0:
-            return self.one(plain)
+            return self.choose(plain)
         inner = depth - 1
         options = [
             *plain,
@@ -151,12 +151,12 @@ class Maker:
             ]
         if self.choices > 0:
             options += [lambda: self.choice()] * 2
-        return self.one(options)
+        return self.choose(options)
 
     def choice(self) -> str:
         """A random choice of an integer."""
         self.choices -= 1
-        return self.one(
+        return self.choose(
             [
                 lambda: f"discrete_uniform(0, 1 + {self.integer(0)} % 2)",
                 lambda: f"(2 if flip(0.3 + 0.1 * ({self.integer(0)} % 3)) else 0)",
@@ -182,7 +182,7 @@ class Maker:
             if self.choices > 0:
                 self.choices -= 1
                 options += [lambda: f"flip({self.random.choice(['0.3', '0.5', '0.8'])})"] * 2
-        return self.one(options)
+        return self.choose(options)
 
     def future(self, depth: int) -> str:
         """A new future."""
@@ -201,10 +201,10 @@ class Maker:
             options.append(lambda: f"future({self.random.choice(s.functions)}, {self.integer(0)})")
         if s.memos:
             options += [lambda: f"future({self.random.choice(s.memos)}, {self.integer(0)} % 2)"] * 2
-        return self.one(options)
+        return self.choose(options)
 
     def promise(self, depth: int) -> str:
-        """What can be forced."""
+        """Return an expression that can be forced."""
         s = self.scope
         options: list[Callable[[], str]] = []
         if s.promises:
@@ -230,7 +230,7 @@ class Maker:
                 lambda: f"({self.promise(depth - 1)} if {self.truth(0)} else {self.promise(depth - 1)})",
                 lambda: f"({self.promise(depth - 1)} if {self.truth(0)} else {self.integer(0)})",
             ]
-        return self.one(options)
+        return self.choose(options)
 
     # statements, as lines
 
@@ -278,21 +278,21 @@ class Maker:
     def held(self, kind: str, stem: str, text: str) -> list[str]:
         """A new name for it."""
         name = self.fresh(stem)
-        self.know(kind, name)
+        self.declare(kind, name)
         return [f"{name} = {text}"]
 
     def unpacked(self) -> list[str]:
         """Two futures out of one value."""
         a, b = self.fresh("f"), self.fresh("f")
-        given = self.random.choice([*self.scope.pairs, f"({self.promise(1)}, {self.promise(1)})"])
-        self.know("promises", a)
-        self.know("promises", b)
-        return [f"{a}, {b} = {given}"]
+        pair = self.random.choice([*self.scope.pairs, f"({self.promise(1)}, {self.promise(1)})"])
+        self.declare("promises", a)
+        self.declare("promises", b)
+        return [f"{a}, {b} = {pair}"]
 
     def score(self) -> list[str]:
         """A barrier."""
         return [
-            self.one(
+            self.choose(
                 [
                     lambda: f"factor(LOGS[{self.integer(2)} % 3])",
                     lambda: f"factor(0.5 if {self.truth(1)} else -0.4)",
@@ -385,18 +385,18 @@ class Maker:
 
     def sure(self, depth: int) -> str:
         """A future, whatever the choices."""
-        made = self.future(1)
+        future = self.future(1)
         if depth <= 0:
-            return made
+            return future
         inner, other = self.sure(depth - 1), self.promise(0)
-        return self.one(
+        return self.choose(
             [
-                lambda: made,
+                lambda: future,
                 lambda: f"through({inner})",
-                lambda: f"({inner} if {self.truth(0)} else {made})",
+                lambda: f"({inner} if {self.truth(0)} else {future})",
                 lambda: f"({other}, {inner})[1]",
                 lambda: f"[{inner}, {other}][0]",
-                lambda: f"[q for q in [{inner}, {made}]][{self.integer(0)} % 2]",
+                lambda: f"[q for q in [{inner}, {future}]][{self.integer(0)} % 2]",
                 lambda: f"Both({other}, {inner}).second",
                 lambda: f"{{'a': {inner}, 'b': {other}}}['a']",
                 lambda: f"force(future(through, {inner}))",
@@ -451,10 +451,10 @@ class Maker:
             else:
                 lines = self.block(1, False) if self.chance(0.6) else []
                 body = [f"def {name}(n, b=True):", *lines, f"    return {result}"]
-        self.know(kind, name)
+        self.declare(kind, name)
         if self.memo and kind == "functions" and self.chance(0.7):
             memo = self.fresh("r")
-            self.know("memos", memo)
+            self.declare("memos", memo)
             return [*body, f"{memo} = mem({name})"]
         return body
 
@@ -466,7 +466,7 @@ class Maker:
         with self.inside(integers=("n",), truths=("True",)):
             lines.append(f"k = {self.choice()}")
             self.choices = 0
-            self.know("integers", "k")
+            self.declare("integers", "k")
             if self.chance(0.5):
                 lines.append("factor(LOGS[k % 3])")
             result = f"({self.integer(1)} + {name}(n - 1)) % 3 if n > 0 else k" if self.chance(0.5) else "k"
@@ -485,7 +485,7 @@ class Maker:
             self.choices = 1
             lines.append(f"k = {self.choice()}")
             self.choices = 0
-            self.know("integers", "k")
+            self.declare("integers", "k")
             if self.chance(0.6):
                 lines.append(self.random.choice(["factor(LOGS[k % 3])", "factor(0.3 * k - 0.2)"]))
             if tops and self.chance(0.6):
@@ -511,7 +511,7 @@ def text(seed: int, size: int = 6, looks: bool = False, memo: bool = False) -> s
     for number, name in enumerate(memos):
         maker.tops.append(name)
         helpers.append(maker.remembered(number))
-        maker.know("memos", name)
+        maker.declare("memos", name)
     maker.tops.clear()
     for _ in range(maker.random.randint(1, 3)):
         helpers.append(maker.top())

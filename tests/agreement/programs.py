@@ -60,8 +60,8 @@ class Maker:
 
     def pick(self, *makers: Callable[[int], str] | str, depth: int = 0) -> str:
         """One of several continuations."""
-        made = self.random.choice(makers)
-        return made if isinstance(made, str) else made(depth - 1)
+        expression = self.random.choice(makers)
+        return expression if isinstance(expression, str) else expression(depth - 1)
 
     # expressions, by the kind of their value
 
@@ -330,9 +330,14 @@ class Maker:
             lines = [f"if {self.boolean(1)}:", *(f"    {line}" for line in lines), "else:", *other]
             return [*before, *lines, f"f = f + {name}({self.real(1)})"]
         self.locals.append(name)
-        given = [f"x={self.real(1)}", f"w={self.real(1)}", f"b={self.boolean(1)}", f"n={self.integer(1)} % 4"]
-        self.random.shuffle(given)
-        return [*before, *lines, f"f = f + {name}({', '.join(given)})"]
+        parameters = [
+            f"x={self.real(1)}",
+            f"w={self.real(1)}",
+            f"b={self.boolean(1)}",
+            f"n={self.integer(1)} % 4",
+        ]
+        self.random.shuffle(parameters)
+        return [*before, *lines, f"f = f + {name}({', '.join(parameters)})"]
 
     def helper(self) -> str:
         """A function of a real and a counter, that may call itself and the helpers before it."""
@@ -368,7 +373,7 @@ def program(seed: int, size: int = 8, inner: bool = True) -> Program:
 
 
 def smaller(whole: Program) -> Iterator[Program]:
-    """The same program with one statement or the last helper left out."""
+    """Yield the program without one of its statements, or without its last helper."""
     for place in range(len(whole.statements)):
         yield Program(whole.helpers, whole.statements[:place] + whole.statements[place + 1 :])
     if whole.helpers:

@@ -90,8 +90,8 @@ def chain(pick: random.Random) -> nw.mh:
     return nw.mh(steps=pick.choice([50, 300]), strategy=pick.choice(STRATEGIES))
 
 
-def said(seed: int, kind: str) -> str:
-    """What a search of that program says, as a hash; of a failure its words."""
+def result_hash(seed: int, kind: str) -> str:
+    """Return the hash of the result of a program's search, or the message of its failure."""
     pick = random.Random(seed + 1)
     method = population(pick) if kind == "populations" else chain(pick)
     try:
@@ -116,4 +116,4 @@ def said(seed: int, kind: str) -> str:
 if __name__ == "__main__":
     first, count = map(int, sys.argv[1:3])
     kind = sys.argv[3] if len(sys.argv) > 3 else "populations"
-    print(json.dumps({str(seed): said(seed, kind) for seed in range(first, first + count)}))
+    print(json.dumps({str(seed): result_hash(seed, kind) for seed in range(first, first + count)}))

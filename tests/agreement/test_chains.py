@@ -1,8 +1,8 @@
 """The four strategies give the same chain for a seed, to the bit, on random programs and with every kind of kernel.
 
-The engine runs them in step: after each proposal decisions and sums are compared, now and then also the values, scenes
-and queries of the states, a proposal that is undone, and a run from the start, once keeping calls and once without. A
-failure prints the smallest program that still fails. Nothing here is statistical.
+The engine runs them in step, and compares decisions and sums after each proposal. Now and then it also compares the
+values, scenes and queries of the states; a proposal that is undone; and a run from the start, with and without kept
+calls. A failure prints the smallest program that still fails. These tests use no statistics.
 """
 
 from __future__ import annotations
@@ -52,14 +52,14 @@ KERNELS = (
 
 
 class Tally:
-    """What was looked at."""
+    """Counts of the programs and proposals that were compared."""
 
     def __init__(self) -> None:
         self.programs = self.proposals = self.accepted = self.faults = 0
 
 
 def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -> str:
-    """What a program's strategies do not agree on, or nothing."""
+    """Return the disagreement of a program's strategies, or nothing."""
     try:
         model = load(text)
         model.core()
@@ -69,9 +69,13 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
         return "" if error.code in NOT_A_PROGRAM else str(error)
     kernel = KERNELS[seed % len(KERNELS)]
     try:
-        made = task(model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000)
+        compiled = task(
+            model, (), {}, no_self_intersection().specs if seed % 3 == 0 else (), max_steps=100_000
+        )
         method, functions = engine_form(nw.mh(steps + 1, kernel=kernel, warmup=steps // 2))
-        found, proposals, accepted, faults = _engine.agreement(made, method, seed, steps, 20, functions)
+        difference, proposals, accepted, faults = _engine.agreement(
+            compiled, method, seed, steps, 20, functions
+        )
     except (_engine.EngineFault, NiwakiError):
         # No possible first state, or a fault at once.
         return ""
@@ -80,7 +84,7 @@ def disagreement(text: str, seed: int, steps: int, tally: Tally | None = None) -
         tally.proposals += 4 * proposals
         tally.accepted += accepted
         tally.faults += faults
-    return found or ""
+    return difference or ""
 
 
 def look(seeds: Iterator[int], steps: int, memo: bool = False) -> Tally:

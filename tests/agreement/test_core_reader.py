@@ -32,7 +32,7 @@ def seen(run: Run) -> tuple[str, ...]:
 
 
 def differs(text: str) -> str:
-    """What is wrong with a program, or nothing."""
+    """Return the fault of a program, or nothing."""
     try:
         model = load(text)
         core = model.core()

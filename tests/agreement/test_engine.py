@@ -35,7 +35,7 @@ def load(text: str) -> Any:
     return space["m"]
 
 
-def same(a: Any, b: Any) -> bool:
+def is_same(a: Any, b: Any) -> bool:
     """Equal kind and value; reals to 1e-12 of their size."""
     # Plain Python indexes a NumPy array as it is; the engine has it as tuples.
     a = a.item() if isinstance(a, np.generic) else a
@@ -44,13 +44,13 @@ def same(a: Any, b: Any) -> bool:
     if isinstance(a, float):
         return a == b or (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12)
     if isinstance(a, (list, tuple)):
-        return len(a) == len(b) and all(map(same, a, b))
+        return len(a) == len(b) and all(map(is_same, a, b))
     if isinstance(a, dict):
-        return list(a) == list(b) and all(same(a[key], b[key]) for key in a)
+        return list(a) == list(b) and all(is_same(a[key], b[key]) for key in a)
     if type(a).__name__ == "Shape":
         return same_shape(a, b)
     if type(a).__name__ == "Vec":
-        return same(a.parts, b.parts)
+        return is_same(a.parts, b.parts)
     return bool(a == b)
 
 
@@ -61,7 +61,7 @@ def same_shape(a: Any, b: Any) -> bool:
 
 
 def facts(run: Run | nw.Sample) -> dict[str, Any]:
-    """What must agree."""
+    """Return the facts of a run that must agree."""
     scene = run.scene if isinstance(run, Run) else [(part[0], part[1]) for part in run._trace.parts]
     return {
         "choices": dict(run.choices),
@@ -93,13 +93,13 @@ def compared(first: dict[str, Any] | NiwakiError, second: dict[str, Any] | Niwak
         codes = [r.code if isinstance(r, NiwakiError) else "" for r in (first, second)]
         return "" if codes[0] == codes[1] else f"{codes}\n{first}\n{second}"
     for key in first:
-        if not same(first[key], second[key]):
+        if not is_same(first[key], second[key]):
             return f"{key}:\n  {first[key]!r}\n  {second[key]!r}"
     return ""
 
 
 def differs(text: str, seeds: int = 2) -> str:
-    """What is wrong with a program, or nothing."""
+    """Return the difference between plain Python and the engine for a program, or nothing."""
     try:
         model = load(text)
         model.core()
@@ -112,17 +112,19 @@ def differs(text: str, seeds: int = 2) -> str:
     except NiwakiError as error:
         return str(error)
     for seed in range(seeds):
-        own = plain(model, seed=seed)
-        if isinstance(own, dict) and (found := compared(own, engine(model, choices=own["choices"]))):
-            return f"plain run, seed {seed}: {found}"
-        if isinstance(own, NiwakiError) and own.code == "too-deep":
+        plain_facts = plain(model, seed=seed)
+        if isinstance(plain_facts, dict) and (
+            difference := compared(plain_facts, engine(model, choices=plain_facts["choices"]))
+        ):
+            return f"plain run, seed {seed}: {difference}"
+        if isinstance(plain_facts, NiwakiError) and plain_facts.code == "too-deep":
             continue
         there = engine(model, seed=seed)
         if isinstance(there, dict):
             here = plain(model, choices=there["choices"])
             # A forward run ends early when it becomes impossible, and its trace is the whole run.
-            if found := compared(here, there):
-                return f"engine's run, seed {seed}: {found}"
+            if difference := compared(here, there):
+                return f"engine's run, seed {seed}: {difference}"
     return ""
 
 
@@ -145,8 +147,8 @@ def line(fault: ModelFault) -> int | None:
 
 
 def test_faults_have_the_same_code() -> None:
-    """What fails at a line in plain Python and in the engine is called the same."""
-    found = same_place = 0
+    """A failure has the same code in plain Python and in the engine."""
+    faults = same_place = 0
     for seed in range(250):
         try:
             model = load(program(50_000 + seed).text)
@@ -156,7 +158,7 @@ def test_faults_have_the_same_code() -> None:
         try:
             run_python(model, seed=seed)
         except ModelFault as fault:
-            found += 1
+            faults += 1
             if fault.code == "too-deep":
                 continue
             # The two draw other numbers, so that the engine may come to another fault first.
@@ -164,4 +166,4 @@ def test_faults_have_the_same_code() -> None:
             if isinstance(there, ModelFault) and line(there) == line(fault):
                 same_place += 1
                 assert there.code == fault.code
-    assert found > same_place > 3
+    assert faults > same_place > 3

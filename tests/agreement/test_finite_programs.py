@@ -14,11 +14,11 @@ The same of programs with memoised functions, without kernels that grow a part a
 
 Programs whose every run looks at a future that is not forced are refused by each of them.
 
-A quantity is wrong only if it is so twice: by 5 standard errors, and with fresh seeds and sixteen times the runs by 7.
-Only values of at least a twentieth are counted, and a standard error is taken to be no less than that of three runs, so
-that rare runs that never occurred do not count against a method. For a share of a twentieth, both bounds on its
-binomial count together are passed once in 1e13 by chance; a soak of an hour looks at less than 1e7 quantities, so
-that it fails once in a million.
+A quantity is wrong only if it is wrong twice: by 5 standard errors, and then with fresh seeds and sixteen times the
+runs by 7. Only values with a share of at least a twentieth are counted, and the least standard error is the one of
+three runs, so that rare runs that never occurred do not count against a method. For a share of a twentieth, chance
+passes both bounds on its binomial count once in 1e13. A soak of an hour checks less than 1e7 quantities, so it fails
+once in a million.
 
 Mutants. Each method is judged by the answer of a program that lacks what counts twice in its own, and must be wrong by
 it. Two wrong engines have failed. In one, `force` read its future from a register that was overwritten (in `place.rs`,
@@ -75,16 +75,16 @@ MOVES = kernels.mixture(kernels.prior(), kernels.neighbour(), kernels.regenerate
 
 def populations(count: int, seed: int, moves: Any = MOVES) -> dict[str, nw.methods.Smc]:
     """Particles, as each method has them; what is drawn from the seed does not decide what is right."""
-    own: dict[str, Any] = {
+    table: dict[str, Any] = {
         "particles": 2 + seed % 3,
         "populations": count,
         "resampling": RESAMPLING[seed % len(RESAMPLING)],
     }
-    moved = {**own, "rejuvenate": moves}
+    moved = {**table, "rejuvenate": moves}
     return {
-        "particles": nw.smc(**own),
-        "particles, depth first": nw.smc(order="depth-first", **own),
-        "particles, resampled when few are effective": nw.smc(ess=0.6, **own),
+        "particles": nw.smc(**table),
+        "particles, depth first": nw.smc(order="depth-first", **table),
+        "particles, resampled when few are effective": nw.smc(ess=0.6, **table),
         "particles, moved": nw.smc(at=1 + seed % 2, **moved),
         "particles, moved depth first": nw.smc(at="resampled", order="depth-first", **moved),
         "particles, final chain": nw.smc(at="end", draws=2, **moved),
@@ -117,7 +117,7 @@ CHAIN = "Markov chain"
 
 
 class Tally:
-    """What was looked at."""
+    """Counts of the programs and quantities that were checked."""
 
     def __init__(self) -> None:
         self.programs = self.looks = self.replays = self.quantities = self.looked_twice = 0
@@ -135,11 +135,11 @@ class Exact:
     """The exact answer of a program."""
 
     def __init__(self, model: Any) -> None:
-        found = nw.run(model, nw.enumerate_all(max_runs=MOST_RUNS))
-        assert found.log_evidence is not None
-        self.log_evidence = found.log_evidence
+        result = nw.run(model, nw.enumerate_all(max_runs=MOST_RUNS))
+        assert result.log_evidence is not None
+        self.log_evidence = result.log_evidence
         self.shares: dict[str, float] = {}
-        for value, share in found.distribution().items():
+        for value, share in result.distribution().items():
             name = value if isinstance(value, str) else repr(value)
             self.shares[name] = self.shares.get(name, 0.0) + share
         self.counted = [name for name, share in self.shares.items() if share >= LEAST_SHARE]
@@ -150,12 +150,12 @@ class Exact:
         error = np.sqrt(rows.var(axis=0) / n + (3.0 / n) ** 2)
         return list((rows.mean(axis=0) - truths) / error)
 
-    def of_populations(self, found: Any, count: int) -> list[float]:
+    def of_populations(self, result: Any, count: int) -> list[float]:
         """Evidence, and evidence in each value, relative to the truth: of each population, none of those that died."""
-        size = len(found) // (count - found.info.died)
-        scale = math.exp(found.log_evidence - self.log_evidence) / found.info.plan[0]
+        size = len(result) // (count - result.info.died)
+        scale = math.exp(result.log_evidence - self.log_evidence) / result.info.plan[0]
         rows = np.zeros((count, 1 + len(self.counted)))
-        for i, sample in enumerate(found):
+        for i, sample in enumerate(result):
             weight = math.exp(sample.log_weight) * scale
             rows[i // size, 0] += weight
             name = repr(sample.value)
@@ -164,11 +164,11 @@ class Exact:
         return self.scores(rows, [1.0, *(self.shares[name] for name in self.counted)])
 
     def of_searches(self, searches: list[Any]) -> list[float]:
-        """The same of searches whose mean weight is the evidence."""
+        """Return z-scores of searches whose mean weight is the evidence."""
         rows = np.zeros((len(searches), 1 + len(self.counted)))
-        for row, found in zip(rows, searches, strict=True):
-            for sample in found:
-                weight = math.exp(sample.log_weight - self.log_evidence) / len(found)
+        for row, search in zip(rows, searches, strict=True):
+            for sample in search:
+                weight = math.exp(sample.log_weight - self.log_evidence) / len(search)
                 row[0] += weight
                 name = repr(sample.value)
                 if name in self.counted:
@@ -203,10 +203,10 @@ def exact_draws(model: Any, count: int, seed: int) -> Any:
             bound += 0.5
 
 
-def looked_at(
+def check_samples(
     model: Any, exact: Exact, name: str, times: int, seed: int, tally: Tally, moves: Any = MOVES
 ) -> tuple[str, float]:
-    """What is wrong with a method's samples, or nothing; and the largest z-score."""
+    """Return the fault of a method's samples, or nothing, and the largest z-score."""
     scores: list[float] = []
     if name in gibbs(0):
         starts = exact_draws(model, STARTS * times, seed)
@@ -214,29 +214,29 @@ def looked_at(
             nw.run(model, gibbs(seed)[name], choices=start.choices, seed=seed + i, threads=1)
             for i, start in enumerate(starts)
         ]
-        found = [run[-1] for run in runs]
-        scores = exact.of_values([repr(sample.value) for sample in found])
+        samples = [run[-1] for run in runs]
+        scores = exact.of_values([repr(sample.value) for sample in samples])
     elif name == CHAIN:
         method = nw.mh(STATES * times, kernel=moves, thin=1, keep=STATES * times)
-        found = nw.run(model, method, seed=seed, threads=1).samples
+        samples = nw.run(model, method, seed=seed, threads=1).samples
     elif name == "PIMH":
-        found = nw.run(
+        samples = nw.run(
             model, pimh((BATCHES + BATCHES // 10) * BATCH * times, seed), seed=seed, threads=1
         ).samples
-        scores = exact.of_chain([repr(sample.value) for sample in found])
+        scores = exact.of_chain([repr(sample.value) for sample in samples])
     elif name == "AIS":
         method = annealed(seed, moves)
         searches = [nw.run(model, method, seed=seed + i, threads=1) for i in range(POPULATIONS * times)]
         scores = exact.of_searches(searches)
-        found = [sample for one in searches for sample in one]
+        samples = [sample for search in searches for sample in search]
     else:
         count = POPULATIONS * times
         result = nw.run(model, populations(count, seed, moves)[name], seed=seed, threads=1)
         scores = exact.of_populations(result, count)
-        found = [sample for sample in result if sample.log_weight > -math.inf]
+        samples = [sample for sample in result if sample.log_weight > -math.inf]
     # One of each value, of a few, is run again; and some of a chain, whose states are made of each other.
     seen: set[str] = set()
-    for i, sample in enumerate(found):
+    for i, sample in enumerate(samples):
         value = repr(sample.value)
         if value not in exact.shares:
             return f"{name}: the value {value} has no probability", math.inf
@@ -244,13 +244,13 @@ def looked_at(
             seen.add(value)
             tally.replays += 1
             plain = facts(run_python(model, choices=sample.choices))
-            own = {
+            engine_facts = {
                 **plain,
                 "value": sample.value,
                 "log_prior": sample.log_prior,
                 "log_score": sample.log_score,
             }
-            if wrong := compared(plain, own):
+            if wrong := compared(plain, engine_facts):
                 return (
                     f"{name}: plain Python with the choices {plain['choices']} has another {wrong}",
                     math.inf,
@@ -260,10 +260,10 @@ def looked_at(
 
 
 def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
-    """What is wrong with a program, or nothing."""
+    """Return the fault of a program, or nothing."""
     tally = tally or Tally()
-    if found := differs(program):
-        return found
+    if fault := differs(program):
+        return fault
     try:
         model = load(program)
         model.core()
@@ -279,18 +279,18 @@ def wrong(program: str, seed: int, tally: Tally | None = None) -> str:
     moves = SHARED if "mem(" in program or "@mem" in program else MOVES
     for name in (*METHODS, CHAIN):
         try:
-            found, z = looked_at(model, exact, name, 1, seed, tally, moves)
-            if not found and z > FIRST_LIMIT:
+            fault, z = check_samples(model, exact, name, 1, seed, tally, moves)
+            if not fault and z > FIRST_LIMIT:
                 tally.looked_twice += 1
-                found, z = looked_at(model, exact, name, TIMES, seed + 2**32, tally, moves)
+                fault, z = check_samples(model, exact, name, TIMES, seed + 2**32, tally, moves)
                 if z > LIMIT:
-                    found = found or f"{name}: {z:.1f} standard errors from the exact answer"
+                    fault = fault or f"{name}: {z:.1f} standard errors from the exact answer"
         except NiwakiError as error:
-            found = f"{name}: {error}"
-        if found:
-            return found
-    if found := disagreement(program, seed, 80):
-        return f"strategies: {found}"
+            fault = f"{name}: {error}"
+        if fault:
+            return fault
+    if fault := disagreement(program, seed, 80):
+        return f"strategies: {fault}"
     tally.programs += 1
     return ""
 
@@ -333,16 +333,16 @@ def look(seeds: Iterable[int], tally: Tally, memo: bool = False) -> None:
     before = set(linecache.cache)
     for seed in seeds:
         program, looks = text(seed, memo=memo), looking(seed)
-        if found := answers_a_look(looks, seed):
-            pytest.fail(f"seed {seed}: {found}\n{looks}")
+        if fault := answers_a_look(looks, seed):
+            pytest.fail(f"seed {seed}: {fault}\n{looks}")
         tally.looks += 1
         try:
-            found = wrong(program, seed, tally)
+            fault = wrong(program, seed, tally)
         except Exception as error:
             raise AssertionError(f"seed {seed}:\n{program}") from error
-        if found:
-            small = reduced(program, lambda less: still_wrong(less, seed, found))  # noqa: B023
-            pytest.fail(f"seed {seed}: {found}\n{small}\n{wrong(small, seed)}")
+        if fault:
+            small = reduced(program, lambda less: still_wrong(less, seed, fault))  # noqa: B023
+            pytest.fail(f"seed {seed}: {fault}\n{small}\n{wrong(small, seed)}")
         # The texts of programs that were looked at, and of nothing else.
         for name in set(linecache.cache) - before:
             del linecache.cache[name]
@@ -444,8 +444,8 @@ def test_a_factor_that_counts_twice_is_seen(name: str) -> None:
     about as far off as the limit, so the wrong program is looked at twice as often.
     """
     twice = load(ONCE.replace("0.6 * k", "1.2 * k"))
-    assert looked_at(load(ONCE), Exact(load(ONCE)), name, TIMES, 5, Tally())[1] < FIRST_LIMIT
-    assert looked_at(twice, Exact(load(ONCE)), name, 2 * TIMES, 5, Tally())[1] > LIMIT
+    assert check_samples(load(ONCE), Exact(load(ONCE)), name, TIMES, 5, Tally())[1] < FIRST_LIMIT
+    assert check_samples(twice, Exact(load(ONCE)), name, 2 * TIMES, 5, Tally())[1] > LIMIT
 
 
 def test_an_executor_that_answers_a_look_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -168,9 +168,9 @@ def executors(model: Any) -> dict[str, Any]:
 def test_a_look_is_refused_everywhere(look: str, callee: str) -> None:
     program = text(LOOKS[look], callee)
     for name, run in executors(load(program)).items():
-        with pytest.raises(ModelFault) as found:
+        with pytest.raises(ModelFault) as error:
             run()
-        fault = found.value
+        fault = error.value
         assert fault.code == "future-not-forced", f"{name}: {fault}"
         assert fault.stack[0].span is not None and fault.stack[0].span.line == len(program.splitlines()), name
         assert "force(f)" in str(fault)
@@ -181,8 +181,8 @@ def test_a_look_is_refused_everywhere(look: str, callee: str) -> None:
 def test_what_passes_a_future_on_is_not_refused(look: str) -> None:
     model = load(text(look, "now"))
     for name, run in executors(model).items():
-        found = run()
-        values = [found.value] if name == "plain" else [sample.value for sample in found]
+        result = run()
+        values = [result.value] if name == "plain" else [sample.value for sample in result]
         assert all(repr(value) == repr(PASSES[look]) for value in values), (name, values)
 
 

@@ -25,16 +25,16 @@ WITHOUT = {"no-continuous-choices", "no-derivative", "impossible-trace"}
 def slope(f: LogDensity, x: np.ndarray, k: int) -> tuple[float, float]:
     """Central differences of two widths, and their extrapolation with its own error estimate."""
     step = np.zeros_like(x)
-    found = []
+    slopes = []
     for h in (4e-4, 2e-4, 1e-4):
         step[k] = h
-        found.append((f(x + step) - f(x - step)) / (2 * h))
-    first, second = (4 * found[1] - found[0]) / 3, (4 * found[2] - found[1]) / 3
+        slopes.append((f(x + step) - f(x - step)) / (2 * h))
+    first, second = (4 * slopes[1] - slopes[0]) / 3, (4 * slopes[2] - slopes[1]) / 3
     return (16 * second - first) / 15, abs(second - first)
 
 
 def checked(seed: int) -> str:
-    """What came of one program: "checked", "corner" (no difference is smooth there), or why it has no density."""
+    """Return the outcome of a program: "checked", "corner" (no smooth difference), or why it has no density."""
     try:
         sample = nw.run(load(program(seed, 6).text), seed=seed).best
         density = nw.log_density(sample)
@@ -51,11 +51,11 @@ def checked(seed: int) -> str:
     size = max(1e-2, float(np.abs(gradient).max()))
     smooth = True
     for k in range(density.dim):
-        found, error = slope(density, density.start, k)
-        if not np.isfinite(found) or error > 1e-6 * size:
+        numeric, error = slope(density, density.start, k)
+        if not np.isfinite(numeric) or error > 1e-6 * size:
             smooth = False
         else:
-            assert abs(found - gradient[k]) < 1e-6 * size, (seed, k, found, gradient[k])
+            assert abs(numeric - gradient[k]) < 1e-6 * size, (seed, k, numeric, gradient[k])
     return "checked" if smooth else "corner"
 
 

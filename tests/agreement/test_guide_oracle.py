@@ -88,7 +88,7 @@ def choices(n: int, seed: int) -> list[dict[str, Any]]:
     """Random choices at all three sites; some lack features, and some are outside of their coordinate's limits."""
     random = np.random.default_rng(seed)
     number = lambda *shape: random.normal(size=shape).astype(np.float32).tolist()  # noqa: E731
-    found = []
+    rows = []
     for k in range(n):
         site = k % 3
         if site == 0:
@@ -101,8 +101,8 @@ def choices(n: int, seed: int) -> list[dict[str, Any]]:
             lesson = {"Count": {"between": [low, low + random.uniform(0.01, 2.0)], "log_prior": -0.9}}
         some = sorted(random.choice(4, size=int(random.integers(5)), replace=False).tolist())
         features = [[int(j), x] for j, x in zip(some, number(len(some)), strict=True)]
-        found.append({"site": site, "window": number(6), "features": features, "lesson": lesson})
-    return found
+        rows.append({"site": site, "window": number(6), "features": features, "lesson": lesson})
+    return rows
 
 
 def mixture(outputs: jax.Array) -> tuple[jax.Array, jax.Array, jax.Array]:

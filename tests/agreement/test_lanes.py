@@ -18,8 +18,8 @@ import pytest
 SEARCHES = Path(__file__).with_name("searches.py")
 
 
-def said(first: int, count: int, kind: str = "populations", **switches: str) -> dict[str, str]:
-    """What each search prints, by the seed of its program, under these variables of the environment."""
+def hashes(first: int, count: int, kind: str = "populations", **switches: str) -> dict[str, str]:
+    """Return the output of each search, by the seed of its program, with variables of the environment."""
     # Names of files are hashes of texts, which messages repeat.
     settings = dict(os.environ, PYTHONHASHSEED="0", **switches)
     command = [sys.executable, str(SEARCHES), str(first), str(count), kind]
@@ -28,16 +28,16 @@ def said(first: int, count: int, kind: str = "populations", **switches: str) -> 
     return answers
 
 
-def compare(one: dict[str, str], other: dict[str, str], count: int) -> None:
+def compare(first: dict[str, str], second: dict[str, str], count: int) -> None:
     """Hold what so many searches print against each other."""
-    assert len(one) == count
-    different = [seed for seed in one if one[seed] != other[seed]]
-    assert not different, (different[0], one[different[0]], other[different[0]])
+    assert len(first) == count
+    different = [seed for seed in first if first[seed] != second[seed]]
+    assert not different, (different[0], first[different[0]], second[different[0]])
 
 
 def agree(first: int, count: int) -> None:
     """Compare the searches of so many programs."""
-    compare(said(first, count, NIWAKI_LANES="1"), said(first, count, NIWAKI_LANES="0"), count)
+    compare(hashes(first, count, NIWAKI_LANES="1"), hashes(first, count, NIWAKI_LANES="0"), count)
 
 
 def test_lanes_agree_on_random_programs() -> None:

@@ -8,15 +8,15 @@ from __future__ import annotations
 import os
 
 import pytest
-from test_lanes import compare, said
+from test_lanes import compare, hashes
 
 KINDS = ["populations", "chains"]
 
 
 def agree(first: int, count: int, kind: str) -> None:
     """Compare the searches of so many programs."""
-    with_code = said(first, count, kind, NIWAKI_JIT="1", NIWAKI_LANES="0")
-    compare(with_code, said(first, count, kind, NIWAKI_JIT="0", NIWAKI_LANES="0"), count)
+    with_code = hashes(first, count, kind, NIWAKI_JIT="1", NIWAKI_LANES="0")
+    compare(with_code, hashes(first, count, kind, NIWAKI_JIT="0", NIWAKI_LANES="0"), count)
 
 
 @pytest.mark.parametrize("kind", KINDS)

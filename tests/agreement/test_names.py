@@ -166,24 +166,24 @@ def test_what_has_no_value_is_a_fault_where_it_is_read(name: str) -> None:
     text = f"def m():\n    if flip(0.0):\n        {UNASSIGNED[name]}\n    return"
     for end, code in (("h()", "unassigned-variable"), ("len([h])", None)):
         model = load(f"{HEADER}@model\n{text} {end}\n")
-        for found in (plain(model, seed=1), engine(model, seed=1)):
-            assert getattr(found, "code", None) == code, found
+        for facts in (plain(model, seed=1), engine(model, seed=1)):
+            assert getattr(facts, "code", None) == code, facts
 
 
 @pytest.mark.parametrize("line", FAULTS)
 def test_the_two_ways_refuse(line: str) -> None:
     model = load(f"{HEADER}@model\ndef m():\n    {line}\n    return 1\n")
-    for found in (plain(model, seed=1), engine(model, seed=1)):
-        assert isinstance(found, NiwakiError) and found.code == FAULTS[line], found  # type: ignore[attr-defined]
+    for facts in (plain(model, seed=1), engine(model, seed=1)):
+        assert isinstance(facts, NiwakiError) and facts.code == FAULTS[line], facts  # type: ignore[attr-defined]
 
 
 def test_a_message_has_the_name_of_the_source() -> None:
     """Where a name has several variables, the engine's message has it as it was written."""
     text = "def m():\n    n = 1\n    return n, [x for x in [1, 2] for n in (n, 1)]"
     model = load(f"{HEADER}@model\n{text}\n")
-    for found in (plain(model, seed=1), engine(model, seed=1)):
-        assert isinstance(found, NiwakiError) and found.code == "unassigned-variable", found  # type: ignore[attr-defined]
-        assert "%" not in str(found)
+    for facts in (plain(model, seed=1), engine(model, seed=1)):
+        assert isinstance(facts, NiwakiError) and facts.code == "unassigned-variable", facts  # type: ignore[attr-defined]
+        assert "%" not in str(facts)
 
 
 def test_a_default_of_any_constant() -> None:
@@ -191,8 +191,8 @@ def test_a_default_of_any_constant() -> None:
         "def m(f=lambda v: v + 1, d=G, p=Leaf(2.5), xs=[G, 1]):\n    return f(1), sample(d), p.size, len(xs)"
     )
     model = load(f"{HEADER}@model\n{text}\n")
-    own = plain(model, seed=1)
-    assert isinstance(own, dict) and not compared(own, engine(model, choices=own["choices"]))
+    facts = plain(model, seed=1)
+    assert isinstance(facts, dict) and not compared(facts, engine(model, choices=facts["choices"]))
 
 
 def test_a_new_variable_elsewhere_changes_no_stream() -> None:

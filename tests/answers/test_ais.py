@@ -50,33 +50,35 @@ KERNELS = {
 
 @pytest.mark.parametrize("name", KERNELS)
 def test_the_evidence_of_a_line(name: str) -> None:
-    found = nw.run(line, X.tolist(), Y.tolist(), method=nw.ais(400, 60, KERNELS[name], moves=5), seed=3)
-    assert found.log_evidence is not None and found.info.tries == 400
-    assert judged(found, line_answers()[0]) < 4.5
-    assert math.log(np.mean(np.exp([one.log_weight for one in found]))) == pytest.approx(found.log_evidence)
-    assert found.info.effective > 100 and found.info.moved.proposed > 0 and len(found.info.powers) == 60
+    result = nw.run(line, X.tolist(), Y.tolist(), method=nw.ais(400, 60, KERNELS[name], moves=5), seed=3)
+    assert result.log_evidence is not None and result.info.tries == 400
+    assert judged(result, line_answers()[0]) < 4.5
+    assert math.log(np.mean(np.exp([sample.log_weight for sample in result]))) == pytest.approx(
+        result.log_evidence
+    )
+    assert result.info.effective > 100 and result.info.moved.proposed > 0 and len(result.info.powers) == 60
 
 
 def test_a_ladder_beats_none() -> None:
     """With as many runs the weights of likelihood weighting have collapsed."""
     plain = nw.run(line, X.tolist(), Y.tolist(), method=nw.importance(400), seed=3)
-    weights = np.exp([one.log_weight for one in plain])
+    weights = np.exp([sample.log_weight for sample in plain])
     assert weights.sum() ** 2 / (weights**2).sum() < 40
 
 
 @pytest.mark.parametrize("kernel", [None, kernels.neighbour(), kernels.regenerate(1), kernels.regrow(3)])
 def test_structure_that_changes(kernel: Any) -> None:
     exact = nw.run(branching, nw.enumerate_all())
-    found = nw.run(branching, nw.ais(3000, (0.2, 0.6, 1), kernel, moves=3), seed=5)
+    result = nw.run(branching, nw.ais(3000, (0.2, 0.6, 1), kernel, moves=3), seed=5)
     # The share of possible runs is one number for all particles, so its error is added: (1 - p) / (n p).
-    possible = 3000 / found.info.tries
-    weights = np.exp([one.log_weight - exact.log_evidence for one in found])
+    possible = 3000 / result.info.tries
+    weights = np.exp([sample.log_weight - exact.log_evidence for sample in result])
     error = math.sqrt((weights.var() + (1 - possible)) / len(weights))
     assert abs(weights.mean() - 1.0) < 4.5 * error
     for value, share in exact.distribution().items():
-        own = weights * [sample.value == value for sample in found]
-        error = math.sqrt((own.var() + share * share * (1 - possible)) / len(own))
-        assert abs(own.mean() - share) < 4.5 * error, value
+        share_weights = weights * [sample.value == value for sample in result]
+        error = math.sqrt((share_weights.var() + share * share * (1 - possible)) / len(share_weights))
+        assert abs(share_weights.mean() - share) < 4.5 * error, value
 
 
 def test_inside_a_model() -> None:
@@ -93,14 +95,14 @@ def test_inside_a_model() -> None:
         return infer(heads, nw.ais(20, 4, moves=2))
 
     exact = 0.3 / (0.3 + 0.7 * math.exp(-1.5))
-    found = [sample.value for sample in nw.run(outer, nw.forward(600), seed=5, threads=1)]
-    assert abs(sum(found) / 600 - exact) < 4.9 * math.sqrt(exact * (1 - exact) / 600)
+    values = [sample.value for sample in nw.run(outer, nw.forward(600), seed=5, threads=1)]
+    assert abs(sum(values) / 600 - exact) < 4.9 * math.sqrt(exact * (1 - exact) / 600)
 
 
 def test_threads_do_not_matter() -> None:
     first, second = (nw.run(branching, nw.ais(50, 5), seed=2, threads=threads) for threads in (1, 2))
     assert first.log_evidence == second.log_evidence
-    assert [one.choices for one in first] == [one.choices for one in second]
+    assert [sample.choices for sample in first] == [sample.choices for sample in second]
 
 
 def test_ctrl_c_gives_what_there_is() -> None:
@@ -108,8 +110,8 @@ def test_ctrl_c_gives_what_there_is() -> None:
         if progress.done > 0:
             raise KeyboardInterrupt
 
-    found = nw.run(line, X.tolist(), Y.tolist(), method=nw.ais(10**5, 100), seed=1, progress=press)
-    assert found.interrupted and 0 < len(found) < 10**5 and found.log_evidence is None
+    result = nw.run(line, X.tolist(), Y.tolist(), method=nw.ais(10**5, 100), seed=1, progress=press)
+    assert result.interrupted and 0 < len(result) < 10**5 and result.log_evidence is None
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,8 @@
 """Every kernel and composition agrees with enumeration on every model that it suits, through Python.
 
-Fixed seeds. Each row takes 40,000 proposals after a warm-up of 2,000 and compares the share of each value with the
-exact one, by the spread of the shares of 40 stretches of the chain, which are nearly independent: |t| with 39 degrees
-of freedom passes 6 once in two million. Some 250 shares are looked at: a re-seeded board fails once in eight thousand
+Seeds are fixed. Each row makes 40,000 proposals after a warm-up of 2,000, and compares the share of each value with the
+exact share. The unit is the spread of the shares of 40 stretches of the chain, which are nearly independent: |t| with
+39 degrees of freedom passes 6 once in two million. With some 250 shares, a re-seeded board fails once in eight thousand
 runs. The mutants that must be rejected, and continuous models, are in `crates/search/tests/chain`.
 """
 
@@ -109,8 +109,8 @@ def t_values(model: Any, kernel: k.Kernel, seed: int = 5, **settings: Any) -> fl
     values = [sample.value for sample in result]
     stretches = np.array_split(np.arange(len(values)), 40)
     largest = 0.0
-    for value, share in exact.items():
-        hits = np.array([found == value for found in values], dtype=float)
+    for target, share in exact.items():
+        hits = np.array([value == target for value in values], dtype=float)
         shares = np.array([hits[stretch].mean() for stretch in stretches])
         error = max(shares.std(ddof=1) / math.sqrt(len(shares)), 1e-4)
         largest = max(largest, abs(shares.mean() - share) / error)
@@ -138,8 +138,8 @@ def test_selection_weights_by_site_answer_as_enumeration_does(name: str, sites: 
 
 def test_a_proposal_of_ones_own_answers_as_enumeration_does() -> None:
     """It prefers small numbers whatever the old one: without its reverse density the answer would be another."""
-    own = k.on("j", k.proposal(lambda old: Binomial(3, 0.2 if old == 0 else 0.6)))
-    assert t_values(MODELS["bounds"], k.cycle(k.prior(), own)) < 6
+    kernel = k.on("j", k.proposal(lambda old: Binomial(3, 0.2 if old == 0 else 0.6)))
+    assert t_values(MODELS["bounds"], k.cycle(k.prior(), kernel)) < 6
 
 
 def test_selections_leave_the_rest_alone() -> None:

@@ -436,9 +436,9 @@ def test_multivariate_bernoulli() -> None:
     ):
         assert abs(column.mean() - p) < 5 * math.sqrt(p * (1 - p) / DRAWS)
         assert abs(column.mean() - p - 0.05) > 5 * math.sqrt(p * (1 - p) / DRAWS)
-    one = _engine.log_density("multivariate_bernoulli", [ps], [True, False, True, True])
-    assert agree(one, math.log(0.2 * 0.3 * 0.5))
-    assert _engine.log_density("multivariate_bernoulli", [ps], [1, 0, 1, 1]) == one
+    log_density = _engine.log_density("multivariate_bernoulli", [ps], [True, False, True, True])
+    assert agree(log_density, math.log(0.2 * 0.3 * 0.5))
+    assert _engine.log_density("multivariate_bernoulli", [ps], [1, 0, 1, 1]) == log_density
     assert _engine.log_density("multivariate_bernoulli", [ps], [True, False, True]) == -INF
     listed = _engine.enumerate_support("multivariate_bernoulli", [ps])
     assert listed is not None
@@ -490,7 +490,7 @@ def test_a_draw_is_a_function_of_its_coordinates() -> None:
 
 
 @pytest.mark.parametrize(
-    ("family", "params", "parameter", "found"),
+    ("family", "params", "parameter", "text"),
     [
         ("gaussian", [0, -1.0], "sd", "-1.0"),
         ("gaussian", [math.nan, 1.0], "mean", "nan"),
@@ -515,14 +515,14 @@ def test_a_draw_is_a_function_of_its_coordinates() -> None:
     ],
 )
 def test_bad_parameters_give_an_error_with_the_cause(
-    family: str, params: list[Any], parameter: str, found: str
+    family: str, params: list[Any], parameter: str, text: str
 ) -> None:
     with pytest.raises(_engine.BadParameter) as caught:
         _engine.draw(family, params, 1, 1)
     error = caught.value
     assert isinstance(error, ValueError)
-    assert (error.family, error.parameter, error.found) == (family, parameter, found)
-    assert str(error) == f"`{parameter}` of {family} is {found}, expected {error.expected}"
+    assert (error.family, error.parameter, error.found) == (family, parameter, text)
+    assert str(error) == f"`{parameter}` of {family} is {text}, expected {error.expected}"
 
 
 def test_what_is_no_parameter_at_all_is_a_type_error() -> None:

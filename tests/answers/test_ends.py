@@ -227,7 +227,7 @@ def test_a_model_that_asks_for_the_odds_runs_everywhere():
 
 
 def test_a_vague_prior_starts_again_where_a_run_has_no_gradient():
-    """Of 12 seeds 11 ended with `non-finite-gradient`."""
+    """11 of 12 seeds ended with `non-finite-gradient`."""
     y = [0.5, -1.2, 0.3, 0.8, -0.4]
     # Conjugate: gamma with shape 0.001 + n / 2 and rate 0.001 + sum of squares / 2.
     shape, rate = 0.001 + len(y) / 2, 0.001 + sum(value * value for value in y) / 2
@@ -272,7 +272,7 @@ def test_the_density_over_a_coordinate_integrates_to_one(family):
         # Evenly in a coordinate of its own, since tails are long: v = sinh(t).
         t = np.linspace(-12.0, 12.0, 48_001)
         v, width = np.sinh(t), (t[1] - t[0]) * np.cosh(t)
-    mass = float((np.exp([density([one]) for one in v]) * width).sum())
+    mass = float((np.exp([density([point]) for point in v]) * width).sum())
     # Of Cauchy's tail 1e-5 is beyond sinh(12).
     assert abs(mass - 1.0) < 1e-4, mass
 
@@ -286,11 +286,11 @@ def test_the_density_over_a_simplex_integrates_to_one():
 
 @pytest.mark.parametrize("family", FAMILIES, ids=repr)
 def test_the_evidence_of_a_family_alone_is_at_most_one(family):
-    """Of a choice without data the evidence is one, and the bound below it: for every family that `vi` takes."""
+    """The evidence of a choice without data is 1, and the bound is below it: for every family that `vi` takes."""
     for name in ("mean-field", "pathfinder"):
-        found = quiet(alone, family, method=nw.vi(name, draws=1000), seed=7)
-        assert found.log_evidence_bound < 4.5 * found.bound_error + 1e-9
-        assert found.log_evidence < 4.5 * math.sqrt(math.expm1(min(found.bound_error * 10, 1.0)) + 1e-3)
+        result = quiet(alone, family, method=nw.vi(name, draws=1000), seed=7)
+        assert result.log_evidence_bound < 4.5 * result.bound_error + 1e-9
+        assert result.log_evidence < 4.5 * math.sqrt(math.expm1(min(result.bound_error * 10, 1.0)) + 1e-3)
 
 
 @pytest.mark.parametrize("concentrations", [[0.05, 0.05, 0.05], [0.002, 0.003, 0.001]])

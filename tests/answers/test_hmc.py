@@ -168,16 +168,16 @@ CASES: dict[str, tuple[Any, tuple[Any, ...], Callable[[], dict[str, float]]]] = 
 
 def errors(result: nw.Result, answers: dict[str, float]) -> dict[str, float]:
     """How many standard errors each mean is off."""
-    found: dict[str, np.ndarray] = {}
+    z: dict[str, np.ndarray] = {}
     for path, values in result.draws.items():
         name = path.rsplit("/", 1)[-1]
         if values.ndim == 2:
-            found.setdefault(name, values)
+            z.setdefault(name, values)
         else:
-            found |= {f"{name}[{i}]": values[:, :, i] for i in range(values.shape[2])}
+            z |= {f"{name}[{i}]": values[:, :, i] for i in range(values.shape[2])}
     off = {}
     for name, answer in answers.items():
-        values = found[name.removesuffix("^2")]
+        values = z[name.removesuffix("^2")]
         values = values**2 if name.endswith("^2") else values
         off[name] = abs(values.mean() - answer) / diagnostics.mcse_mean(values)
     return off
@@ -214,7 +214,7 @@ def above(result: Any) -> tuple[float, float]:
 
 @pytest.mark.parametrize("kernel", [kernels.nuts_step(), kernels.hmc_step()], ids=repr)
 def test_a_structure_is_sampled_by_mh_beside_the_gradient(kernel: kernels.Kernel) -> None:
-    """What the warning advises gives the share 0.720; the gradient alone, its mutant, keeps to one side."""
+    """The advice of the warning gives the share 0.720; the gradient alone, its mutant, keeps to one side."""
     method = nw.mh(steps=12_000, warmup=2000, chains=4, thin=4, kernel=kernels.cycle(kernels.prior(), kernel))
     assert above(nw.run(halves, method, seed=3))[1] < 4.5
     with pytest.warns(GradientWarning, match="refused for structure"):
@@ -236,7 +236,7 @@ SCALES = (1e-300, 1e-160, 1e-30, 1e-12, 1.0, 1e12, 1e30, 1e160, 1e300)
 def off_scale(x: np.ndarray, mean: float, variance: float) -> float:
     """How many standard errors mean and square of draws (chains, draws) are off, in units of the model's scale."""
     means = ((x, mean), (x**2, mean**2 + variance))
-    return max(abs(values.mean() - one) / diagnostics.mcse_mean(values) for values, one in means)
+    return max(abs(values.mean() - truth) / diagnostics.mcse_mean(values) for values, truth in means)
 
 
 @pytest.mark.parametrize("scale", SCALES)
@@ -257,10 +257,10 @@ def test_a_scale_of_the_model_is_no_matter(method: str, scale: float) -> None:
         )
         draws = result.draws
         assert result.divergences.total == 0
-        for one, (path, values) in zip(result.summary(), draws.items(), strict=False):
+        for row, (path, values) in zip(result.summary(), draws.items(), strict=False):
             sure = diagnostics.mcse_mean(values / scale)
-            assert one.name == path and one.sd / scale == pytest.approx((values / scale).std(ddof=1))
-            assert one.mcse / scale == pytest.approx(sure, rel=1e-6)
+            assert row.name == path and row.sd / scale == pytest.approx((values / scale).std(ddof=1))
+            assert row.mcse / scale == pytest.approx(sure, rel=1e-6)
     assert len(draws) == 2
     for (path, values), mean in zip(draws.items(), (1 / 3, 2 / 3), strict=True):
         x = values / scale

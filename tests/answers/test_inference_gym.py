@@ -21,13 +21,13 @@ from niwaki import diagnostics, model
 from niwaki.result.hmc import GradientWarning
 from niwaki.words import Gaussian
 
-FOUND = importlib.util.find_spec("inference_gym")
+HAS_GYM = importlib.util.find_spec("inference_gym")
 
 
 def read(*parts: str) -> dict[str, Any]:
     """The arrays of one file of the wheel, which imports NumPy alone."""
-    assert FOUND is not None and FOUND.submodule_search_locations
-    return runpy.run_path(str(Path(FOUND.submodule_search_locations[0]).joinpath(*parts)))
+    assert HAS_GYM is not None and HAS_GYM.submodule_search_locations
+    return runpy.run_path(str(Path(HAS_GYM.submodule_search_locations[0]).joinpath(*parts)))
 
 
 def dataset(name: str) -> dict[str, Any]:
@@ -93,13 +93,13 @@ def convection(seen, innovation, noise, step):
 
 def states(draws: np.ndarray, innovation: float, step: float) -> np.ndarray:
     """The states of the convection from its choices, both (numbers, chains, draws)."""
-    at, found = draws[:3], [draws[:3]]
+    at, rows = draws[:3], [draws[:3]]
     for k in range(3, len(draws), 3):
         x, y, z = at
         slope = np.array([10.0 * (y - x), x * (28.0 - z) - y, x * y - 8.0 / 3.0 * z])
         at = at + step * slope + math.sqrt(step) * innovation * draws[k : k + 3]
-        found.append(at)
-    return np.concatenate(found)
+        rows.append(at)
+    return np.concatenate(rows)
 
 
 @model
@@ -118,7 +118,7 @@ def volatility(returns):
 
 
 def volatilities(draws: np.ndarray) -> np.ndarray:
-    """What the Gym calls its parameters, from our choices, both (numbers, chains, draws)."""
+    """Return the Gym's parameters from our choices, both of shape (numbers, chains, draws)."""
     persistence, mean, shock = 2 * draws[0] - 1, draws[1], 2 * np.tan(0.5 * np.pi * draws[2])
     found = [mean + draws[3] * shock / np.sqrt(1 - persistence**2)]
     for deviation in draws[4:]:
@@ -133,18 +133,18 @@ def with_gaps(values: Any, seen: Any) -> list[float | None]:
 def errors(result: nw.Result, truth: str, names: tuple[str, ...], turned: Any = None) -> np.ndarray:
     """How many combined standard errors each mean is off; chains must agree."""
     draws = np.array(list(result.draws.values()))
-    found = draws if turned is None else turned(draws)
+    values = draws if turned is None else turned(draws)
     known = read("targets", "ground_truth", f"{truth}.py")
 
-    def all_of(what: str) -> np.ndarray:
-        keys = ["_".join(word for word in ("IDENTITY", name, what) if word) for name in names]
+    def all_of(quantity: str) -> np.ndarray:
+        keys = ["_".join(word for word in ("IDENTITY", name, quantity) if word) for name in names]
         return np.concatenate([np.ravel(known[key]) for key in keys])
 
     means, theirs = all_of("MEAN"), all_of("MEAN_STANDARD_ERROR")
-    assert len(found) == len(means)
-    assert max(diagnostics.rhat(x) for x in found) < 1.03
-    ours = np.array([diagnostics.mcse_mean(x) for x in found])
-    return np.abs(found.mean(axis=(1, 2)) - means) / np.hypot(ours, theirs)
+    assert len(values) == len(means)
+    assert max(diagnostics.rhat(x) for x in values) < 1.03
+    ours = np.array([diagnostics.mcse_mean(x) for x in values])
+    return np.abs(values.mean(axis=(1, 2)) - means) / np.hypot(ours, theirs)
 
 
 def nuts(**more: Any) -> Any:
@@ -218,10 +218,10 @@ def test_convection() -> None:
     innovation, noise, step = (
         float(data[name]) for name in ("INNOVATION_SCALE", "OBSERVATION_SCALE", "STEP_SIZE")
     )
-    given = (seen, innovation, noise, step)
+    arguments = (seen, innovation, noise, step)
     # A chain may stay on a path that spirals in the opposite direction, 275 nats below: start from a good run.
-    start = nw.run(convection, nw.importance(2000), *given, seed=4).best.choices
-    result = nw.run(convection, nuts(), *given, seed=4, choices=start)
+    start = nw.run(convection, nw.importance(2000), *arguments, seed=4).best.choices
+    result = nw.run(convection, nuts(), *arguments, seed=4, choices=start)
     off = errors(result, "convection_lorenz_bridge", ("",), lambda draws: states(draws, innovation, step))
     assert off.max() < 4
 

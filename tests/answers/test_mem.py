@@ -76,15 +76,15 @@ def tables():
 
 def exact_tables() -> dict[tuple[bool, bool, bool], float]:
     """By hand: 1 copies 0 or is flipped, 2 copies one of both or is flipped."""
-    found: dict[tuple[bool, bool, bool], float] = {}
+    table: dict[tuple[bool, bool, bool], float] = {}
     for a in (False, True):
         for b in (False, True):
             for c in (False, True):
                 of_b = 0.25 + 0.5 * (b == c)
                 of_a = 0.25 + 0.25 * (a == b) + 0.25 * (a == c)
-                found[a, b, c] = 0.5 * of_b * of_a * (0.9 if a == b else 0.2)
-    total = math.fsum(found.values())
-    return {value: share / total for value, share in found.items()}
+                table[a, b, c] = 0.5 * of_b * of_a * (0.9 if a == b else 0.2)
+    total = math.fsum(table.values())
+    return {value: share / total for value, share in table.items()}
 
 
 def painter():
@@ -135,8 +135,8 @@ SAMPLERS: dict[str, nw.methods.Method] = {
 @pytest.mark.parametrize("name", EXACT)
 def test_enumeration_gives_the_answer(name: str) -> None:
     program, truth = EXACT[name]
-    found = nw.run(program, nw.enumerate_all()).distribution()
-    assert found == pytest.approx(truth, abs=1e-9)
+    distribution = nw.run(program, nw.enumerate_all()).distribution()
+    assert distribution == pytest.approx(truth, abs=1e-9)
 
 
 def z_scores(result: Any, truth: dict[Any, float], size: int = 1) -> list[float]:
@@ -144,8 +144,8 @@ def z_scores(result: Any, truth: dict[Any, float], size: int = 1) -> list[float]
     weights = np.exp([sample.log_weight for sample in result])
     scores = []
     for value, share in truth.items():
-        own = weights * np.array([sample.value == value for sample in result])
-        groups = own.reshape(-1, size).sum(axis=1) - share * weights.reshape(-1, size).sum(axis=1)
+        hits = weights * np.array([sample.value == value for sample in result])
+        groups = hits.reshape(-1, size).sum(axis=1) - share * weights.reshape(-1, size).sum(axis=1)
         scores.append(groups.mean() / max(groups.std() / math.sqrt(len(groups)), 1e-12))
     return scores
 
@@ -167,7 +167,7 @@ def test_chains_follow_the_answer(name: str) -> None:
     result = nw.run(program, nw.mh(44_000, kernel=moves, warmup=4000, thin=10, keep=4000), seed=3)
     values = [sample.value for sample in result.samples][-4000:]
     for value, share in truth.items():
-        means = np.array([one == value for one in values], float).reshape(40, -1).mean(axis=1)
+        means = np.array([found_value == value for found_value in values], float).reshape(40, -1).mean(axis=1)
         assert abs(means.mean() - share) < 6 * means.std() / math.sqrt(39), (value, means.mean(), share)
 
 
@@ -182,7 +182,7 @@ def test_strategies_give_the_same_chain(name: str) -> None:
         key: [(s.value, s.log_prior, s.log_score, s.choices) for s in run.samples]
         for key, run in runs.items()
     }
-    assert all(one == seen["rerun"] for one in seen.values())
+    assert all(chain == seen["rerun"] for chain in seen.values())
 
 
 # continuous
@@ -214,17 +214,17 @@ def exact_mu() -> tuple[float, float]:
     """Mean and standard deviation of mu: each group's mean of data has variance 1 + 0.25 / n around it."""
     precision, total = 0.25, 0.0
     for group in set(GROUPS):
-        own = [y for g, y in zip(GROUPS, SEEN, strict=True) if g == group]
-        variance = 1.0 + 0.25 / len(own)
+        data = [y for g, y in zip(GROUPS, SEEN, strict=True) if g == group]
+        variance = 1.0 + 0.25 / len(data)
         precision += 1 / variance
-        total += sum(own) / len(own) / variance
+        total += sum(data) / len(data) / variance
     return total / precision, precision**-0.5
 
 
 def test_gradients_follow_what_a_memoised_function_captures() -> None:
     mean, sd = exact_mu()
-    found = nw.run(hierarchy, nw.nuts(4000, warmup=500), seed=1)
-    values = np.array([sample.value for sample in found.samples])
+    result = nw.run(hierarchy, nw.nuts(4000, warmup=500), seed=1)
+    values = np.array([sample.value for sample in result.samples])
     stretches = values.reshape(40, -1).mean(axis=1)
     assert abs(values.mean() - mean) < 6 * stretches.std() / math.sqrt(39)
     assert values.std() == pytest.approx(sd, rel=0.15)
@@ -266,9 +266,9 @@ def test_a_call_has_an_address_of_its_own() -> None:
 
 def test_a_call_can_be_held() -> None:
     held = {"is_red(2)/bernoulli": True}
-    found = nw.run(urn, nw.enumerate_all(), hold=held).distribution()
+    distribution = nw.run(urn, nw.enumerate_all(), hold=held).distribution()
     # The second ball is asked for, and red: 1 of 9 pairs is (2, 2), 4 have one 2 and another ball that must be red.
-    assert found[True] == pytest.approx(1 / (1 + 4 * RED), abs=1e-9)
+    assert distribution[True] == pytest.approx(1 / (1 + 4 * RED), abs=1e-9)
 
 
 # refused

@@ -43,10 +43,10 @@ def exact() -> dict[str, float]:
     for count, share in enumerate(SHARES, start=1):
         for labels in itertools.product(range(count), repeat=len(DATA)):
             log, means = math.log(share) - len(DATA) * math.log(count), []
-            for one in range(count):
-                own = [y for y, label in zip(DATA, labels, strict=True) if label == one]
-                precision = 1 / WIDE**2 + len(own) / NARROW**2
-                mean = sum(own) / NARROW**2 / precision
+            for group in range(count):
+                data = [y for y, label in zip(DATA, labels, strict=True) if label == group]
+                precision = 1 / WIDE**2 + len(data) / NARROW**2
+                mean = sum(data) / NARROW**2 / precision
                 log += -0.5 * math.log(precision * WIDE**2) + 0.5 * precision * mean**2
                 means.append((mean, 1 / precision))
             weight = math.exp(log)
@@ -66,8 +66,8 @@ def exact() -> dict[str, float]:
 
 def seen(sample: nw.Sample) -> dict[str, float]:
     count, together, first, third = sample.value
-    found = {f"count {n}": float(count == n) for n in (1, 2, 3)}
-    return found | {"together": float(together), "first": first, "third": third, "third^2": third**2}
+    hits = {f"count {n}": float(count == n) for n in (1, 2, 3)}
+    return hits | {"together": float(together), "first": first, "third": third, "third^2": third**2}
 
 
 KERNELS = {

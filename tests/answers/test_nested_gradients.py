@@ -1,8 +1,8 @@
 """Gradients go through an `infer` by enumeration: its probabilities are functions of the choices outside.
 
-Of models of different shape the density is the engine's own log joint at the same choices, to its grid, and its
-gradient is that of central differences of the engine's log joint, which know nothing of the recording. So is machine
-code. Chains and normals that follow the gradient are compared with quadrature of that log joint.
+For models of different shape, the density equals the engine's log joint at the same choices, to its grid. The gradient
+equals central differences of the engine's log joint, which do not use the recording; so does the gradient of machine
+code. Chains and normals that follow the gradient are compared with quadrature of the log joint.
 
 The mutant forgets that the normaliser of the inner distribution varies (`nested-gradient-fixed-normaliser`).
 """
@@ -142,7 +142,7 @@ def marginal():
 
 @model
 def support_changes():
-    """Which inner runs are possible depends on comparisons of outer values."""
+    """Comparisons of outer values decide which inner runs are possible."""
     x = nw.gaussian(0, 1)
 
     def ladder():
@@ -251,15 +251,15 @@ def log_joint(of: Any, choices: dict[str, Any]) -> float:
 
 def differences(f: Callable[[np.ndarray], float], x: np.ndarray) -> np.ndarray:
     """Central differences, extrapolated once. The grid of scores has steps of 2^-32 nats."""
-    found = []
+    gradient = []
     for k in range(len(x)):
         step = np.zeros_like(x)
         slopes = []
         for h in (4e-3, 2e-3):
             step[k] = h
             slopes.append((f(x + step) - f(x - step)) / (2 * h))
-        found.append((4 * slopes[1] - slopes[0]) / 3)
-    return np.array(found)
+        gradient.append((4 * slopes[1] - slopes[0]) / 3)
+    return np.array(gradient)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -399,14 +399,14 @@ def test_chains_follow_the_outer_posterior(of: Any, method: Any) -> None:
 def test_normals_find_the_evidence(of: Any) -> None:
     """The evidence by weighed draws, against quadrature; within 4.5 standard errors by their effective number."""
     _, _, truth = moments(of, "rate" if of is expectation else "x", -8.0, 8.0)
-    found = nw.run(of, nw.vi(draws=4000), seed=2)
-    assert found.log_evidence is not None
-    assert abs(found.log_evidence - truth) < 0.05, (found.log_evidence, truth)
+    result = nw.run(of, nw.vi(draws=4000), seed=2)
+    assert result.log_evidence is not None
+    assert abs(result.log_evidence - truth) < 0.05, (result.log_evidence, truth)
 
 
 def test_an_ascent_finds_the_top() -> None:
     """Chains that begin with an ascent come near the highest point of a grid."""
     x = np.linspace(-4, 4, 801)
     highest = max(log_joint(expectation, {"rate": float(at)}) for at in x)
-    found = nw.run(expectation, nw.explore(chains=16), seed=1)
-    assert highest - 0.05 < max(sample.log_joint for sample in found.samples) < highest + 1e-6
+    result = nw.run(expectation, nw.explore(chains=16), seed=1)
+    assert highest - 0.05 < max(sample.log_joint for sample in result.samples) < highest + 1e-6

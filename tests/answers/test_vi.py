@@ -89,29 +89,31 @@ def quiet(*args, **settings) -> nw.Result:
 
 def test_the_full_rank_has_the_evidence_for_its_bound():
     evidence, mean, cover = line_answers()
-    found = nw.run(line, X.tolist(), Y.tolist(), method=nw.vi("full-rank", tolerance=1e-4), seed=1)
-    assert found.converged
-    assert abs(found.log_evidence_bound - evidence) < 2e-3
-    assert found.bound_error < 2e-3
-    assert abs(found.log_evidence - evidence) < 2e-3
-    assert found.k_hat < 0.7
-    assert np.allclose(found.means[0], mean, atol=0.01)
-    assert np.allclose(found.covariances[0], cover, rtol=0.03, atol=1e-3)
+    result = nw.run(line, X.tolist(), Y.tolist(), method=nw.vi("full-rank", tolerance=1e-4), seed=1)
+    assert result.converged
+    assert abs(result.log_evidence_bound - evidence) < 2e-3
+    assert result.bound_error < 2e-3
+    assert abs(result.log_evidence - evidence) < 2e-3
+    assert result.k_hat < 0.7
+    assert np.allclose(result.means[0], mean, atol=0.01)
+    assert np.allclose(result.covariances[0], cover, rtol=0.03, atol=1e-3)
 
 
 def test_the_mean_field_has_the_bound_of_the_best_diagonal():
     evidence, mean, cover = line_answers()
     precision = np.linalg.inv(cover)
     best = evidence - 0.5 * (np.log(np.diag(precision)).sum() - np.linalg.slogdet(precision)[1])
-    found = quiet(line, X.tolist(), Y.tolist(), method=nw.vi(draws=20_000), seed=2)
-    assert found.bound_error < 0.02
+    result = quiet(line, X.tolist(), Y.tolist(), method=nw.vi(draws=20_000), seed=2)
+    assert result.bound_error < 0.02
     # The optimum is flat: parameters an error of e away cost e^2.
-    assert best - 0.02 - 4.5 * found.bound_error < found.log_evidence_bound < best + 4.5 * found.bound_error
-    assert found.log_evidence_bound < evidence - 0.01
-    slope = found.draws["slope"][0]
-    near(found, slope, mean[0], 0.02)
-    near(found, slope**2, mean[0] ** 2 + cover[0, 0], 0.05)
-    ratios = np.exp(found.log_ratios - evidence)
+    assert (
+        best - 0.02 - 4.5 * result.bound_error < result.log_evidence_bound < best + 4.5 * result.bound_error
+    )
+    assert result.log_evidence_bound < evidence - 0.01
+    slope = result.draws["slope"][0]
+    near(result, slope, mean[0], 0.02)
+    near(result, slope**2, mean[0] ** 2 + cover[0, 0], 0.05)
+    ratios = np.exp(result.log_ratios - evidence)
     assert abs(ratios.mean() - 1.0) < 4.5 * ratios.std() / math.sqrt(len(ratios))
 
 
@@ -123,22 +125,22 @@ def test_a_bounded_choice(family):
         return math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b)
 
     evidence = log_beta(a, b) - log_beta(2.0, 3.0)
-    found = nw.run(share_of_coins, COINS, method=nw.vi(family, draws=10_000, paths=2), seed=3)
-    assert found.log_evidence_bound < evidence + 4.5 * found.bound_error
-    assert evidence - found.log_evidence_bound < 0.1
-    ratios = np.exp(found.log_ratios - evidence)
+    result = nw.run(share_of_coins, COINS, method=nw.vi(family, draws=10_000, paths=2), seed=3)
+    assert result.log_evidence_bound < evidence + 4.5 * result.bound_error
+    assert evidence - result.log_evidence_bound < 0.1
+    ratios = np.exp(result.log_ratios - evidence)
     assert abs(ratios.mean() - 1.0) < 4.5 * ratios.std() / math.sqrt(len(ratios))
-    share = np.concatenate([one["share"] for one in found.values])
-    near(found, share, a / (a + b), 0.005)
-    near(found, share**2, a * (a + 1) / ((a + b) * (a + b + 1)), 0.005)
+    share = np.concatenate([row["share"] for row in result.values])
+    near(result, share, a / (a + b), 0.005)
+    near(result, share**2, a * (a + 1) / ((a + b) * (a + b + 1)), 0.005)
 
 
 def test_the_funnel_is_not_fitted_and_k_says_so():
     with pytest.warns(GradientWarning, match="Pareto's k"):
-        found = nw.run(funnel, method=nw.vi(draws=4000), seed=4)
-    assert found.k_hat > 0.7
+        result = nw.run(funnel, method=nw.vi(draws=4000), seed=4)
+    assert result.k_hat > 0.7
     # The evidence is 1: the bound is below it.
-    assert found.log_evidence_bound < -0.3
+    assert result.log_evidence_bound < -0.3
 
 
 @model
@@ -168,20 +170,20 @@ def around(concentration: float, seen: list[float]) -> float:
     return float(np.log(np.exp(logs).sum() * 2.0 * np.pi / 4096))
 
 
-def has_evidence(found: nw.Result, truth: float) -> None:
+def has_evidence(result: nw.Result, truth: float) -> None:
     """Hold the bound and the evidence against the truth."""
-    assert found.log_evidence_bound < truth + 4.5 * found.bound_error + 1e-9, found
-    ratios = np.exp(found.log_ratios - truth)
-    assert abs(ratios.mean() - 1.0) < 4.5 * ratios.std() / math.sqrt(len(ratios)) + 1e-9, found
+    assert result.log_evidence_bound < truth + 4.5 * result.bound_error + 1e-9, result
+    ratios = np.exp(result.log_ratios - truth)
+    assert abs(ratios.mean() - 1.0) < 4.5 * ratios.std() / math.sqrt(len(ratios)) + 1e-9, result
 
 
 @pytest.mark.parametrize("family", ["mean-field", "full-rank", "pathfinder"])
 @pytest.mark.parametrize("concentration", [0.0, 0.01, 0.3, 1.0, 50.0])
 @pytest.mark.parametrize("seen", [[], [3.0, -3.1], [0.5, 0.7, 0.4]])
 def test_an_angle_has_its_evidence(family, concentration, seen):
-    """Of three data the last mode is across the cut of the circle. 45 runs; each alarm is false once in 75,000."""
-    found = quiet(direction, concentration, seen, method=nw.vi(family, draws=2000), seed=11)
-    has_evidence(found, around(concentration, seen))
+    """The last mode of three data is across the cut of the circle. 45 runs; each alarm is false once in 75,000."""
+    result = quiet(direction, concentration, seen, method=nw.vi(family, draws=2000), seed=11)
+    has_evidence(result, around(concentration, seen))
 
 
 @pytest.mark.parametrize("family", ["mean-field", "full-rank", "pathfinder"])
@@ -189,12 +191,12 @@ def test_an_angle_that_follows_a_number_round_and_round(family):
     # A normal with correlations knows the turn by the number. A mean field cannot: it stays in one turn, and says so.
     if family == "mean-field":
         with pytest.warns(GradientWarning, match="misses a part"):
-            found = nw.run(phase, method=nw.vi(family, draws=2000), seed=12)
-        assert found.log_evidence_bound < 4.5 * found.bound_error
+            result = nw.run(phase, method=nw.vi(family, draws=2000), seed=12)
+        assert result.log_evidence_bound < 4.5 * result.bound_error
     else:
-        found = quiet(phase, method=nw.vi(family, draws=2000), seed=12)
-        has_evidence(found, 0.0)
-        assert found.effective > 0.95 * len(found)
+        result = quiet(phase, method=nw.vi(family, draws=2000), seed=12)
+        has_evidence(result, 0.0)
+        assert result.effective > 0.95 * len(result)
 
 
 def test_two_equal_modes_have_equal_weight():
@@ -204,14 +206,14 @@ def test_two_equal_modes_have_equal_weight():
     truth = float(np.log(np.exp(log).sum() * (x[1] - x[0])))
     split = 0
     for seed in range(12):
-        found = quiet(two_modes, method=nw.vi("pathfinder", paths=8, draws=500), seed=seed)
-        signs = [float(np.sign(mean[0])) for mean in found.means]
+        result = quiet(two_modes, method=nw.vi("pathfinder", paths=8, draws=500), seed=seed)
+        signs = [float(np.sign(mean[0])) for mean in result.means]
         if len(set(signs)) == 1:
             continue
         split += signs.count(1.0) != 4
-        has_evidence(found, truth)
-        right = np.concatenate([one["x"] for one in found.values]) > 0.0
-        near(found, right.astype(float), 0.5, 0.02)
+        has_evidence(result, truth)
+        right = np.concatenate([row["x"] for row in result.values]) > 0.0
+        near(result, right.astype(float), 0.5, 0.02)
     # Where both modes had as many paths, weights by the own normal would be right too.
     assert split > 4
 
@@ -222,43 +224,43 @@ def test_a_normal_that_fits_has_no_warning():
         warnings.simplefilter("ignore", GradientWarning)
         warnings.filterwarnings("error", "(?s).*misses a part", GradientWarning)
         for seed in range(20):
-            found = nw.run(share_of_coins, COINS, method=nw.vi(), seed=seed)
-            assert found.k_curvature < 0.7
-            found = nw.run(line, X.tolist(), Y.tolist(), method=nw.vi("full-rank"), seed=seed)
-            assert found.k_curvature < 0.7
+            result = nw.run(share_of_coins, COINS, method=nw.vi(), seed=seed)
+            assert result.k_curvature < 0.7
+            result = nw.run(line, X.tolist(), Y.tolist(), method=nw.vi("full-rank"), seed=seed)
+            assert result.k_curvature < 0.7
 
 
 def test_paths_find_both_modes():
-    found = quiet(two_modes, method=nw.vi("pathfinder", paths=8, draws=1000), seed=5)
-    signs = {float(np.sign(mean[0])) for mean in found.means}
+    result = quiet(two_modes, method=nw.vi("pathfinder", paths=8, draws=1000), seed=5)
+    signs = {float(np.sign(mean[0])) for mean in result.means}
     assert signs == {-1.0, 1.0}
-    x = np.concatenate([one["x"] for one in found.values])
+    x = np.concatenate([row["x"] for row in result.values])
     assert np.abs(np.abs(x).mean() - 2.0) < 0.1
 
 
 def test_draws_of_density_zero_are_left_out_and_the_evidence_is_right():
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as record:
         warnings.simplefilter("always", GradientWarning)
-        found = nw.run(walled, method=nw.vi(start="run", draws=20_000), seed=6)
-    assert any("density zero" in str(one.message) for one in said)
-    assert found.impossible > 0
-    assert found.log_evidence_bound == -math.inf
-    assert len(found) == 20_000 - found.impossible
-    ratios = np.concatenate([np.exp(found.log_ratios), np.zeros(found.impossible)])
+        result = nw.run(walled, method=nw.vi(start="run", draws=20_000), seed=6)
+    assert any("density zero" in str(warning.message) for warning in record)
+    assert result.impossible > 0
+    assert result.log_evidence_bound == -math.inf
+    assert len(result) == 20_000 - result.impossible
+    ratios = np.concatenate([np.exp(result.log_ratios), np.zeros(result.impossible)])
     truth = 0.5 * (1.0 + math.erf(2.5 / math.sqrt(2.0)))
     assert abs(ratios.mean() - truth) < 4.5 * ratios.std() / math.sqrt(len(ratios))
 
 
 def test_same_seed_same_bits_on_any_number_of_threads():
     for family in ("mean-field", "full-rank", "pathfinder"):
-        one, four = (
+        first, second = (
             quiet(share_of_coins, COINS, method=nw.vi(family, draws=50, steps=200), seed=7, threads=threads)
             for threads in (1, 4)
         )
-        assert np.array_equal(one.log_ratios, four.log_ratios)
-        assert all(np.array_equal(a, b) for a, b in zip(one.positions, four.positions, strict=True))
+        assert np.array_equal(first.log_ratios, second.log_ratios)
+        assert all(np.array_equal(a, b) for a, b in zip(first.positions, second.positions, strict=True))
     other = quiet(share_of_coins, COINS, method=nw.vi(draws=50, steps=200), seed=8)
-    assert not np.array_equal(other.positions[0], one.positions[0])
+    assert not np.array_equal(other.positions[0], first.positions[0])
 
 
 @pytest.mark.parametrize("wrong", [rooms, counted])
@@ -272,12 +274,12 @@ def test_a_result_is_a_start_and_a_metric():
     _, mean, cover = line_answers()
     data = X.tolist(), Y.tolist()
     for family in ("mean-field", "full-rank"):
-        found = quiet(line, *data, method=nw.vi(family, draws=200), seed=9)
-        (start,) = found.resampled(1)
+        result = quiet(line, *data, method=nw.vi(family, draws=200), seed=9)
+        (start,) = result.resampled(1)
         chains = nw.run(
             line,
             *data,
-            method=nw.nuts(draws=1000, warmup=100, metric=found.metric),
+            method=nw.nuts(draws=1000, warmup=100, metric=result.metric),
             choices=start.choices,
             seed=9,
         )
@@ -290,9 +292,9 @@ def test_a_result_is_a_start_and_a_metric():
 
 
 def test_resampled_draws_have_equal_weight():
-    found = nw.run(share_of_coins, COINS, method=nw.vi(draws=2000), seed=10)
-    share = np.array([sample.value for sample in found.resampled(2000)])
-    mean, error = weighted(found, found.draws["share"][0])
+    result = nw.run(share_of_coins, COINS, method=nw.vi(draws=2000), seed=10)
+    share = np.array([sample.value for sample in result.resampled(2000)])
+    mean, error = weighted(result, result.draws["share"][0])
     assert abs(share.mean() - mean) < error
 
 

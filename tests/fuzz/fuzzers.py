@@ -45,7 +45,7 @@ NO_FUZZERS = {"fuzzers", "reports", "seeds", "test_fuzzers"}
 
 @dataclass
 class Tried:
-    """What one fuzzer did."""
+    """The result of a fuzzer."""
 
     name: str
     inputs: int = 0
@@ -56,7 +56,7 @@ class Tried:
 
 def engine_targets() -> list[str]:
     """The targets of cargo-fuzz."""
-    return [one["name"] for one in tomllib.loads((ENGINE / "Cargo.toml").read_text())["bin"]]
+    return [binary["name"] for binary in tomllib.loads((ENGINE / "Cargo.toml").read_text())["bin"]]
 
 
 def python_targets() -> list[str]:
@@ -84,10 +84,10 @@ def build() -> None:
 
 def program(target: str) -> str:
     """The program of a target; cargo-fuzz builds it in a folder that is named by the machine."""
-    made = sorted(ENGINE.glob(f"target/*/release/{target}"))
-    if not made:
+    programs = sorted(ENGINE.glob(f"target/*/release/{target}"))
+    if not programs:
         raise SystemExit(f"`cargo fuzz build` made no program {target}")
-    return str(made[0])
+    return str(programs[0])
 
 
 def unpacked(target: str) -> Path:
@@ -132,8 +132,8 @@ def run_engine(target: str, seconds: float, job: int) -> Tried:
 def reason(log: str) -> str:
     """The line that says what happened."""
     for pattern in (r"panicked at .*\n.*", r"ERROR: .*", r"ALARM: .*", r"SUMMARY: .*"):
-        if found := re.search(pattern, log):
-            return " ".join(found[0].split())[:300]
+        if match := re.search(pattern, log):
+            return " ".join(match[0].split())[:300]
     return log.strip().splitlines()[-1][:300] if log.strip() else "no message"
 
 
@@ -169,15 +169,15 @@ def together(run: Callable[[str, float, int], Tried], name: str, seconds: float,
 
 def pack(target: str) -> None:
     """The smallest inputs that reach what the corpus reaches, into the repository."""
-    everything = unpacked(target)
-    least = everything.with_name(f"{target}.least")
+    files = unpacked(target)
+    least = files.with_name(f"{target}.least")
     shutil.rmtree(least, ignore_errors=True)
     least.mkdir()
-    merge = [program(target), "-merge=1", str(least), str(everything)]
+    merge = [program(target), "-merge=1", str(least), str(files)]
     subprocess.run(merge, cwd=ROOT, env=environment(), check=True, stderr=subprocess.DEVNULL)
     zipped(target, least)
-    shutil.rmtree(everything)
-    least.rename(everything)
+    shutil.rmtree(files)
+    least.rename(files)
 
 
 def zipped(target: str, folder: Path) -> None:
@@ -235,13 +235,21 @@ def main() -> int:
         if name in engine:
             unpacked(name)
         run = run_engine if name in engine else run_python
-        one = together(run, name, 60 * chosen.minutes, chosen.jobs)
-        print(row(one.name, one.inputs, one.seconds, one.cpu, len(one.findings)), flush=True)
-        for finding in one.findings:
+        result = together(run, name, 60 * chosen.minutes, chosen.jobs)
+        print(row(result.name, result.inputs, result.seconds, result.cpu, len(result.findings)), flush=True)
+        for finding in result.findings:
             print(f"    {finding}", flush=True)
-        tried.append(one)
-    inputs, findings = sum(one.inputs for one in tried), sum(len(one.findings) for one in tried)
-    print(row("all", inputs, sum(one.seconds for one in tried), sum(one.cpu for one in tried), findings))
+        tried.append(result)
+    inputs, findings = sum(result.inputs for result in tried), sum(len(result.findings) for result in tried)
+    print(
+        row(
+            "all",
+            inputs,
+            sum(result.seconds for result in tried),
+            sum(result.cpu for result in tried),
+            findings,
+        )
+    )
     return 1 if findings else 0
 
 

@@ -1,4 +1,4 @@
-"""What a fuzzer in Python reports: inputs by what became of them, and findings, each with its input in a file."""
+"""The report of a fuzzer in Python: inputs by what became of them, and findings, each with its input in a file."""
 
 from __future__ import annotations
 
@@ -42,7 +42,15 @@ def report(name: str, fuzz: Callable[[float, int, Report], None]) -> None:
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 60.0
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else secrets.randbelow(2**31)
     print(f"{name}: {seconds:.0f} s from seed {seed}", flush=True)
-    made = Report(name)
-    fuzz(seconds, seed, made)
-    print(json.dumps({"inputs": made.counts.total(), "counts": dict(made.counts), "findings": made.found}))
-    sys.exit(1 if made.found else 0)
+    report_of_name = Report(name)
+    fuzz(seconds, seed, report_of_name)
+    print(
+        json.dumps(
+            {
+                "inputs": report_of_name.counts.total(),
+                "counts": dict(report_of_name.counts),
+                "findings": report_of_name.found,
+            }
+        )
+    )
+    sys.exit(1 if report_of_name.found else 0)

@@ -35,8 +35,8 @@ def fuzz(seconds: float, seed: int, to: Report) -> None:
         while time.monotonic() < end:
             data, reader = chance.choice(whole)
             for _ in range(ROUND):
-                what, text = mutated(data, chance)
-                for wrong in tracebacks([(what, text)], reader, place):
+                change, text = mutated(data, chance)
+                for wrong in tracebacks([(change, text)], reader, place):
                     to.finding(text, ".json", wrong)
                 to.tried(reader.__name__)
 

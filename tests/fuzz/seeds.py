@@ -34,17 +34,19 @@ def texts() -> list[str]:
     from sources import originals
     from test_engine import load
 
-    made = [kind.program(seed).text for kind in (programs, chain_programs) for seed in range(PROGRAMS)]
-    found = []
-    for source in originals() + made:
+    programs_of_seeds = [
+        kind.program(seed).text for kind in (programs, chain_programs) for seed in range(PROGRAMS)
+    ]
+    pages = []
+    for source in originals() + programs_of_seeds:
         try:
             core = load(source).core()
         except Exception:  # Not every source is a model by itself.
             continue
         written = [(number, constant_form(value)) for number, value in enumerate(core.constants)]
         constants = [Form("const", [str(number), form]) for number, form in written if form is not None]
-        found.append(write_tree(Form("module", [*constants, *core.form.args]), 0, False, True) + "\n")
-    return [text for text in found if len(text) <= LONGEST]
+        pages.append(write_tree(Form("module", [*constants, *core.form.args]), 0, False, True) + "\n")
+    return [text for text in pages if len(text) <= LONGEST]
 
 
 def write(target: str, inputs: list[bytes]) -> None:
@@ -57,9 +59,9 @@ def write(target: str, inputs: list[bytes]) -> None:
 
 
 if __name__ == "__main__":
-    found = [text.encode() for text in texts()]
-    write("core_text", found)
-    write("programs", [bytes(4) + text for text in found])
+    seeds = [text.encode() for text in texts()]
+    write("core_text", seeds)
+    write("programs", [bytes(4) + text for text in seeds])
     for target in engine_targets():
         if target not in ("core_text", "programs"):
             dice = random.Random(target)

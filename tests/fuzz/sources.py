@@ -65,10 +65,10 @@ def originals() -> list[str]:
     files = sorted((ROOT / "python/niwaki/gallery").glob("*.py")) + sorted(
         (ROOT / "benches/models").glob("*.py")
     )
-    found = [path.read_text() for path in files if "@model" in path.read_text()]
+    sources = [path.read_text() for path in files if "@model" in path.read_text()]
     for page in sorted((ROOT / "tests/language").glob("*.md")):
-        found += [PRELUDE + case.program for case in cases(page)]
-    return found + [feature(name) for name in FEATURES]
+        sources += [PRELUDE + case.program for case in cases(page)]
+    return sources + [feature(name) for name in FEATURES]
 
 
 class Mutator:
@@ -142,12 +142,12 @@ class Mutator:
             case _:
                 other = pick.choice(self.originals).splitlines()
                 start = pick.randrange(len(other))
-                taken = other[start : start + size]
+                block = other[start : start + size]
                 # As deep as the line that it stands before.
                 here = len(lines[at]) - len(lines[at].lstrip())
-                there = len(taken[0]) - len(taken[0].lstrip())
+                there = len(block[0]) - len(block[0].lstrip())
                 lines[at:at] = [
-                    " " * max(0, len(t) - len(t.lstrip()) + here - there) + t.lstrip() for t in taken
+                    " " * max(0, len(t) - len(t.lstrip()) + here - there) + t.lstrip() for t in block
                 ]
         return "\n".join(lines) + "\n"
 
@@ -199,7 +199,7 @@ def within(seconds: float) -> Iterator[None]:
 
 
 def judged(path: Path) -> tuple[str, str]:
-    """What became of a source (`refused`, `parameters`, `runs`, `fails`), and what is wrong, if anything."""
+    """Return the outcome of a source (`refused`, `parameters`, `runs`, `fails`), and what is wrong, if anything."""
     import niwaki as nw
     from niwaki.errors import NiwakiError
     from niwaki.lang.plain import run_python
@@ -241,14 +241,14 @@ def judged(path: Path) -> tuple[str, str]:
     try:
         if isinstance(there, dict):
             return "runs", compared(plain(choices=there["choices"]), there)
-        own = plain(seed=1)
+        reference = plain(seed=1)
     except Late:
         return "late", ""
-    if isinstance(own, dict):
-        there = engine(choices=own["choices"])
-    if any(isinstance(run, NiwakiError) and run.code in ONE_SIDED for run in (own, there)):
+    if isinstance(reference, dict):
+        there = engine(choices=reference["choices"])
+    if any(isinstance(run, NiwakiError) and run.code in ONE_SIDED for run in (reference, there)):
         return "one-sided", ""
-    return "fails", compared(own, there)
+    return "fails", compared(reference, there)
 
 
 def child(first: int, count: int, folder: Path) -> None:
@@ -291,15 +291,15 @@ def batch(seed: int, seconds: float, folder: Path, to: Report) -> None:
         signal.signal(signal.SIGALRM, lambda *_: run.kill())
         assert run.stdout is not None
         for line in run.stdout:
-            found = json.loads(line)
+            report = json.loads(line)
             signal.alarm(HANGS)
-            if "begins" in found:
-                path, ended = Path(found["begins"]), False
+            if "begins" in report:
+                path, ended = Path(report["begins"]), False
                 continue
             ended = True
-            to.tried(found["became"])
-            if found["wrong"]:
-                to.finding(path.read_text() if path else "", ".py", found["wrong"])
+            to.tried(report["became"])
+            if report["wrong"]:
+                to.finding(path.read_text() if path else "", ".py", report["wrong"])
             if time.monotonic() - began > seconds:
                 run.kill()
                 break

@@ -21,9 +21,9 @@ def test_mutated_sources_are_models_or_messages(tmp_path: Path, monkeypatch: pyt
 
 def test_a_mutator_gives_the_same_sources_again() -> None:
     first, second = sources.Mutator(5), sources.Mutator(5)
-    made = [first.source() for _ in range(20)]
-    assert made == [second.source() for _ in range(20)]
-    assert len(set(made)) == 20
+    mutants = [first.source() for _ in range(20)]
+    assert mutants == [second.source() for _ in range(20)]
+    assert len(set(mutants)) == 20
 
 
 def test_targets_have_sources_and_corpora() -> None:

@@ -39,7 +39,7 @@ def circles(graph: Graph) -> list[list[str]]:
     order: dict[str, int] = {}
     low: dict[str, int] = {}
     waiting: list[str] = []
-    found = []
+    sets = []
     for start in sorted(graph):
         if start in order:
             continue
@@ -62,9 +62,9 @@ def circles(graph: Graph) -> list[list[str]]:
                     low[open_nodes[-1][0]] = min(low[open_nodes[-1][0]], low[node])
                 if low[node] == order[node]:
                     place = waiting.index(node)
-                    found.append(sorted(waiting[place:]))
+                    sets.append(sorted(waiting[place:]))
                     del waiting[place:]
-    return sorted((each for each in found if len(each) > 1), key=lambda each: (-len(each), each))
+    return sorted((each for each in sets if len(each) > 1), key=lambda each: (-len(each), each))
 
 
 def room(file: str) -> str:
@@ -80,11 +80,11 @@ def folder(file: str) -> str:
 
 
 def folders(graph: Graph) -> Graph:
-    """The same with a node for each folder."""
-    found: Graph = {folder(file): set() for file in graph}
+    """Return the graph of imports with a node for each folder."""
+    nodes: Graph = {folder(file): set() for file in graph}
     for file, imported in graph.items():
-        found[folder(file)] |= {folder(each) for each in imported} - {folder(file)}
-    return found
+        nodes[folder(file)] |= {folder(each) for each in imported} - {folder(file)}
+    return nodes
 
 
 def rooms(graph: Graph) -> list[str]:
@@ -100,10 +100,10 @@ def rooms(graph: Graph) -> list[str]:
     return placed
 
 
-def named(found: list[list[str]]) -> dict[str, int]:
+def named(sets: list[list[str]]) -> dict[str, int]:
     """Circles and their sizes; a circle has the name of the folder that its parts share, and a number if others do."""
     sizes: dict[str, int] = {}
-    for circle in found:
+    for circle in sets:
         shared = os.path.commonpath(circle)
         number = 2
         name = shared
@@ -114,18 +114,18 @@ def named(found: list[list[str]]) -> dict[str, int]:
 
 
 def faults(graph: Graph, allowed: dict[str, dict[str, int]]) -> list[str]:
-    """What the table of exceptions does not allow, and what it still allows though it is gone."""
+    """Return circles that the table of exceptions does not allow, and exceptions without a circle."""
     large = [each for each in circles(graph) if len(each) > LIMIT]
-    found = []
+    lines = []
     for kind, present in ("files", named(large)), ("folders", named(circles(folders(graph)))):
         table = allowed.get(kind, {})
         for name in sorted(present.keys() | table.keys()):
             size, limit = present.get(name, 0), table.get(name, 0)
             if size > limit:
-                found.append(f"{name}: a circle of {size} {kind}, {limit or 'none'} allowed")
+                lines.append(f"{name}: a circle of {size} {kind}, {limit or 'none'} allowed")
             elif size < limit:
-                found.append(f"{name}: {size} {kind} in place of {limit}: {EXCEPTIONS.name} allows too much")
-    return found
+                lines.append(f"{name}: {size} {kind} in place of {limit}: {EXCEPTIONS.name} allows too much")
+    return lines
 
 
 def exceptions() -> dict[str, dict[str, int]]:
@@ -140,11 +140,11 @@ def report() -> str:
     lines = [f"{'':18}{'files':>6}{'circles':>9}{'largest':>9}{'of folders':>12}"]
     for name in rooms(graph):
         files = [each for each in graph if room(each) == name]
-        own = [len(each) for each in of_files if room(each[0]) == name]
+        sizes = [len(each) for each in of_files if room(each[0]) == name]
         wide = [len(each) for each in of_folders if room(each[0]) == name]
-        lines.append(f"{name:18}{len(files):>6}{len(own):>9}{max(own, default=0):>9}{len(wide):>12}")
-    for kind, edges, found in ("files", graph, of_files), ("folders", folders(graph), of_folders):
-        for (name, size), circle in zip(named(found).items(), found, strict=True):
+        lines.append(f"{name:18}{len(files):>6}{len(sizes):>9}{max(sizes, default=0):>9}{len(wide):>12}")
+    for kind, edges, sets in ("files", graph, of_files), ("folders", folders(graph), of_folders):
+        for (name, size), circle in zip(named(sets).items(), sets, strict=True):
             shared = os.path.commonpath(circle)
             short = {each: os.path.relpath(each, shared) for each in circle}
             lines += ["", f"{name}: {size} {kind}"]
@@ -188,19 +188,19 @@ def drawn() -> str:
         used = {room(target) for file in graph if room(file) == crate for target in graph[file]} - {crate}
         lines.append(f"| `{_short(crate)}` | {_list([_short(each) for each in crates if each in used])} |")
     for name in order:
-        own = {
+        nodes = {
             node: {each for each in to if room(each) == name}
             for node, to in between.items()
             if room(node) == name
         }
-        if len(own) < 2:
+        if len(nodes) < 2:
             continue
-        groups = in_order(own)
+        groups = in_order(nodes)
         place = [each for group in groups for each in group]
         lines += ["", f"## {name}", "", "| folder | imports |", "| --- | --- |"]
         for group in groups:
             for node in group:
-                shown = [_bold(_below(each, name), each in group) for each in place if each in own[node]]
+                shown = [_bold(_below(each, name), each in group) for each in place if each in nodes[node]]
                 beyond = {room(each) for each in between[node]} - {name}
                 shown = [f"`{_short(each)}`" for each in crates if each in beyond] + shown
                 lines.append(f"| {_bold(_below(node, name), len(group) > 1)} | {', '.join(shown)} |")

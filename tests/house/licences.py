@@ -62,25 +62,25 @@ def choices(expression: str) -> list[set[str]]:
     words = re.findall(r"\(|\)|[^\s()]+", expression.replace("/", " OR "))
 
     def either() -> list[set[str]]:
-        found = both()
+        options = both()
         while words and words[0] == "OR":
             words.pop(0)
-            found += both()
-        return found
+            options += both()
+        return options
 
     def both() -> list[set[str]]:
-        found = one()
+        options = term()
         while words and words[0] == "AND":
             words.pop(0)
-            found = [left | right for right in one() for left in found]
-        return found
+            options = [left | right for right in term() for left in options]
+        return options
 
-    def one() -> list[set[str]]:
+    def term() -> list[set[str]]:
         word = words.pop(0)
         if word == "(":
-            found = either()
+            options_inside = either()
             words.pop(0)
-            return found
+            return options_inside
         if words and words[0] == "WITH":
             words.pop(0)
             word = f"{word} WITH {words.pop(0)}"
@@ -100,18 +100,18 @@ class Crate:
     source: str
     shipped: bool
 
-    def taken(self) -> set[str]:
-        """The licences under which it is used here."""
+    def licences(self) -> set[str]:
+        """Return the licences under which Niwaki uses the crate."""
         order = {name: place for place, name in enumerate(PREFERRED)}
-        return min(choices(self.licence), key=lambda found: max(order.get(one, 99) for one in found))
+        return min(choices(self.licence), key=lambda names: max(order.get(name, 99) for name in names))
 
     def texts(self) -> list[str]:
-        """Its files of these licences."""
+        """Return the crate's files of these licences."""
         files = [
             file for file in self.folder.rglob("*") if re.match(r"(licen[cs]e|copying)", file.name, re.I)
         ]
         files = [file for file in files if file.is_file() and file.suffix.lower() in ("", ".txt", ".md")]
-        marked = "|".join(re.escape(one.split("-")[0].split()[0]) for one in self.taken())
+        marked = "|".join(re.escape(name.split("-")[0].split()[0]) for name in self.licences())
         named = [file for file in files if re.search(marked, file.name, re.I)]
         of_other = r"apache|mit|zlib|unlicense|0bsd"
         plain = [file for file in files if not re.search(of_other, file.name, re.I)]
@@ -129,9 +129,9 @@ def cargo(*flags: str) -> Any:
 
 def in_the_engine(platform: str) -> set[str]:
     """The crates whose code is in the engine of a platform: neither those of build scripts nor macros."""
-    found = cargo("--filter-platform", platform)
-    packages = {package["id"]: package for package in found["packages"]}
-    nodes = {node["id"]: node for node in found["resolve"]["nodes"]}
+    metadata_of_crates = cargo("--filter-platform", platform)
+    packages = {package["id"]: package for package in metadata_of_crates["packages"]}
+    nodes = {node["id"]: node for node in metadata_of_crates["resolve"]["nodes"]}
     (start,) = (key for key, package in packages.items() if package["name"] == "niwaki-py")
     shipped: set[str] = set()
     waiting = [start]
@@ -167,19 +167,22 @@ def crates() -> list[Crate]:
     ]
 
 
-def texts(crate: Crate, others: Iterable[Crate]) -> list[str]:
-    """A crate's texts of its licences. Apache's text names no author, so one that lacks it has another crate's."""
-    own = crate.texts()
-    if own or not all(name.startswith("Apache-2.0") for name in crate.taken()):
-        return own
-    return next((one.texts() for one in others if one.taken() == crate.taken() and one.texts()), [])
+def texts(crate: Crate, other_crates: Iterable[Crate]) -> list[str]:
+    """Return a crate's licence texts; a crate without Apache's text, which names no author, takes another crate's."""
+    texts_of_crate = crate.texts()
+    if texts_of_crate or not all(name.startswith("Apache-2.0") for name in crate.licences()):
+        return texts_of_crate
+    return next(
+        (other.texts() for other in other_crates if other.licences() == crate.licences() and other.texts()),
+        [],
+    )
 
 
-def third_party(found: Iterable[Crate]) -> str:
+def third_party(all_crates: Iterable[Crate]) -> str:
     """The list of the crates in the engine, and the texts of their licences, each once."""
-    inside = [crate for crate in found if crate.shipped]
+    inside = [crate for crate in all_crates if crate.shipped]
     lines = ["The compiled engine of Niwaki contains code of these packages, under these licences:", ""]
-    lines += [f"  {one.name} {one.version}: {' AND '.join(sorted(one.taken()))}" for one in inside]
+    lines += [f"  {crate.name} {crate.version}: {' AND '.join(sorted(crate.licences()))}" for crate in inside]
     lines += ["", "and the standard library of Rust, (c) The Rust Project Contributors: MIT"]
     users: dict[str, list[str]] = defaultdict(list)
     for crate in inside:
@@ -194,8 +197,8 @@ def packages() -> list[tuple[str, str]]:
     """Packages of the locks that are installed here, each with its licence."""
     locks = "\n".join(lock.read_text() for lock in (ROOT / "requirements").glob("*.txt"))
     pinned = {plain(name) for name in re.findall(r"^([\w.-]+)==", locks, re.M)}
-    found = {plain(one.metadata["Name"]): one for one in metadata.distributions()}
-    return [(name, UNNAMED.get(name) or licence(found[name])) for name in sorted(pinned & set(found))]
+    installed = {plain(package.metadata["Name"]): package for package in metadata.distributions()}
+    return [(name, UNNAMED.get(name) or licence(installed[name])) for name in sorted(pinned & set(installed))]
 
 
 def plain(name: str) -> str:
@@ -204,47 +207,53 @@ def plain(name: str) -> str:
 
 
 def licence(package: metadata.Distribution) -> str:
-    """Its SPDX expression, as it says or as its classifiers or its short text say."""
+    """Return a package's SPDX expression, from its metadata, its classifiers or its short text."""
     about = package.metadata
     if "License-Expression" in about:
         return str(about["License-Expression"])
-    classifiers = [one.split(" :: ") for one in about.get_all("Classifier") or ()]
-    said = "; ".join(sorted(one[-1] for one in classifiers if one[0] == "License" and len(one) > 1))
-    if said in ("", "OSI Approved"):
-        said = (str(about.get("License") or "").strip().splitlines() or [""])[0]
-    return NAMES.get(said, said)
+    classifiers = [classifier.split(" :: ") for classifier in about.get_all("Classifier") or ()]
+    text = "; ".join(
+        sorted(
+            classifier[-1] for classifier in classifiers if classifier[0] == "License" and len(classifier) > 1
+        )
+    )
+    if text in ("", "OSI Approved"):
+        text = (str(about.get("License") or "").strip().splitlines() or [""])[0]
+    return NAMES.get(text, text)
 
 
 def faults() -> list[str]:
-    """What is not allowed, and what is out of date."""
+    """Return the licences that are not allowed, and the texts that are out of date."""
     permitted, all_crates = allowed(), crates()
-    found = [
-        f"the crate {one.name} {one.version} has the licence `{one.licence}`"
-        for one in all_crates
-        if not one.licence or not any(each <= permitted for each in choices(one.licence))
+    lines = [
+        f"the crate {crate.name} {crate.version} has the licence `{crate.licence}`"
+        for crate in all_crates
+        if not crate.licence or not any(each <= permitted for each in choices(crate.licence))
     ]
-    found += [
-        f"the crate {one.name} comes from {one.source}"
-        for one in all_crates
-        if not one.source.startswith("registry+")
+    lines += [
+        f"the crate {crate.name} comes from {crate.source}"
+        for crate in all_crates
+        if not crate.source.startswith("registry+")
     ]
-    inside = [one for one in all_crates if one.shipped]
-    found += [f"the crate {one.name} has no text of its licence" for one in inside if not texts(one, inside)]
+    inside = [crate for crate in all_crates if crate.shipped]
+    lines += [
+        f"the crate {crate.name} has no text of its licence" for crate in inside if not texts(crate, inside)
+    ]
     for name, expression in packages():
         if not expression or not any(each <= permitted | BESIDE for each in choices(expression)):
-            found.append(f"the package {name} has the licence `{expression or 'none'}`")
+            lines.append(f"the package {name} has the licence `{expression or 'none'}`")
     if not TEXTS.exists() or TEXTS.read_text() != third_party(all_crates):
-        found.append("THIRD-PARTY is out of date: python tests/house/licences.py --write")
-    return found
+        lines.append("THIRD-PARTY is out of date: python tests/house/licences.py --write")
+    return lines
 
 
 if __name__ == "__main__":
     if "--write" in sys.argv:
         TEXTS.write_text(third_party(crates()))
     else:
-        for fault in (found := faults()):
+        for fault in (lines := faults()):
             print(fault, file=sys.stderr)
         print(
-            f"licences: {len(crates())} crates and {len(packages())} packages of Python, {len(found)} faults"
+            f"licences: {len(crates())} crates and {len(packages())} packages of Python, {len(lines)} faults"
         )
-        sys.exit(bool(found))
+        sys.exit(bool(lines))

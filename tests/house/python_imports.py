@@ -1,4 +1,4 @@
-"""Which file of the package imports which, wherever the import stands: for types alone and inside functions too.
+"""Imports between the files of the package, wherever the import stands: for types alone and inside functions too.
 
 A name that an `__init__.py`, or the `.pyi` beside it, only passes on leads to the file that defines it.
 """
@@ -67,14 +67,14 @@ class Package:
         return file
 
     def _imports(self, file: File) -> set[str]:
-        found = set()
+        names = set()
         for module, name, known_as in file.imports:
             for target, is_item in self._targets(module, name):
                 used = [target]
                 if not is_item and self._is_package(target):
                     used = [*self._through(file, known_as, target)] or used
-                found |= {self._name(self.files[each]) for each in used}
-        return found
+                names |= {self._name(self.files[each]) for each in used}
+        return names
 
     def _is_package(self, module: str) -> bool:
         return self.files[module].path.name == "__init__.py"

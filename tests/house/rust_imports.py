@@ -1,4 +1,4 @@
-"""Which file of a crate imports which: the text of the crates, read without a compiler.
+"""Imports between the files of a crate: the text of the crates, read without a compiler.
 
 The modules are those that `mod` declares from `lib.rs` on. What counts is a `use` and a path in the code; a name that a
 file only passes on (`pub use`) leads to the file that defines it. Tests and documentation do not count.
@@ -37,7 +37,7 @@ APART = (["cfg", "(", "test", ")"], ["cfg", "(", "doc", ")"])
 
 def tokens(text: str) -> list[str]:
     """Words and signs; a literal is one token, `""`."""
-    found, place = [], 0
+    list_of_tokens, place = [], 0
     while place < len(text):
         match = TOKEN.match(text, place)
         assert match is not None
@@ -45,12 +45,12 @@ def tokens(text: str) -> list[str]:
         if match.lastgroup == "block":
             place = _after_comment(text, place)
         elif match["string"] or match["raw"] or match["char"]:
-            found.append('""')
+            list_of_tokens.append('""')
         elif match["word"]:
-            found.append(match["word"].removeprefix("r#"))
+            list_of_tokens.append(match["word"].removeprefix("r#"))
         elif match["sign"]:
-            found.append(match["sign"])
-    return found
+            list_of_tokens.append(match["sign"])
+    return list_of_tokens
 
 
 def _after_comment(text: str, place: int) -> int:
@@ -193,14 +193,14 @@ class Reader:
             word = self.text[self.place]
             self.place += 1
             if word == "{":
-                found = []
+                uses = []
                 while self.text[self.place] != "}":
                     if self.text[self.place] == ",":
                         self.place += 1
                     else:
-                        found += self._tree(path)
+                        uses += self._tree(path)
                 self.place += 1
-                return found
+                return uses
             if word == "*":
                 return [(path, "*")]
             if word != "::":
@@ -230,7 +230,7 @@ class Reader:
 
 @dataclass(frozen=True)
 class Target:
-    """What a name stands for: a module, or something that is defined in it."""
+    """The target of a name: a module, or something that is defined in it."""
 
     module: Module
     item: bool
@@ -253,13 +253,13 @@ class Workspace:
 
     def graph(self) -> Graph:
         """Files and the files that they import, named from the root of the repository."""
-        found: Graph = {}
+        nodes: Graph = {}
         for crate in self.crates.values():
             for module in crate.tree():
                 imports = {self._name(file) for file in self._imports(module)}
                 name = self._name(module.file)
-                found[name] = found.get(name, set()) | imports - {name}
-        return found
+                nodes[name] = nodes.get(name, set()) | imports - {name}
+        return nodes
 
     def _name(self, file: Path) -> str:
         return file.relative_to(self.root).as_posix()
@@ -289,14 +289,14 @@ class Workspace:
             return
         names = set(target.module.defined) | {use.name for use in target.module.uses if use.passed_on}
         for name in names & module.words:
-            for found in self._named(target.module, name, set()):
-                yield found.module.file
+            for target_of_name in self._named(target.module, name, set()):
+                yield target_of_name.module.file
 
     def _targets(self, module: Module, path: list[str]) -> list[Target]:
         return self._follow(module, path, set())
 
     def _follow(self, module: Module, path: list[str], seen: set[tuple[Module, str]]) -> list[Target]:
-        """What a path leads to: nothing for a path out of the workspace."""
+        """Return the targets of a path: nothing for a path out of the workspace."""
         first, *rest = path
         if first == "crate":
             here = [Target(module.root, False)]
@@ -326,13 +326,13 @@ class Workspace:
         if (module, name) in seen:
             return []
         seen = seen | {(module, name)}
-        found = [Target(module, True)] if name in module.defined else []
-        found += [Target(module.children[name], False)] if name in module.children else []
+        targets = [Target(module, True)] if name in module.defined else []
+        targets += [Target(module.children[name], False)] if name in module.children else []
         for use in module.uses:
             if use.name == name:
                 # A name from elsewhere is this module's, as far as others see.
-                found += self._follow(module, use.path, seen) or [Target(module, True)]
+                targets += self._follow(module, use.path, seen) or [Target(module, True)]
             elif use.name == "*":
                 for target in self._follow(module, use.path, seen):
-                    found += [] if target.item else self._named(target.module, name, seen)
-        return found
+                    targets += [] if target.item else self._named(target.module, name, seen)
+        return targets

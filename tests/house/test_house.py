@@ -48,23 +48,23 @@ def tracked() -> list[Path]:
 
 def texts() -> list[tuple[str, str]]:
     """Path and text of each tracked file that is a text."""
-    found = []
+    files = []
     for path in tracked():
         try:
-            found.append((path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")))
+            files.append((path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")))
         except UnicodeDecodeError:
             continue
-    return found
+    return files
 
 
 def test_no_file_names_a_machine_or_the_host_of_a_registry():
-    found = [
+    lines = [
         f"{name}: {word}"
         for name, text in texts()
         for word in FORBIDDEN
         if word in text.replace(CARGO_INDEX, "")
     ]
-    assert not found
+    assert not lines
 
 
 def test_no_file_refers_to_sources_that_readers_lack():
@@ -102,7 +102,7 @@ def test_locks_agree_with_one_another(python: str):
             if requirement.marker is None or requirement.marker.evaluate(machine):
                 pins.setdefault(requirement.name, set()).add(str(requirement.specifier))
     assert len(pins) > 50
-    assert {name: found for name, found in pins.items() if len(found) > 1} == {}
+    assert {name: versions for name, versions in pins.items() if len(versions) > 1} == {}
 
 
 def test_pictures_are_small_and_so_are_all_together():
@@ -129,7 +129,7 @@ OPTIONAL = {("errors/memory.py", "resource")}
 #: Who imports modules by a name of their own: a look at parts that may be broken, extras, the gallery's folder, the
 #: shell's commands, the host functions of a search that was read.
 BY_NAME = {
-    "checkup/looking.py",
+    "checkup/inspection.py",
     "errors/extras.py",
     "gallery/__init__.py",
     "inputs/child.py",
@@ -140,16 +140,18 @@ BY_NAME = {
 
 def test_no_function_imports_but_what_is_optional():
     package = ROOT / "python" / "niwaki"
-    found = {
+    imports = {
         (path.relative_to(package).as_posix(), name)
         for path in package.rglob("*.py")
         for function in ast.walk(ast.parse(path.read_text()))
         if isinstance(function, (ast.FunctionDef, ast.AsyncFunctionDef))
         for node in ast.walk(function)
         if isinstance(node, (ast.Import, ast.ImportFrom))
-        for name in ([node.module] if isinstance(node, ast.ImportFrom) else [one.name for one in node.names])
+        for name in (
+            [node.module] if isinstance(node, ast.ImportFrom) else [alias.name for alias in node.names]
+        )
     }
-    assert found == OPTIONAL
+    assert imports == OPTIONAL
     by_name = {
         path.relative_to(package).as_posix()
         for path in package.rglob("*.py")

@@ -1,4 +1,4 @@
-"""What a release says of itself is the same everywhere, and what its workflows run is pinned."""
+"""A release has the same name, version and requirements everywhere, and its workflows run pinned actions."""
 
 import re
 import tomllib
@@ -41,7 +41,7 @@ def test_the_licences_are_named_and_are_there():
 def test_every_crate_of_the_lock_that_is_in_the_engine_has_its_licence_in_the_wheel():
     # `make lint` compares the whole file; here the versions, so that a new lock alone is found.
     lock = tomllib.loads((ROOT / "Cargo.lock").read_text())["package"]
-    versions = {f"{one['name']} {one['version']}" for one in lock}
+    versions = {f"{crate['name']} {crate['version']}" for crate in lock}
     texts = (ROOT / "THIRD-PARTY").read_text()
     listed = set(re.findall(r"^  ([\w-]+ [\w.+-]+): ", texts, re.M))
     assert len(listed) > 50 and listed <= versions
@@ -55,9 +55,13 @@ def test_every_crate_of_the_lock_that_is_in_the_engine_has_its_licence_in_the_wh
 
 
 def test_what_the_package_needs_can_be_had_on_the_pythons_that_it_names():
-    named = [one.rpartition(" ")[2] for one in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", one)]
-    wanted = SpecifierSet(PROJECT["requires-python"])
-    assert "3.11" in named and all(wanted.contains(version) for version in named)
+    named = [
+        classifier.rpartition(" ")[2]
+        for classifier in PROJECT["classifiers"]
+        if re.search(r":: 3\.\d+$", classifier)
+    ]
+    supported = SpecifierSet(PROJECT["requires-python"])
+    assert "3.11" in named and all(supported.contains(version) for version in named)
     for text in PROJECT["dependencies"]:
         assert Requirement(text).specifier, f"{text} has no least version"
 
@@ -80,7 +84,7 @@ def test_an_action_has_one_pin():
     for workflow in WORKFLOWS:
         for action, pin in re.findall(r"uses: (\S+?)@(\S+)", workflow.read_text()):
             pins.setdefault(action, set()).add(pin)
-    assert len(pins) >= 4 and all(len(found) == 1 for found in pins.values())
+    assert len(pins) >= 4 and all(len(versions) == 1 for versions in pins.values())
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What follows from the engine's table of solids is written in the package and in the manual."""
+"""The package and the manual contain the words of the engine's table of solids."""
 
 import pytest
 import words

@@ -81,9 +81,9 @@ def _quoted(name: str) -> str:
 def _function(name: str, doc: str, rows: list[Row]) -> str:
     """A word in Python: the signature, the docstring and the call."""
     parameters = [_parameter(*row) for row in rows]
-    given = ", ".join([_quoted(name), *(row[0] for row in rows)])
+    arguments = ", ".join([_quoted(name), *(row[0] for row in rows)])
     lines = [_fitted(f"def {name}(", parameters, ") -> Any:", ""), f'    """{_indented(doc)}', ""]
-    lines += [*_parameters(rows), _call(given)]
+    lines += [*_parameters(rows), _call(arguments)]
     return "\n".join(lines) + "\n"
 
 
@@ -109,9 +109,9 @@ def _fitted(opening: str, parts: list[str], closing: str, indent: str) -> str:
     return "\n".join([opening, *(f"    {part}," for part in parts), closing])
 
 
-def _call(given: str) -> str:
-    line = f"    return make({given})"
-    return line if len(line) <= 110 else f"    return make(\n        {given}\n    )"
+def _call(arguments: str) -> str:
+    line = f"    return make({arguments})"
+    return line if len(line) <= 110 else f"    return make(\n        {arguments}\n    )"
 
 
 def _indented(doc: str, by: int = 4) -> str:
@@ -186,7 +186,7 @@ def _words_that_draw() -> dict[str, str]:
 
 def _classes() -> str:
     classes = [_class(family) for family in _engine.FAMILIES]
-    names = ["Distribution", *(said[0] for said in _engine.FAMILIES.values())]
+    names = ["Distribution", *(family[0] for family in _engine.FAMILIES.values())]
     last = (
         "#: In the order of this file.\n"
         "FAMILIES: tuple[type[Distribution], ...] = tuple(Distribution.__subclasses__())\n"
@@ -261,8 +261,8 @@ def _rows() -> Iterator[str]:
     """Rows of families."""
     for word, family in _words_that_draw().items():
         name, _, rows, _, gives, limits = _engine.FAMILIES[family]
-        own = "" if word == family else f" (`{name}`)"
-        yield f"| `{word}`{own} | {', '.join(row[0] for row in rows)} | {gives} | {limits} |\n"
+        alias = "" if word == family else f" (`{name}`)"
+        yield f"| `{word}`{alias} | {', '.join(row[0] for row in rows)} | {gives} | {limits} |\n"
 
 
 def _signatures() -> Iterator[str]:

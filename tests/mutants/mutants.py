@@ -37,9 +37,9 @@ TREE = SCRATCH / "tree"
 CRATES = sorted(manifest.parent.name for manifest in (ROOT / "crates").glob("*/Cargo.toml"))
 # Builds that take seconds: incremental, in many units, without debugging information. Third-party crates are built
 # once, as for a release.
-OWN = ("codegen-units=64", "debug=false")
+OWN_SETTINGS = ("codegen-units=64", "debug=false")
 QUICK = ["profile.release.incremental=true"]
-QUICK += [f"profile.release.package.niwaki-{crate}.{key}" for crate in CRATES for key in OWN]
+QUICK += [f"profile.release.package.niwaki-{crate}.{key}" for crate in CRATES for key in OWN_SETTINGS]
 #: What cargo needs to build the crates and their tests, and pytest for the package.
 SOURCES = ["Cargo.toml", "Cargo.lock", "crates", "benches/hmc", "pyproject.toml", "python", "tests"]
 #: The engine as Python loads it; it is built, and not among the sources.
@@ -63,10 +63,10 @@ class Judge:
 
     @staticmethod
     def read(text: str) -> "Judge":
-        found = re.fullmatch(r"(\w+) ([\w/]+): (\S+(?: \S+)*)", text)
-        if not found or found[1] not in (*CRATES, "python"):
+        match = re.fullmatch(r"(\w+) ([\w/]+): (\S+(?: \S+)*)", text)
+        if not match or match[1] not in (*CRATES, "python"):
             raise ValueError(f"the judge `{text}` is not of the form `crate target: pattern ...`")
-        return Judge(found[1], found[2], tuple(found[3].split()))
+        return Judge(match[1], match[2], tuple(match[3].split()))
 
     def __str__(self) -> str:
         return f"{self.crate} {self.target}: {' '.join(self.patterns)}"
@@ -178,9 +178,9 @@ def run(command: list[str], limit: float) -> tuple[int | None, str, float]:
 
 @dataclass
 class Outcome:
-    """What became of a judge."""
+    """The outcome of a judge's tests."""
 
-    what: str
+    state: str
     failed: list[str]
     build: float
     took: float
@@ -208,7 +208,7 @@ def judged(judge: Judge, limit: float) -> Outcome:
 def outcome(
     judge: Judge, status: int | None, output: str, build: float, took: float, ended: dict[str, str]
 ) -> Outcome:
-    """What became of a judge whose tests ended so."""
+    """Return the outcome of a judge from the results of its tests."""
     if status is None:
         return Outcome("timeout", [], build, took, output)
     failed = sorted(name for name, how in ended.items() if how == "FAILED")
@@ -223,11 +223,11 @@ def outcome(
     return Outcome("failed", failed, build, took, output)
 
 
-def verdict(mutant: Mutant, found: Outcome) -> str:
-    """What an outcome means for a mutant."""
-    if found.what in ("crashed", "timeout", "no build"):
-        return found.what
-    rejects = all(any(pattern in name for name in found.failed) for pattern in mutant.judge.patterns)
+def verdict(mutant: Mutant, outcome: Outcome) -> str:
+    """Return the verdict on a mutant: caught, survived, or the failure of the judge."""
+    if outcome.state in ("crashed", "timeout", "no build"):
+        return outcome.state
+    rejects = all(any(pattern in name for name in outcome.failed) for pattern in mutant.judge.patterns)
     return "caught" if rejects else "survived"
 
 
@@ -268,35 +268,41 @@ def main(arguments: list[str]) -> int:
         m.applied((TREE / m.file).read_text(encoding="utf-8"))
     usual: dict[Judge, float] = {}
     for judge in dict.fromkeys(m.judge for m in chosen):
-        found = judged(judge, BUILD_LIMIT)
+        outcome = judged(judge, BUILD_LIMIT)
         print(
-            f"{found.what:9} {judge}, as it is: built in {found.build:.0f} s, ran {found.took:.1f} s",
+            f"{outcome.state:9} {judge}, as it is: built in {outcome.build:.0f} s, ran {outcome.took:.1f} s",
             flush=True,
         )
-        if found.what != "passed":
-            print(found.output[-4000:], file=sys.stderr)
-            print(f"`{judge}` must pass before it can judge ({found.what} {found.failed})", file=sys.stderr)
+        if outcome.state != "passed":
+            print(outcome.output[-4000:], file=sys.stderr)
+            print(
+                f"`{judge}` must pass before it can judge ({outcome.state} {outcome.failed})", file=sys.stderr
+            )
             return 2
-        usual[judge] = found.took
+        usual[judge] = outcome.took
     rows, bad = [], []
     for m in chosen:
         path = TREE / m.file
         text = path.read_text(encoding="utf-8")
         path.write_text(m.applied(text), encoding="utf-8")
         try:
-            found = judged(m.judge, 60.0 + 5.0 * usual[m.judge])
+            outcome = judged(m.judge, 60.0 + 5.0 * usual[m.judge])
         finally:
             path.write_text(text, encoding="utf-8")
-        what = verdict(m, found)
-        if what in ("survived", "no build", "crashed"):
-            (SCRATCH / f"{m.name}.log").write_text(found.output, encoding="utf-8")
+        state = verdict(m, outcome)
+        if state in ("survived", "no build", "crashed"):
+            (SCRATCH / f"{m.name}.log").write_text(outcome.output, encoding="utf-8")
         expected = "survived" if m.survives else "caught"
-        if what != expected:
+        if state != expected:
             bad.append(m.name)
-        tests = ", ".join(short(name) for name in found.failed)
-        print(f"{what:9} {m.name}: built in {found.build:.0f} s, ran {found.took:.1f} s {tests}", flush=True)
+        tests = ", ".join(short(name) for name in outcome.failed)
+        print(
+            f"{state:9} {m.name}: built in {outcome.build:.0f} s, ran {outcome.took:.1f} s {tests}",
+            flush=True,
+        )
         rows.append(
-            f"| `{m.name}` | {m.breaks} | {what} | {tests or m.survives or ''} | {found.build:.0f} | {found.took:.1f} |"
+            f"| `{m.name}` | {m.breaks} | {state} | {tests or m.survives or ''} "
+            f"| {outcome.build:.0f} | {outcome.took:.1f} |"
         )
     caught = sum("| caught |" in row for row in rows)
     REPORT.parent.mkdir(exist_ok=True)

@@ -23,8 +23,8 @@ def test_an_error_changes_one_place_and_its_judge_has_tests(mutant):
         if word in line
     }
     for pattern in mutant.judge.patterns:
-        own = pattern.rsplit("::", 1)[-1]
-        assert not own or any(own in name for name in names), f"no test is named like `{pattern}`"
+        suffix = pattern.rsplit("::", 1)[-1]
+        assert not suffix or any(suffix in name for name in names), f"no test is named like `{pattern}`"
 
 
 def test_names_are_unique():

@@ -72,10 +72,10 @@ TIMES = re.compile(
 HASH = re.compile(r"\bhash [0-9a-f]+\b")
 
 
-def digest(found: Any) -> str:
+def digest(result: Any) -> str:
     """The hash of a result, or of any value that is made of numbers, texts, samples and arrays."""
     hashed = hashlib.sha256()
-    for part in _parts(found):
+    for part in _parts(result):
         hashed.update(len(part).to_bytes(8, "little") + part)
     return hashed.hexdigest()[:LENGTH]
 
@@ -108,19 +108,19 @@ def _parts(value: Any) -> Iterable[bytes]:
         yield from _scene(value)
     elif isinstance(value, Mapping):
         yield f"mapping {len(value)}".encode()
-        for key, one in value.items():
+        for key, part in value.items():
             yield from _parts(key)
-            yield from _parts(one)
+            yield from _parts(part)
     elif is_dataclass(value) and not isinstance(value, type | Method | Kernel | Search):
         late = [name for kind, names in READ_LATE.items() if isinstance(value, kind) for name in names]
-        own = [field.name for field in fields(value) if not field.name.startswith("_")]
-        yield from _named(value, [name for name in own if name not in LEFT_OUT] + late)
+        names = [field.name for field in fields(value) if not field.name.startswith("_")]
+        yield from _named(value, [name for name in names if name not in LEFT_OUT] + late)
     elif hasattr(value, "_fields"):
         yield from _named(value, value._fields)
     elif isinstance(value, list | tuple):
         yield f"{type(value).__name__} {len(value)}".encode()
-        for one in value:
-            yield from _parts(one)
+        for part in value:
+            yield from _parts(part)
     elif isinstance(value, Kernel):
         yield repr(value).encode()
     else:
@@ -135,22 +135,22 @@ def _named(value: Any, names: Iterable[str]) -> Iterable[bytes]:
             yield from _parts(getattr(value, name))
 
 
-def _scene(found: Result) -> Iterable[bytes]:
+def _scene(result: Result) -> Iterable[bytes]:
     """The mesh of the best sample, as files have it."""
-    if len(found.samples) and found.best.primitives:
-        yield from _parts([np.asarray(one) for one in found.best.scene.merged()])
+    if len(result.samples) and result.best.primitives:
+        yield from _parts([np.asarray(array) for array in result.best.scene.merged()])
 
 
-def digest_of_files(folder: Path, names: Iterable[str], told: str) -> str:
+def digest_of_files(folder: Path, names: Iterable[str], output: str) -> str:
     """The hash of what a command printed, and of the files that it wrote."""
-    said = _without(json.loads(told)) if told.startswith("{") else _plain(told, folder)
-    found = [("stdout", said)]
-    found += [(name, _content(folder / name, folder)) for name in sorted(names)]
-    return digest(found)
+    stdout = _without(json.loads(output)) if output.startswith("{") else _plain(output, folder)
+    contents = [("stdout", stdout)]
+    contents += [(name, _content(folder / name, folder)) for name in sorted(names)]
+    return digest(contents)
 
 
 def _content(place: Path, folder: Path) -> Any:
-    """What a file holds: pictures as pixels, tables and texts without what is of this run alone."""
+    """Return the contents of a file: pictures as pixels, tables and texts without what is of this run alone."""
     if place.suffix in (".png", ".gif", ".jpg", ".webp"):
         with Image.open(place) as picture:
             return [np.asarray(frame.convert("RGBA")) for frame in ImageSequence.Iterator(picture)]
@@ -162,15 +162,15 @@ def _content(place: Path, folder: Path) -> Any:
 
 
 def of_json(place: Path) -> Any:
-    """What a JSON file holds, without what is of this run alone."""
+    """Return the contents of a JSON file, without data of this run alone."""
     return _without(json.loads(place.read_text(encoding="utf-8")))
 
 
 def _without(data: Any) -> Any:
-    """JSON without what is of this run alone."""
+    """Return JSON without data of this run alone."""
     if isinstance(data, dict):
-        return {key: _without(one) for key, one in data.items() if key not in OF_A_PLACE}
-    return [_without(one) for one in data] if isinstance(data, list) else data
+        return {key: _without(part) for key, part in data.items() if key not in OF_A_PLACE}
+    return [_without(part) for part in data] if isinstance(data, list) else data
 
 
 def _plain(text: str, folder: Path) -> str:

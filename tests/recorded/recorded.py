@@ -41,36 +41,36 @@ from recorded_shell import of_commands  # noqa: E402
 
 def rows() -> dict[str, Callable[[], str]]:
     """The digest of every search and command, by name."""
-    found: dict[str, Callable[[], str]] = {
+    table: dict[str, Callable[[], str]] = {
         name: lambda search=search: digest(search()) for name, search in of_all().items()
     }
-    return found | dict(of_commands())
+    return table | dict(of_commands())
 
 
 def hashes(names: Iterable[str], watch: Callable[[str], Any] = lambda _: None) -> dict[str, str]:
     """The digests of these; of a search that fails, what it says."""
-    every, found = rows(), {}
+    every, digests = rows(), {}
     for name in names:
         watch(name)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             try:
-                found[name] = every[name]()
+                digests[name] = every[name]()
             except Exception as error:
-                found[name] = f"{type(error).__name__}: {error}".splitlines()[0]
-    return found
+                digests[name] = f"{type(error).__name__}: {error}".splitlines()[0]
+    return digests
 
 
 def differences(now: Mapping[str, str], before: Mapping[str, str]) -> list[str]:
     """A line for each name whose digest is not that of before, or not that of the search that was left alone."""
-    said = []
-    for name, one in now.items():
-        plain = now.get(name.removesuffix(RESUMED), one)
-        if one != before.get(name):
-            said.append(f"{name}: {before.get(name, 'not in the table')} is now {one}")
-        if one != plain:
-            said.append(f"{name}: {one}, and {plain} of the search that was not broken off")
-    return said
+    lines = []
+    for name, digest_now in now.items():
+        plain = now.get(name.removesuffix(RESUMED), digest_now)
+        if digest_now != before.get(name):
+            lines.append(f"{name}: {before.get(name, 'not in the table')} is now {digest_now}")
+        if digest_now != plain:
+            lines.append(f"{name}: {digest_now}, and {plain} of the search that was not broken off")
+    return lines
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -82,37 +82,43 @@ def main(arguments: Sequence[str]) -> int:
     reading.add_argument("--write", action="store_true", help="write the table again")
     reading.add_argument("--table", type=Path, default=TABLE, metavar="FILE", help="another table")
     reading.add_argument("--times", action="store_true", help="print the processor seconds of each search")
-    given = reading.parse_args(arguments)
-    names = [name for name in rows() if not given.names or name.startswith(tuple(given.names))]
+    options = reading.parse_args(arguments)
+    names = [name for name in rows() if not options.names or name.startswith(tuple(options.names))]
     if not names:
-        reading.error(f"no search begins with {', '.join(given.names)}")
-    stored = json.loads(given.table.read_text(encoding="utf-8")) if given.table.exists() else {}
+        reading.error(f"no search begins with {', '.join(options.names)}")
+    stored = json.loads(options.table.read_text(encoding="utf-8")) if options.table.exists() else {}
     before: dict[str, str] = stored.get("searches", {})
     machine = _engine.fingerprint()
-    if not given.write and stored.get("machine") != machine:
+    if not options.write and stored.get("machine") != machine:
         print(
-            f"{given.table} is of machines with other bits: write one before the change (--write --table FILE)"
+            f"{options.table} is of machines with other bits: write one before the change (--write --table FILE)"
         )
         return 2
-    seconds, found = [time.process_time()], {}
+    seconds, digests = [time.process_time()], {}
     for name in names:
-        found |= hashes([name])
+        digests |= hashes([name])
         seconds.append(time.process_time())
-        if given.times:
+        if options.times:
             print(f"{seconds[-1] - seconds[-2]:7.2f}  {name}", flush=True)
-    said = differences(found, before)
-    if given.write:
-        kept = {name: found.get(name) or before[name] for name in rows() if name in found or name in before}
-        given.table.write_text(
+    lines = differences(digests, before)
+    if options.write:
+        kept = {
+            name: digests.get(name) or before[name] for name in rows() if name in digests or name in before
+        }
+        options.table.write_text(
             json.dumps({"machine": machine, "searches": kept}, indent=1) + "\n", encoding="utf-8"
         )
-        said = differences(found, found) + [f"{name}: {one}" for name, one in found.items() if " " in one]
+        lines = differences(digests, digests) + [
+            f"{name}: {digest_text}" for name, digest_text in digests.items() if " " in digest_text
+        ]
     else:
-        said += [f"{name}: in the table alone" for name in before if not given.names and name not in found]
-    for line in said:
+        lines += [
+            f"{name}: in the table alone" for name in before if not options.names and name not in digests
+        ]
+    for line in lines:
         print(line, file=sys.stderr)
-    print(f"{len(found)} searches, {len(said)} differ; {seconds[-1] - seconds[0]:.0f} s of the processor")
-    return 1 if said else 0
+    print(f"{len(digests)} searches, {len(lines)} differ; {seconds[-1] - seconds[0]:.0f} s of the processor")
+    return 1 if lines else 0
 
 
 if __name__ == "__main__":

@@ -194,8 +194,8 @@ def of_methods() -> Iterator[tuple[str, Search]]:
     yield from variants("enumerate_all likely", COIN, nw.enumerate_all(4, likely=True))
     yield from variants("rejection", COIN, nw.rejection(20))
     yield from variants("importance", MIXTURE, nw.importance(60))
-    own = kernels.on("means", kernels.proposal(lambda k: Gaussian(0.5 * k, 4.0)))
-    yield from variants("importance by a proposal", MIXTURE, nw.importance(60, own))
+    kernel = kernels.on("means", kernels.proposal(lambda k: Gaussian(0.5 * k, 4.0)))
+    yield from variants("importance by a proposal", MIXTURE, nw.importance(60, kernel))
     yield from guided("importance path", PATH, partial(nw.importance, 60))
     yield from variants("ais", MIXTURE, nw.ais(10, 6, kernels.mixture(*KERNELS["mixture"].parts), moves=3))
     yield from variants("ais hmc_step", LINE, nw.ais(10, (0.1, 0.5, 1.0), kernels.hmc_step(3), moves=2))
@@ -204,7 +204,7 @@ def of_methods() -> Iterator[tuple[str, Search]]:
         yield from guided(f"smc {name}", TREE, partial(nw.smc, **settings))
     yield from variants("smc absolute", TREE, nw.smc(30, weights="absolute"))
     yield from variants("smc mixture", MIXTURE, nw.smc(40))
-    yield from variants("smc by a proposal", MIXTURE, nw.smc(40, proposal=own))
+    yield from variants("smc by a proposal", MIXTURE, nw.smc(40, proposal=kernel))
     yield from variants("smc hmc_step", LINE, nw.smc(20, rejuvenate=kernels.hmc_step(3), at="end"))
     yield from variants("smc invalid", INVALID, nw.smc(40))
     yield from guided("smc path", PATH, partial(nw.smc, 40, resampling="tempered"))
@@ -271,7 +271,7 @@ def inside(method: Method) -> Any:
 
 
 def of_the_rest() -> Iterator[tuple[str, Search]]:
-    """What is no method: searches inside, what goes on from a result, training, and random programs."""
+    """Yield searches that are no method: searches inside, what goes on from a result, training, and random programs."""
     for name, method in {**HONOURED, "enumerate_all": nw.enumerate_all(), "smc": nw.smc(20)}.items():
         yield f"infer {name}", lambda method=method: nw.run(inside(method), nw.forward(10), seed=SEED)
     yield "infer in a chain", lambda: nw.run(inside(nw.enumerate_all()), nw.mh(100), seed=SEED)
@@ -296,15 +296,15 @@ def of_the_rest() -> Iterator[tuple[str, Search]]:
         yield f"long {case}{RESUMED}", partial(gone_on, resumed.CASES[case])
     for seed in range(20):
         for kind in ("populations", "chains"):
-            yield f"random program {seed} {kind}", partial(said, seed, kind)
+            yield f"random program {seed} {kind}", partial(random_program, seed, kind)
     for seed in range(10):
         program = partial(finite_programs.text, seed, memo=seed % 2 == 1)
         yield f"finite program {seed}", lambda program=program: nw.run(load(program()), nw.smc(20), seed=SEED)
 
 
-def said(seed: int, kind: str) -> str:
-    """What a search of a random program gives, or says; the name of its file is another one in each process."""
-    return re.sub(r"random--?\d+", "random", searches.said(seed, kind))
+def random_program(seed: int, kind: str) -> str:
+    """Return the result of a random program's search, or its message, without the number in the name of its file."""
+    return re.sub(r"random--?\d+", "random", searches.result_hash(seed, kind))
 
 
 def bound() -> nw.Guide:
@@ -331,45 +331,45 @@ def gradient(subject: Subject) -> list[Any]:
 
 def learned_order() -> Any:
     """An order of futures."""
-    asked = [nw.Search(TREE.model, score=TREE.score())]
-    return train_order(TREE.model, asked, method=nw.smc(8), rounds=2, orders=4, runs=1, judging=2, seed=1)
+    requests = [nw.Search(TREE.model, score=TREE.score())]
+    return train_order(TREE.model, requests, method=nw.smc(8), rounds=2, orders=4, runs=1, judging=2, seed=1)
 
 
 def of_the_gallery() -> Iterator[tuple[str, Search]]:
     """Every model of the gallery."""
-    for one in entries():
-        yield f"gallery {one.name}", partial(of_gallery, one)
+    for entry in entries():
+        yield f"gallery {entry.name}", partial(of_gallery, entry)
 
 
-def of_gallery(one: Entry) -> nw.Result:
+def of_gallery(entry: Entry) -> nw.Result:
     """A short search of a model, by the usual search or by its own."""
     few: dict[str, Any] = {"seed": SEED}
-    if one.target_name is not None:
+    if entry.target_name is not None:
         return nw.grow(
-            one.model, one.target(), method=nw.methods.improve(20, 6, rounds=3), voxel=one.voxel, **few
+            entry.model, entry.target(), method=nw.methods.improve(20, 6, rounds=3), voxel=entry.voxel, **few
         )
-    if one.draws is not None and one.window is not None:
-        score, start = one.score() if one.score is not None else None, ()
-        if one.drawing_name is not None:
-            drawing = drawings.drawing(one.drawing_name)
-            score, start = drawing.score(one.window), drawing.place(one.window)
-        own = {**one.usual, "particles": 30}
-        return nw.grow(one.model, None, *start, score=score, method=nw.smc(**own), **few)
-    module = import_module(f"niwaki.gallery.{one.name.replace('-', '_')}")
+    if entry.draws is not None and entry.window is not None:
+        score, start = entry.score() if entry.score is not None else None, ()
+        if entry.drawing_name is not None:
+            drawing = drawings.drawing(entry.drawing_name)
+            score, start = drawing.score(entry.window), drawing.place(entry.window)
+        settings = {**entry.usual, "particles": 30}
+        return nw.grow(entry.model, None, *start, score=score, method=nw.smc(**settings), **few)
+    module = import_module(f"niwaki.gallery.{entry.name.replace('-', '_')}")
     method = getattr(module, "METHOD", getattr(module, "SEARCH", nw.smc()))
     if isinstance(method, nw.methods.Mh):
         method = replace(method, steps=1000, warmup=200, thin=50)
     if isinstance(method, nw.methods.Smc):
         # A run of the coffee shop takes a second.
         method = replace(method, particles=3)
-    return nw.run(one.model, method=method, **few)
+    return nw.run(entry.model, method=method, **few)
 
 
 def of_all() -> dict[str, Search]:
     """Every search by its name."""
-    found: dict[str, Search] = {}
+    table: dict[str, Search] = {}
     for some in (of_methods, of_the_rest, of_the_gallery):
         for name, search in some():
-            assert name not in found, name
-            found[name] = search
-    return found
+            assert name not in table, name
+            table[name] = search
+    return table

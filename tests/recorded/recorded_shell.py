@@ -134,25 +134,25 @@ def place() -> Iterator[Path]:
 
 
 def called(calls: Sequence[Sequence[str]]) -> str:
-    """The digest of what the last call prints, and of all files that are there then."""
+    """Return the digest of the last call's output and of all files after it."""
     with place() as folder:
         before = written(folder)
         for words in calls:
             done = CliRunner().invoke(app, list(words))
             if done.exit_code != 0:
                 raise RuntimeError(f"{' '.join(words)}: {done.output}") from done.exception
-        told = "\n".join(said(done.stdout)) if words[0] == "doctor" else done.stdout
-        return digest_of_files(folder, written(folder) - before, told)
+        output = "\n".join(core_lines(done.stdout)) if words[0] == "doctor" else done.stdout
+        return digest_of_files(folder, written(folder) - before, output)
 
 
 def written(folder: Path) -> set[str]:
     """The files of a folder; of a batch those that it exports, because its segments hold times."""
-    names = {one.relative_to(folder).as_posix() for one in folder.rglob("*") if one.is_file()}
+    names = {file.relative_to(folder).as_posix() for file in folder.rglob("*") if file.is_file()}
     return {name for name in names if not re.match(r"ships/(?!results\.csv|sheet\.png|meshes/)", name)}
 
 
-def said(report: str) -> Iterator[str]:
-    """What a report about an installation says of Niwaki, and not of the machine."""
+def core_lines(report: str) -> Iterator[str]:
+    """Yield the lines about the core from the report of `niwaki doctor`."""
     _, _, core = report.partition("\nCore: ")
     yield from core.partition("\n\n")[0].splitlines()
 

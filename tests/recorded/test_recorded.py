@@ -22,7 +22,7 @@ from niwaki.shell.app import COMMANDS
 from recorded_searches import RESUMED, of_all, of_methods
 
 TABLE: dict[str, Any] = json.loads(recorded.TABLE.read_text(encoding="utf-8"))
-METHODS = [one for one in vars(methods).values() if inspect.isclass(one) and issubclass(one, Method)]
+METHODS = [kind for kind in vars(methods).values() if inspect.isclass(kind) and issubclass(kind, Method)]
 
 
 @pytest.mark.skipif(
@@ -37,18 +37,22 @@ def test_searches_give_the_same_bits() -> None:
 def test_the_table_has_each_search_and_no_other() -> None:
     assert list(TABLE["searches"]) == list(recorded.rows())
     # A search that fails has an error in place of a hash.
-    assert all(len(one) == 16 and int(one, 16) >= 0 for one in TABLE["searches"].values())
+    assert all(len(digest) == 16 and int(digest, 16) >= 0 for digest in TABLE["searches"].values())
 
 
-@pytest.mark.parametrize("method", [one for one in METHODS if one is not Method], ids=lambda one: one.NAME)
+@pytest.mark.parametrize(
+    "method", [kind for kind in METHODS if kind is not Method], ids=lambda kind: kind.NAME
+)
 def test_every_method_is_recorded_in_all_ways(method: type[Method]) -> None:
-    own = [name for name in recorded.rows() if name.split(",")[0].split()[0] == method.NAME]
-    assert any("," not in name for name in own)
-    wanted = [", held", RESUMED] + [", guided"] * ("guide" in inspect.signature(method).parameters)
-    assert all(any(name.endswith(one) for name in own) for one in wanted), (own, wanted)
+    names = [name for name in recorded.rows() if name.split(",")[0].split()[0] == method.NAME]
+    assert any("," not in name for name in names)
+    endings = [", held", RESUMED] + [", guided"] * ("guide" in inspect.signature(method).parameters)
+    assert all(any(name.endswith(ending) for name in names) for ending in endings), (names, endings)
 
 
-@pytest.mark.parametrize("kernel", [one for one in kernels.__all__ if one not in ("Kernel", "parse")])
+@pytest.mark.parametrize(
+    "kernel", [kernel for kernel in kernels.__all__ if kernel not in ("Kernel", "parse")]
+)
 def test_every_kernel_is_recorded(kernel: str) -> None:
     assert any(name.split(",")[0].split()[:2] == ["mh", kernel] for name in recorded.rows())
 
@@ -57,7 +61,7 @@ def test_every_command_and_every_model_is_recorded() -> None:
     names = list(recorded.rows())
     assert {name.split()[1] for name in names if name.startswith("shell ")} == set(COMMANDS)
     assert {name.split()[1] for name in names if name.startswith("gallery ")} == {
-        one.name for one in entries()
+        entry.name for entry in entries()
     }
 
 
@@ -67,21 +71,21 @@ class Moved(Sample):
     @property
     def choices(self) -> dict[str, Any]:
         """Its choices."""
-        found = super().choices
-        address = next(address for address, value in found.items() if isinstance(value, float))
-        return {**found, address: math.nextafter(found[address], math.inf)}
+        values = super().choices
+        address = next(address for address, value in values.items() if isinstance(value, float))
+        return {**values, address: math.nextafter(values[address], math.inf)}
 
 
 def test_one_bit_of_one_choice_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     table = str(tmp_path / "searches.json")
-    found = of_all()["forward"]()
-    monkeypatch.setattr(recorded, "rows", lambda: {"forward": lambda: digest(found)})
+    result = of_all()["forward"]()
+    monkeypatch.setattr(recorded, "rows", lambda: {"forward": lambda: digest(result)})
     assert recorded.main(["--table", table]) == 2
     assert recorded.main(["--table", table, "--write"]) == 0
     assert recorded.main(["--table", table]) == 0
-    found.samples[7].__class__ = Moved
+    result.samples[7].__class__ = Moved
     capsys.readouterr()
     assert recorded.main(["--table", table]) == 1
     assert capsys.readouterr().err.startswith("forward: ")
@@ -89,5 +93,5 @@ def test_one_bit_of_one_choice_is_seen(
 
 def test_a_resumed_search_must_equal_the_plain_one() -> None:
     assert not recorded.differences({"mh": "1", "mh, resumed": "1"}, {"mh": "1", "mh, resumed": "1"})
-    (said,) = recorded.differences({"mh": "1", "mh, resumed": "2"}, {"mh": "1", "mh, resumed": "2"})
-    assert said.startswith("mh, resumed: 2")
+    (line,) = recorded.differences({"mh": "1", "mh, resumed": "2"}, {"mh": "1", "mh, resumed": "2"})
+    assert line.startswith("mh, resumed: 2")

@@ -1,17 +1,19 @@
-"""Many searches: each case by each seed, on many processors or machines, into one folder that goes on.
+"""Batches of searches: each case with each seed, on many processors or machines, in one folder that can be resumed.
 
-entry      `batch`, which searches and gives the results in order; `stored`, which reads them
-islands    `spread`, the populations of one search on many workers
-spec       what is searched: cases, which are searches without a seed, and seeds
-body       a result as bytes, and back
-segments   files of records that only grow
-store      the folder: specs, segments and logs
-plan       what is missing, and how much of it makes a chunk
-working    what a worker does with a chunk
-pools      where chunks are worked on
-clusters   Ray, as an executor
-running    chunks, results, and workers that are lost
-export     a batch as a table, a contact sheet and meshes
+| module | contents |
+| --- | --- |
+| `entry` | `batch`, which searches and yields the results in order; `stored`, which reads them |
+| `islands` | `spread`, the populations of one search on many workers |
+| `spec` | the cases, which are searches without a seed, and the seeds |
+| `body` | a result as bytes, and back |
+| `segments` | files of records that only grow |
+| `store` | the folder: specs, segments and logs |
+| `plan` | the missing searches, and the size of chunks |
+| `worker` | the work of a worker on a chunk |
+| `pools` | executors and pools of processes |
+| `clusters` | Ray and Dask, as executors |
+| `execution` | chunks under way, results, and lost workers |
+| `export` | a batch as a table, a contact sheet and meshes |
 """
 
 import lazy_loader

@@ -6,10 +6,10 @@ from .entry import batch as batch
 from .entry import label as label
 from .entry import outcomes as outcomes
 from .entry import stored as stored
+from .execution import BatchProgress as BatchProgress
 from .islands import spread as spread
 from .pools import Workers as Workers
 from .pools import cores as cores
-from .running import Standing as Standing
 from .spec import Seeds as Seeds
 from .spec import Spec as Spec
 from .store import Store as Store

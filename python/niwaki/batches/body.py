@@ -1,7 +1,7 @@
-"""A result as the bytes of a record, and back: JSON, with nothing from a clock or a machine.
+"""Results as bytes of records, and back: JSON without times and without names of machines.
 
-Two machines that do the same search write the same bytes. Reading runs nothing: a run is made again from its choices.
-A search that failed has the error's code and first line; the rest of the message names files, and is in the log.
+Two machines write the same bytes for the same search. Reading runs no search: a run is restored from its choices. A
+failed search stores the code and the first line of its error. The rest of the message names files, and is in the log.
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ from niwaki.search.data import MALFORMED, Reader, Writer
 
 
 class Body(Struct):
-    """A stored result, or what became of it.
+    """A stored result, or the error of a failed search.
 
     Attributes
     ----------
     samples
         Data of the runs.
     sizes
-        How many samples each chain has.
+        Number of samples of each chain.
     best
-        Data of the best run, where it is none of the samples.
+        Data of the best run, if it is not among the samples.
     info
         The method's statistics.
     invalid
-        As `Result.invalid`, without what may differ on another machine: folders of files, texts of exceptions.
+        `Result.invalid` without folders of files and texts of exceptions, which differ between machines.
     fault, message
-        The code and the first line of the error of a search that failed.
+        Code and first line of the error of a failed search.
     """
 
     samples: list[str] = []
@@ -55,7 +55,7 @@ class Body(Struct):
 
 
 def body_of(result: Result) -> bytes:
-    """The bytes of a result."""
+    """Return the bytes of a result."""
     samples = [sample._run.data() for sample in result]
     best = None if isinstance(result.info, EnumerationInfo) else result.best._run.data()
     return _bytes(
@@ -65,14 +65,15 @@ def body_of(result: Result) -> bytes:
             "best": None if best in samples else best,
             "info": _info(result.info),
             "invalid": [
-                (one.name, PurePath(one.file).name, one.line, one.runs, one.call) for one in result.invalid
+                (place.name, PurePath(place.file).name, place.line, place.runs, place.call)
+                for place in result.invalid
             ],
         }
     )
 
 
 def fault_of(error: NiwakiError) -> bytes:
-    """The bytes of a search that failed."""
+    """Return the bytes of a failed search."""
     first = str(error).partition("\n")[0].removeprefix(f"error[{error.code}]: ")
     return _bytes({"fault": error.code, "message": first})
 
@@ -82,7 +83,7 @@ def _bytes(data: Mapping[str, Any]) -> bytes:
 
 
 def _info(info: Info) -> dict[str, Any] | None:
-    """Statistics without the clock's."""
+    """Return statistics without times."""
     stored = stored_info(info)
     if stored is None:
         return None
@@ -96,16 +97,16 @@ def _info(info: Info) -> dict[str, Any] | None:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one search of a batch.
+    """The outcome of one search of a batch: a result or an error.
 
     Attributes
     ----------
     case : int
-        The number of its case, from 0.
+        Number of the case, from 0.
     labels : dict
-        The values in which its case differs from the others.
+        The values in which the case differs from the others.
     seed : int
-        Its seed.
+        Seed of the search.
     search : Search
         The search, which can be run again.
     """
@@ -126,22 +127,22 @@ class Outcome:
 
     @property
     def fault(self) -> str | None:
-        """The code of the error by which the search failed, such as "everything-impossible"; None where it did not."""
+        """The code of the error of a failed search, such as "everything-impossible"; None for a result."""
         return self._body.fault
 
     @property
     def message(self) -> str:
-        """The first line of that error."""
+        """The first line of the error of a failed search."""
         return self._body.message
 
     @cached_property
     def result(self) -> Result:
-        """The result; without seconds, which are in the batch's log.
+        """The result, without seconds, which are in the log of the batch.
 
         Raises
         ------
         InputError
-            The search failed, or what is stored is no result of it.
+            The search failed, or the stored bytes are not a result of it.
         """
         body = self._body
         if body.fault is not None:
@@ -150,11 +151,11 @@ class Outcome:
             )
         return Result(
             self.search,
-            [self._sample(one) for one in body.samples],
+            [self._sample(data) for data in body.samples],
             self.seed,
             info=self._statistics(body.info),
             sizes=body.sizes,
-            invalid=[Invalid(*one, reason="") for one in body.invalid],
+            invalid=[Invalid(*place, reason="") for place in body.invalid],
         )
 
     @property
@@ -164,7 +165,7 @@ class Outcome:
 
     @cached_property
     def best(self) -> Sample:
-        """The best run; of chains the best state that they reached."""
+        """The best run; for chains, the best state of all chains."""
         return self.result.best if self._body.best is None else self._sample(self._body.best)
 
     def _sample(self, data: str) -> Sample:
@@ -196,5 +197,5 @@ class Outcome:
         return draw.card.card("Outcome", {**rows, **self.best.numbers}, self.best._repr_png_())
 
     def __repr__(self) -> str:
-        named = "".join(f"{name}={value!r}, " for name, value in self.labels.items())
-        return f"<Outcome: {named}seed {self.seed}, {self.message if self.fault else repr(self.best)}>"
+        labels = "".join(f"{name}={value!r}, " for name, value in self.labels.items())
+        return f"<Outcome: {labels}seed {self.seed}, {self.message if self.fault else repr(self.best)}>"

@@ -1,7 +1,7 @@
-"""Clusters as executors: Ray by an adapter, Dask by the executor that it has. Both are optional libraries.
+"""Clusters as executors: Ray by an adapter, Dask by its own executor. Both are optional libraries.
 
-Without an address a cluster of this machine is started, which listens on the loopback only, and is ended. Neither asks
-anything of the network outside of it.
+Without an address, a cluster is started on this machine, which listens on the loopback only and ends with the batch.
+Neither library sends requests to the network outside of the cluster.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ from typing import Any
 
 from niwaki.errors.extras import optional
 
-#: So often Ray itself starts a task again whose worker was lost.
+#: How often Ray starts a task again after its worker is lost.
 RETRIES = 3
 
-#: What keeps Ray from reporting anything.
+#: Variables that turn off Ray's reports of usage.
 SILENT = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_USAGE_STATS_REPORT_URL": "http://127.0.0.1:9"}
 
-#: What keeps a Ray of this machine on the loopback; else it asks which address others would see.
+#: Variables that keep a local Ray on the loopback; otherwise it asks the network for the machine's address.
 LOCAL = {"RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER": "0"}
 
-#: Where Ray looks for the cluster's own settings, in the home folder; where it finds none it asks the cloud for them.
+#: The file with a cluster's settings in the home folder; without the file Ray asks the cloud for them.
 SETTINGS = "ray_bootstrap_config.yaml"
 
 
 class RayExecutor(Executor):
-    """An executor whose tasks run where Ray has room.
+    """An executor whose tasks run on Ray.
 
     Parameters
     ----------
     library
-        The module `ray`, which is connected.
+        The module `ray`, connected to a cluster.
     """
 
     def __init__(self, library: Any) -> None:
@@ -53,7 +53,7 @@ def _call(function: Callable[..., Any], args: Any, kwargs: Any) -> Any:
 
 @contextmanager
 def ray(processes: int, address: str | None = None) -> Iterator[Executor]:
-    """An executor of Ray: of the cluster at an address, or of so many processes here.
+    """Yield an executor of Ray: of the cluster at an address, or of processes on this machine.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def ray(processes: int, address: str | None = None) -> Iterator[Executor]:
 
 @contextmanager
 def _environment(values: Mapping[str, str]) -> Iterator[None]:
-    """Inside, variables of the environment have these values, for processes that are started."""
+    """Set variables of the environment inside the context, for processes that start there."""
     before = {name: os.environ.get(name) for name in values}
     os.environ.update(values)
     try:
@@ -94,7 +94,7 @@ def _environment(values: Mapping[str, str]) -> Iterator[None]:
 
 @contextmanager
 def dask(processes: int, address: str | None = None) -> Iterator[Executor]:
-    """An executor of Dask: of the scheduler at an address, or of so many processes here.
+    """Yield an executor of Dask: of the scheduler at an address, or of processes on this machine.
 
     Raises
     ------
@@ -102,16 +102,20 @@ def dask(processes: int, address: str | None = None) -> Iterator[Executor]:
         Dask is not installed.
     """
     library = optional("distributed", "a batch on Dask", "cluster")
-    own = {
+    local_settings = {
         "n_workers": processes,
         "threads_per_worker": 1,
         "host": "127.0.0.1",
         "dashboard_address": None,
         "processes": True,
     }
-    with library.Client(address, set_as_default=False) if address else library.Client(**own) as client:
+    with (
+        library.Client(address, set_as_default=False)
+        if address
+        else library.Client(**local_settings) as client
+    ):
         yield client.get_executor(pure=False)
 
 
-#: The clusters by the names that are typed.
+#: The clusters by their names on the command line.
 ENGINES = {"ray": ray, "dask": dask}

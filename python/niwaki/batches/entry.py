@@ -1,4 +1,4 @@
-"""`batch`: many searches as one call, whose results come in the order of the table."""
+"""`batch`: many searches in one call, with results in the order of cases and seeds."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from niwaki.batches import plan, pools, running
+from niwaki.batches import execution, plan, pools
 from niwaki.batches.body import Outcome
+from niwaki.batches.execution import Watch
 from niwaki.batches.pools import Workers
-from niwaki.batches.running import Watch
 from niwaki.batches.spec import Case, Seeds, Spec
 from niwaki.batches.store import Store
 from niwaki.errors import InputError
@@ -41,64 +41,65 @@ def batch(
     progress: Watch | None = None,
     **settings: Any,
 ) -> Iterator[Outcome]:
-    """Search many times: each combination of what varies, by each seed, on all processors.
+    """Search many times: each combination of varied values with each seed, on all processors.
 
     Parameters
     ----------
     model
-        A model, which is grown as by `niwaki.grow`; or a `Search`, or several, whose seeds do not matter.
+        A model, which is grown as in `niwaki.grow`; or a `Search`, or several of them, whose seeds are ignored.
     target, args, settings
-        As for `niwaki.grow`, the same for all searches.
+        Target, arguments and settings of `niwaki.grow`, the same for all searches.
     seeds
-        How many seeds, from 0; or the seeds.
+        Number of seeds, from 0; or the seeds themselves.
     vary
-        Values of these settings, arguments or targets by name: each is combined with each of the others.
+        Lists of values by the name of a setting, an argument or `target`. All combinations are searched.
     folder
-        Where results are stored. A batch that was stopped or killed goes on from its folder. Results are not kept when
-        it is left out.
+        Folder of the results. A stopped or killed batch resumes from its folder. Without it results are not kept.
     processes
-        How many; as many as the machine has processors when left out.
+        Number of worker processes. Default: the processors of the machine.
     executor
-        Where searches run, instead of processes of this machine: any executor of `concurrent.futures`. Name its workers
-        with `processes`.
+        Any executor of `concurrent.futures`, in place of processes of this machine. `processes` is then the number of
+        its workers.
     shard
-        One part of the batch, such as "3/16"; the parts may run on different machines.
+        A part of the batch, such as "3/16"; the parts may run on different machines.
     chunk
-        About so many seconds of searches are given to a worker at once.
+        Seconds of searches, about, that a worker gets at once.
     progress
-        Called with a `Standing` whenever results came.
+        A function that gets a `BatchProgress` whenever results have come.
 
     Returns
     -------
     iterator of Outcome
-        One for each search, in the order of cases and seeds; they are searched while it is read. A model's fault is an
-        outcome, too.
+        An outcome for each search, in the order of cases and seeds. Searches run while you read the iterator. A fault
+        of the model is an outcome, too.
 
     Raises
     ------
     InputError
-        A clock would decide a result; the folder holds another batch; a worker has another engine; or, at the end,
-        some searches lost their workers three times.
+        The result of a search depends on a clock; the folder has another batch; a worker has another engine; or, at
+        the end, searches have lost their workers three times.
     """
     if isinstance(model, Model) or (callable(model) and not isinstance(model, Search)):
         table = Table.of_grow(model, target, *args, vary=vary, **settings)
     else:
         if target is not None or args or vary or settings:
-            found = next(iter([*(vary or ()), *settings]), "target")
+            name = next(iter([*(vary or ()), *settings]), "target")
             raise InputError(
-                "unknown-setting", name=found, suggestion="a `Search` has all its settings: change it there"
+                "unknown-setting",
+                name=name,
+                suggestion="change the setting in the `Search`, which has them all",
             )
         table = Table.of_searches([model] if isinstance(model, Search) else model)
     spec, part, workers = table.spec(seeds), plan.shard_of(shard), Workers(executor, processes, chunk)
     if folder is not None:
         return table.run(Store(Path(folder), spec), part, workers, progress)
-    return _kept_nowhere(table, spec, part, workers, progress)
+    return _run_in_temporary_folder(table, spec, part, workers, progress)
 
 
-def _kept_nowhere(table: Table, spec: Spec, *given: Any) -> Iterator[Outcome]:
-    """The outcomes of a batch, in a folder that goes with them."""
+def _run_in_temporary_folder(table: Table, spec: Spec, *options: Any) -> Iterator[Outcome]:
+    """Yield the outcomes of a batch whose folder is removed at the end."""
     with TemporaryDirectory(prefix="niwaki-batch-") as place:
-        yield from table.run(Store(Path(place), spec), *given)
+        yield from table.run(Store(Path(place), spec), *options)
 
 
 @dataclass(frozen=True)
@@ -108,9 +109,9 @@ class Table:
     Attributes
     ----------
     searches : sequence of Search
-        One for each case.
+        A search for each case.
     labels : sequence of dict
-        The values in which each differs from the others, by name.
+        For each case, the values by name in which it differs from the others.
     """
 
     searches: Sequence[Search]
@@ -118,15 +119,15 @@ class Table:
 
     @classmethod
     def of_searches(cls, searches: Iterable[Search]) -> Table:
-        """Of searches, which are numbered."""
-        found = list(searches)
-        if not found or not all(isinstance(one, Search) for one in found):
-            raise bad("searches", found, "one `Search` or more", "`[Search(...), Search(...)]`")
-        return cls(found, [{"search": number} if len(found) > 1 else {} for number in range(len(found))])
+        """Return a table of searches; several searches have numbers as labels."""
+        cases = list(searches)
+        if not cases or not all(isinstance(case, Search) for case in cases):
+            raise bad("searches", cases, "one `Search` or more", "`[Search(...), Search(...)]`")
+        return cls(cases, [{"search": number} if len(cases) > 1 else {} for number in range(len(cases))])
 
     @classmethod
     def of_grow(cls, model: Any, target: Any, *args: Any, vary: Any = None, **settings: Any) -> Table:
-        """Of the settings of `niwaki.grow`, some of which vary."""
+        """Return a table for settings of `niwaki.grow`, some of which vary."""
         axes = _axes(vary)
         for name in axes:
             if name in settings or (name == "target" and target is not None):
@@ -134,24 +135,24 @@ class Table:
                     "flags-exclude",
                     flag=name,
                     other=f"vary[{name!r}]",
-                    reason="a setting is the same for all searches, or varies",
-                    cure="leave one of them out",
+                    reason="a setting either varies or is the same for all searches",
+                    cure="use only one of the two",
                 )
         for name in ("seed", "threads", "checkpoint"):
             if name in settings or name in axes:
                 cure = "a batch has `seeds`, `processes` and `folder` instead"
                 raise InputError("unknown-setting", name=name, suggestion=cure)
         if "target" in axes:
-            axes["target"] = [Target.of(one) for one in axes["target"]]
+            axes["target"] = [Target.of(value) for value in axes["target"]]
         searches, labels = [], []
         for values in product(*axes.values()):
-            own = dict(zip(axes, values, strict=True))
-            labels.append({name: label(value) for name, value in own.items()})
-            searches.append(grow_search(model, own.pop("target", target), *args, seed=0, **settings, **own))
+            varied = dict(zip(axes, values, strict=True))
+            labels.append({name: label(value) for name, value in varied.items()})
+            searches.append(grow_search(model, varied.pop("target", target), *args, seed=0, **settings, **varied))
         return cls(searches, labels)
 
     def spec(self, seeds: Any) -> Spec:
-        """The searches with seeds, as for `batch`, for this engine and this machine."""
+        """Return the spec of the searches and seeds, for this engine and this machine."""
         _ = self.searches[0].task  # A model that does not compile fails here, and not in each worker.
         return Spec.here(map(Case.of_search, self.searches, self.labels), Seeds.of(seeds))
 
@@ -162,29 +163,29 @@ class Table:
         workers: Workers,
         progress: Watch | None = None,
     ) -> Iterator[Outcome]:
-        """Search what a store lacks; the outcomes in order, as for `batch`."""
+        """Run the searches that a store lacks; yield all outcomes in order (see `batch`)."""
         trust = tuple(sorted({name for search in self.searches for name in search.host_modules}))
-        with store.held(shard) as own:
+        with store.writer(shard) as writer:
             left = plan.Plan(store, shard, workers.seconds, trust, _folders(trust))
-            steps = running.Running(left, own, workers, progress).steps()
+            steps = execution.Execution(left, writer, workers, progress).steps()
             try:
-                for item in plan.part(store.spec, shard):
-                    key = store.spec.key(*item)
-                    while key not in store and item not in left.lost and next(steps, self) is not self:
+                for job in plan.part(store.spec, shard):
+                    key = store.spec.key(*job)
+                    while key not in store and job not in left.lost and next(steps, self) is not self:
                         pass
                     if key in store:
-                        yield self._outcome(*item, store.body(key))
+                        yield self._outcome(*job, store.body(key))
             finally:
                 steps.close()
             if left.lost:
-                raise running.lost(left.lost, left.total)
+                raise execution.lost(left.lost, left.total)
 
     def _outcome(self, case: int, seed: int, body: bytes) -> Outcome:
         return Outcome(case, self.labels[case], seed, self.searches[case].with_seed(seed), body)
 
 
 def stored(folder: str | PathLike[str], trust: tuple[str, ...] = ()) -> Iterator[Outcome]:
-    """The results that a batch has in its folder, in the order of cases and seeds.
+    """Yield the results in the folder of a batch, in the order of cases and seeds.
 
     Parameters
     ----------
@@ -196,53 +197,53 @@ def stored(folder: str | PathLike[str], trust: tuple[str, ...] = ()) -> Iterator
     Raises
     ------
     InputError
-        The folder holds no batch, or one that is damaged.
+        The folder has no batch, or a damaged batch.
     """
     return outcomes(Store(Path(folder)), trust)
 
 
 def outcomes(store: Store, trust: tuple[str, ...] = ()) -> Iterator[Outcome]:
-    """The same, of a store that is open."""
+    """Yield the results of an open store, in the order of cases and seeds."""
 
     @cache
-    def searched(case: int) -> Search:
+    def search_of(case: int) -> Search:
         return store.whole.cases[case].search(trust)
 
     for case, seed, body in store.present():
-        yield Outcome(case, store.whole.cases[case].labels, seed, searched(case).with_seed(seed), body)
+        yield Outcome(case, store.whole.cases[case].labels, seed, search_of(case).with_seed(seed), body)
 
 
 def label(value: Any) -> Any:
-    """A value as a table names it."""
+    """Return a value as a label of a table."""
     if isinstance(value, Target):
         return value.name
     return value if isinstance(value, (bool, int, float, str)) or value is None else repr(value)
 
 
 def _axes(vary: Any) -> dict[str, list[Any]]:
-    """What varies, by name."""
+    """Return the lists of varied values by name."""
     expected, example = "a dict with a list of values for each name", '`{"particles": [100, 200]}`'
     if vary is None:
         return {}
     if not isinstance(vary, Mapping):
         raise bad("vary", vary, expected, example)
-    found: dict[str, list[Any]] = {}
+    axes: dict[str, list[Any]] = {}
     for name, values in vary.items():
         if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
             raise bad(f"vary[{name!r}]", values, "a list of values", example)
-        found[name] = list(values)
-        if not found[name]:
-            raise bad(f"vary[{name!r}]", found[name], "at least one value", example)
-    return found
+        axes[name] = list(values)
+        if not axes[name]:
+            raise bad(f"vary[{name!r}]", axes[name], "at least one value", example)
+    return axes
 
 
 def _folders(modules: tuple[str, ...]) -> tuple[str, ...]:
-    """Where the modules of host functions are found, but for our own and for files."""
-    found = set()
+    """Return the folders of modules of host functions, except the package's modules and files."""
+    folders = set()
     for name in {*modules} - {name for name, _ in files(modules)}:
         first = sys.modules.get(name.partition(".")[0])
         place = getattr(first, "__file__", None)
         if place is not None and not name.startswith("niwaki."):
-            own = Path(place).resolve()
-            found.add(str(own.parent.parent if own.name == "__init__.py" else own.parent))
-    return tuple(sorted(found))
+            path = Path(place).resolve()
+            folders.add(str(path.parent.parent if path.name == "__init__.py" else path.parent))
+    return tuple(sorted(folders))

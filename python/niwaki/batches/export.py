@@ -1,7 +1,7 @@
-"""A batch as files for other tools: a table (CSV, Parquet), a contact sheet, meshes.
+"""Files of a batch for other tools: a table (CSV, Parquet), a contact sheet, meshes.
 
-The table has a line for each search, in the order of the batch, and the same bytes however the batch was computed. Its
-columns are the case, what varies, the seed, and numbers of the best run.
+The table has a row for each search, in the order of the batch, with the same bytes however the batch was computed. Its
+columns are the case, the varied values, the seed, and numbers of the best run.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from niwaki.errors.files import ensure_folder, write_whole
 from niwaki.result import caption
 from niwaki.search.data import mesh_hash
 
-#: The columns that every table has, after those of what varies, with their kind.
+#: The columns of every table, after the columns of varied values, with their types.
 COLUMNS: dict[str, type] = {
     "seed": int,
     "log_score": float,
@@ -39,42 +39,47 @@ COLUMNS: dict[str, type] = {
     "fault": str,
 }
 
-#: Lines of a table that are kept at once, for Parquet.
+#: Rows of a table that are in memory at once, for Parquet.
 BLOCK = 10_000
 
 
-def numbers(one: Outcome, choices: bool = False) -> dict[str, Any]:
-    """The line of a search: what varies, and the numbers of its best run; None for what it has not.
+def numbers(outcome: Outcome, choices: bool = False) -> dict[str, Any]:
+    """Return the row of a search: the varied values, and the numbers of its best run; None for missing numbers.
 
     Parameters
     ----------
-    one
-        The search.
+    outcome
+        The outcome of the search.
     choices
-        Also the choices of the best run by their addresses, as JSON.
+        Whether to add the choices of the best run by their addresses, as JSON.
     """
-    found: dict[str, Any] = {"case": one.case, **one.labels, **dict.fromkeys(COLUMNS), "seed": one.seed}
+    row: dict[str, Any] = {
+        "case": outcome.case,
+        **outcome.labels,
+        **dict.fromkeys(COLUMNS),
+        "seed": outcome.seed,
+    }
     if choices:
-        found["choices"] = None
-    if one.fault is not None:
-        return found | {"fault": one.fault}
-    found |= {"samples": len(one.result), "log_evidence": one.result.log_evidence}
+        row["choices"] = None
+    if outcome.fault is not None:
+        return row | {"fault": outcome.fault}
+    row |= {"samples": len(outcome.result), "log_evidence": outcome.result.log_evidence}
     try:
-        best = one.best
+        best = outcome.best
     except InputError as error:
         if error.code != "no-runs":
             raise
-        return found
+        return row
     fits = best.fit
-    found |= {name: getattr(best, name) for name in ("log_score", "log_prior", "similarity", "primitives")}
-    found |= {name: None if fits is None else getattr(fits, name) for name in ("covered", "outside")}
+    row |= {name: getattr(best, name) for name in ("log_score", "log_prior", "similarity", "primitives")}
+    row |= {name: None if fits is None else getattr(fits, name) for name in ("covered", "outside")}
     if choices:
-        found["choices"] = json.dumps(best.choices)
-    return found
+        row["choices"] = json.dumps(best.choices)
+    return row
 
 
 def write_csv(place: Path, store: Store, trust: tuple[str, ...] = (), choices: bool = False) -> Path:
-    """Write the table as text with commas; numbers have all their digits.
+    """Write the table as CSV; numbers have all their digits.
 
     Raises
     ------
@@ -83,12 +88,12 @@ def write_csv(place: Path, store: Store, trust: tuple[str, ...] = (), choices: b
     """
     text = io.StringIO()
     lines: Any = None
-    for one in outcomes(store, trust):
-        found = numbers(one, choices)
+    for outcome in outcomes(store, trust):
+        row = numbers(outcome, choices)
         if lines is None:
-            lines = csv.DictWriter(text, list(found), lineterminator="\n")
+            lines = csv.DictWriter(text, list(row), lineterminator="\n")
             lines.writeheader()
-        lines.writerow(found)
+        lines.writerow(row)
     return write_whole(place, text.getvalue().encode())
 
 
@@ -109,7 +114,7 @@ def write_parquet(place: Path, store: Store, trust: tuple[str, ...] = (), choice
         [(name, arrow.uint64() if name == "seed" else kinds[kind]) for name, kind in fields.items()]
     )
     data = io.BytesIO()
-    rows = (numbers(one, choices) for one in outcomes(store, trust))
+    rows = (numbers(outcome, choices) for outcome in outcomes(store, trust))
     with parquet.ParquetWriter(data, schema) as writer:
         while block := list(islice(rows, BLOCK)):
             writer.write_table(arrow.Table.from_pylist([_typed(row, fields) for row in block], schema=schema))
@@ -117,18 +122,18 @@ def write_parquet(place: Path, store: Store, trust: tuple[str, ...] = (), choice
 
 
 def _kinds(store: Store) -> dict[str, type]:
-    """The kind of each label: that of all its values, or a text."""
+    """Return the type of each label: the common type of its values, or text."""
     cases = store.whole.cases
-    found: dict[str, type] = {}
+    kinds: dict[str, type] = {}
     for name in cases[0].labels:
         types = {type(case.labels.get(name)) for case in cases}
-        found[name] = types.pop() if len(types) == 1 else float if types == {int, float} else str
-        found[name] = found[name] if found[name] in (int, float, str, bool) else str
-    return found
+        kinds[name] = types.pop() if len(types) == 1 else float if types == {int, float} else str
+        kinds[name] = kinds[name] if kinds[name] in (int, float, str, bool) else str
+    return kinds
 
 
 def _typed(row: dict[str, Any], fields: dict[str, type]) -> dict[str, Any]:
-    """A line whose texts are texts."""
+    """Return a row with text in its columns of text."""
     return {
         name: str(value) if fields[name] is str and value is not None else value
         for name, value in row.items()
@@ -136,33 +141,37 @@ def _typed(row: dict[str, Any], fields: dict[str, type]) -> dict[str, Any]:
 
 
 def best_of(store: Store, count: int, trust: tuple[str, ...] = ()) -> list[Outcome]:
-    """The searches with the best log scores, best first."""
-    scenes = (one for one in outcomes(store, trust) if one.fault is None and one.best.primitives > 0)
+    """Return the searches with the best log scores, best first."""
+    scenes = (
+        outcome for outcome in outcomes(store, trust) if outcome.fault is None and outcome.best.primitives > 0
+    )
 
-    def rank(one: Outcome) -> tuple[float, int, int]:
-        score = one.best.log_score
-        return (-math.inf if math.isnan(score) else score, -one.case, -one.seed)
+    def rank(outcome: Outcome) -> tuple[float, int, int]:
+        score = outcome.best.log_score
+        return (-math.inf if math.isnan(score) else score, -outcome.case, -outcome.seed)
 
     return heapq.nlargest(count, scenes, key=rank)
 
 
-def write_sheet(place: Path, found: list[Outcome]) -> Path:
-    """Draw these searches side by side, each with its number in the list, its scores and its case.
+def write_sheet(place: Path, outcomes: list[Outcome]) -> Path:
+    """Draw searches side by side, each with its number in the list, its scores and its case.
 
-    The target is drawn as a ghost where it is the same for all.
+    The target is drawn as a ghost if it is the same for all searches.
     """
-    targets = [one.best.target for one in found]
-    same = len({None if one is None else mesh_hash(one) for one in targets}) == 1
-    captions = [f"{caption(one.best, number)}   case {one.case}" for number, one in enumerate(found, 1)]
-    scenes = [one.best.scene for one in found]
-    return draw.sheet.save(place, scenes, captions, targets[0] if same else None, size=(320, 240))
+    targets = [outcome.best.target for outcome in outcomes]
+    has_same_target = len({None if target is None else mesh_hash(target) for target in targets}) == 1
+    captions = [
+        f"{caption(outcome.best, number)}   case {outcome.case}" for number, outcome in enumerate(outcomes, 1)
+    ]
+    scenes = [outcome.best.scene for outcome in outcomes]
+    return draw.sheet.save(place, scenes, captions, targets[0] if has_same_target else None, size=(320, 240))
 
 
-def write_meshes(folder: Path, found: list[Outcome]) -> list[Path]:
-    """Write the best run of each of these as GLB: `case-0-seed-12.glb`; of a drawing as SVG."""
+def write_meshes(folder: Path, outcomes: list[Outcome]) -> list[Path]:
+    """Write the best run of each search as GLB, `case-0-seed-12.glb`, or as SVG for a drawing."""
     ensure_folder(folder)
     places = []
-    for one in found:
-        suffix = "glb" if one.search.score.window is None else "svg"
-        places.append(one.best.export(folder / f"case-{one.case}-seed-{one.seed}.{suffix}"))
+    for outcome in outcomes:
+        suffix = "glb" if outcome.search.score.window is None else "svg"
+        places.append(outcome.best.export(folder / f"case-{outcome.case}-seed-{outcome.seed}.{suffix}"))
     return places

@@ -1,8 +1,8 @@
-"""Which searches of a batch are missing, and how many of them make a chunk.
+"""The missing searches of a batch, and their division into chunks.
 
-A chunk that is too small costs more than it does, and one that is too large is lost with its worker and leaves the
-others idle at the end. So a chunk takes about the seconds that are asked for, by what searches have taken so far, and
-less when little is left.
+A chunk that is too small costs more time than its searches. A chunk that is too large is lost with its worker, and
+leaves other workers idle at the end. So a chunk takes about the requested seconds, by the measured time of earlier
+searches, and less when few searches are left.
 """
 
 from __future__ import annotations
@@ -14,68 +14,69 @@ from dataclasses import replace
 
 from niwaki.batches.spec import Spec
 from niwaki.batches.store import Store
-from niwaki.batches.working import Chunk
+from niwaki.batches.worker import Chunk
 from niwaki.errors.settings import bad, is_whole
 from niwaki.inputs.modules import files
 
 #: Seconds of the smallest chunk, at the end of a batch.
 LEAST = 0.1
 
-#: Most searches of a chunk: what is lost with a worker, and sent at once.
+#: Most searches of a chunk, which are sent at once and lost together with a worker.
 MOST = 5_000
 
-#: The weight of the last chunk in the mean of seconds.
+#: The weight of the last chunk in the running mean of seconds.
 FRESH = 0.3
 
-#: So often a search is tried whose worker is lost, or has trouble.
+#: Most attempts at a search whose worker is lost, or has trouble.
 ATTEMPTS = 3
 
-#: A chunk that was under way so often when a pool broke is done alone, to know whether it breaks it.
+#: A chunk that was under way in this many breaks of a pool runs alone, to find out whether it is the cause.
 SUSPECT = 2
 
-Item = tuple[int, int]
+#: A search of a batch: the number of its case, and its seed.
+Job = tuple[int, int]
 
 
-def shard_of(given: str | tuple[int, int] | None) -> tuple[int, int]:
-    """The part of a batch: `(3, 16)` or "3/16", the third of sixteen.
+def shard_of(shard: str | tuple[int, int] | None) -> tuple[int, int]:
+    """Return a part of a batch as two numbers: (3, 16) or "3/16" is the third part of sixteen.
 
     Raises
     ------
     InputError
-        It is none.
+        The value is not a part of a batch.
     """
-    found = re.fullmatch(r"(\d{1,7})/(\d{1,7})", given) if isinstance(given, str) else None
-    parts = (1, 1) if given is None else tuple(map(int, found.groups())) if found else given
+    match = re.fullmatch(r"(\d{1,7})/(\d{1,7})", shard) if isinstance(shard, str) else None
+    parts = (1, 1) if shard is None else tuple(map(int, match.groups())) if match else shard
     if not isinstance(parts, tuple) or len(parts) != 2 or not all(map(is_whole, parts)):
-        raise bad("shard", given, "a part and the number of parts", "3/16, the third of sixteen")
+        raise bad("shard", shard, "a part and the number of parts", "3/16, the third part of sixteen")
     if not 1 <= parts[0] <= parts[1]:
         raise bad(
-            "shard", given, "a part from 1 to the number of parts", f"1/{max(parts[1], 1)}, the first of them"
+            "shard", shard, "a part from 1 to the number of parts", f"1/{max(parts[1], 1)}, the first part"
         )
     return parts
 
 
 class Pace:
-    """Seconds that a search takes, measured as a batch goes on."""
+    """The measured seconds of a search of each case."""
 
     def __init__(self) -> None:
         self._mean: float | None = None
         self._of_case: dict[int, float] = {}
 
-    def note(self, items: list[Item], seconds: float) -> None:
-        """A chunk took so many seconds of a worker."""
-        each = seconds / len(items)
-        for case in {case for case, _ in items}:
+    def note(self, jobs: list[Job], seconds: float) -> None:
+        """Note the seconds that a worker took for the jobs of a chunk."""
+        each = seconds / len(jobs)
+        for case in {case for case, _ in jobs}:
             self._of_case[case] = _mixed(self._of_case.get(case), each)
         self._mean = _mixed(self._mean, each)
 
     def of(self, case: int) -> float | None:
-        """Seconds of a search of a case; None while nothing is known."""
+        """Return the seconds of a search of a case; None before the first measurement."""
         return self._of_case.get(case, self._mean)
 
     @property
     def mean(self) -> float:
-        """Seconds of a search of any case."""
+        """The mean seconds of a search, over all cases."""
         return self._mean or 0.0
 
 
@@ -84,18 +85,18 @@ def _mixed(old: float | None, new: float) -> float:
 
 
 class Plan:
-    """The searches that are left to do.
+    """The searches of a batch that are still to run.
 
     Parameters
     ----------
     store
-        What is there already.
+        The store, with the results so far.
     shard
-        The part of the batch: every so many-th search.
+        The part of the batch, such as (3, 16): every 16th search, from the third.
     target
         Seconds of a chunk.
     trust, folders
-        As for `Chunk`.
+        See `Chunk`.
     """
 
     def __init__(
@@ -113,94 +114,94 @@ class Plan:
         self._fresh = self._missing()
         self._next = next(self._fresh, None)
         self._again: deque[Chunk] = deque()
-        self._attempts: dict[Item, int] = {}
+        self._attempts: dict[Job, int] = {}
         self.pace = Pace()
         self.left = sum(1 for _ in self._missing())
-        #: Searches that were given up, and why.
-        self.lost: dict[Item, str] = {}
+        #: Abandoned searches, with the reason.
+        self.lost: dict[Job, str] = {}
 
-    def _missing(self) -> Iterator[Item]:
-        return (item for item in part(self.spec, self._shard) if self.spec.key(*item) not in self._store)
+    def _missing(self) -> Iterator[Job]:
+        return (job for job in part(self.spec, self._shard) if self.spec.key(*job) not in self._store)
 
-    def attempt(self, item: Item) -> int:
-        """Which attempt at a search is under way, from 1."""
-        return self._attempts.get(item, 0) + 1
+    def attempt(self, job: Job) -> int:
+        """Return the number of the attempt at a search that is under way, from 1."""
+        return self._attempts.get(job, 0) + 1
 
     def take(self, workers: int, alone: bool) -> Chunk | None:
-        """The next chunk for a worker; None where there is nothing to do at present.
+        """Return the next chunk for a worker; None if there is no work at present.
 
         Parameters
         ----------
         workers
-            How many share what is left.
+            Number of workers that share the rest.
         alone
-            Whether nothing else is under way.
+            Whether no other chunk is under way.
         """
         if self._again:
             if self._again[0].suspected < SUSPECT or alone:
                 return self._again.popleft()
             return None
         seconds = min(self._target, max(LEAST, self.left * self.pace.mean / (4 * workers)))
-        items, spent = list[Item](), 0.0
-        while self._next is not None and len(items) < MOST:
+        jobs, spent = list[Job](), 0.0
+        while self._next is not None and len(jobs) < MOST:
             each = self.pace.of(self._next[0])
-            if items and (each is None or spent + each > seconds):
+            if jobs and (each is None or spent + each > seconds):
                 break
-            items.append(self._next)
+            jobs.append(self._next)
             spent += each or 0.0
             self._next = next(self._fresh, None)
-        return self._chunk(items) if items else None
+        return self._chunk(jobs) if jobs else None
 
-    def _chunk(self, items: list[Item], suspected: int = 0) -> Chunk:
-        texts = {case: self.spec.cases[case].text for case, _ in items}
+    def _chunk(self, jobs: list[Job], suspected: int = 0) -> Chunk:
+        texts = {case: self.spec.cases[case].text for case, _ in jobs}
         return Chunk(
             self.spec.engine,
             self.spec.bits,
             texts,
-            tuple(items),
+            tuple(jobs),
             self._trust,
             self._folders,
             suspected,
             files(self._trust),
         )
 
-    def done(self, items: list[Item], seconds: float) -> None:
-        """These searches have their results."""
-        self.left -= len(items)
-        if items:
-            self.pace.note(items, seconds)
+    def finish(self, jobs: list[Job], seconds: float) -> None:
+        """Note that searches have their results."""
+        self.left -= len(jobs)
+        if jobs:
+            self.pace.note(jobs, seconds)
 
-    def again(self, items: list[Item]) -> None:
-        """These were not begun, through no fault of theirs."""
-        if items:
-            self._again.append(self._chunk(items))
+    def requeue(self, jobs: list[Job]) -> None:
+        """Put searches back that have not started, without a charge."""
+        if jobs:
+            self._again.append(self._chunk(jobs))
 
     def suspect(self, chunk: Chunk) -> None:
-        """A pool broke while this chunk was under way with others: perhaps by it, and more likely not."""
+        """Put a chunk back that was under way, with other chunks, when a pool broke."""
         if chunk.suspected + 1 < SUSPECT:
             self._again.append(replace(chunk, suspected=chunk.suspected + 1))
         else:
-            self._again.extend(self._chunk([item], SUSPECT) for item in chunk.items)
+            self._again.extend(self._chunk([job], SUSPECT) for job in chunk.jobs)
 
-    def failed(self, chunk: Chunk, reason: str) -> None:
-        """The executor lost this chunk alone; a chunk of several searches is taken apart before one is charged."""
-        if len(chunk.items) == 1:
-            self.charge(chunk.items[0], reason)
+    def fail(self, chunk: Chunk, reason: str) -> None:
+        """Charge the search of a chunk that the executor lost; a chunk of several searches is split first."""
+        if len(chunk.jobs) == 1:
+            self.charge(chunk.jobs[0], reason)
         else:
-            self._again.extend(self._chunk([item]) for item in chunk.items)
+            self._again.extend(self._chunk([job]) for job in chunk.jobs)
 
-    def charge(self, item: Item, reason: str, suspected: int = 0) -> None:
-        """A search lost its worker, or met trouble: it is tried again, or given up."""
-        self._attempts[item] = self._attempts.get(item, 0) + 1
-        if self._attempts[item] < ATTEMPTS:
-            self._again.append(self._chunk([item], suspected))
+    def charge(self, job: Job, reason: str, suspected: int = 0) -> None:
+        """Count a failed attempt at a search that lost its worker or met trouble; put it back, or abandon it."""
+        self._attempts[job] = self._attempts.get(job, 0) + 1
+        if self._attempts[job] < ATTEMPTS:
+            self._again.append(self._chunk([job], suspected))
         else:
-            self.lost[item] = reason
+            self.lost[job] = reason
             self.left -= 1
 
 
-def part(spec: Spec, shard: tuple[int, int]) -> Iterator[Item]:
-    """The searches of a part of a batch, in order."""
+def part(spec: Spec, shard: tuple[int, int]) -> Iterator[Job]:
+    """Yield the searches of a part of a batch, in order."""
     number = 0
     for case in range(len(spec.cases)):
         for seed in spec.seeds:

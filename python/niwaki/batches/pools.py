@@ -1,6 +1,6 @@
-"""Where chunks are worked on: any `concurrent.futures.Executor`; a pool of spawned processes when none is given.
+"""Executors for chunks: any `concurrent.futures.Executor`, or a pool of spawned processes of this module.
 
-Our own pool is made anew when it breaks. An executor that was given belongs to whoever made it, and stays open.
+The module's own pool is replaced when it breaks. An executor of the caller stays open.
 """
 
 from __future__ import annotations
@@ -16,51 +16,51 @@ from contextlib import suppress
 from multiprocessing.process import BaseProcess
 from multiprocessing.util import Finalize
 
-from niwaki.batches.working import Chunk, Done, work
+from niwaki.batches.worker import Chunk, ChunkResult, work
 from niwaki.errors import InputError
 from niwaki.errors.processes import end_group, lead
 from niwaki.errors.settings import bad, count, real
 
-#: The most processes of a pool of ours.
+#: Most processes of the module's own pool.
 MOST = 512
 
-#: Seconds of a chunk.
+#: Default seconds of a chunk.
 TARGET = 2.0
 
-#: A priority at the exit of a process, above those of the standard library.
+#: Priority of a function at the exit of a process, above all priorities of the standard library.
 FIRST = 1000
 
-#: Chunks under way for each worker: while one is worked on, the next one is there.
+#: Chunks under way for each worker, so that the next chunk is ready when a worker is done.
 AHEAD = 2
 
 
 def cores() -> int:
-    """How many processors this process may use."""
+    """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def local(processes: int) -> ProcessPoolExecutor:
-    """A pool of spawned processes, which end with this one, whatever ends it."""
+    """Return a pool of spawned processes, which end with this process however it ends."""
     context = multiprocessing.get_context("spawn")
     return ProcessPoolExecutor(processes, mp_context=context, initializer=_begin)
 
 
 def _begin() -> None:
-    """In a worker: Ctrl-C is for the process that collects, and without that one there is nothing to do.
+    """Prepare a worker process: ignore Ctrl-C, and end with the parent process.
 
-    What host functions have started ends with the worker.
+    Processes that host functions start end with the worker.
     """
     lead()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Before it would wait for processes of its own.
+    # This runs before the worker would wait for its child processes.
     Finalize(None, _end, exitpriority=FIRST)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_follow, args=(parent.join,), daemon=True).start()
 
 
-def _follow(ended: Callable[[], None]) -> None:
-    ended()
+def _follow(wait_for_parent: Callable[[], None]) -> None:
+    wait_for_parent()
     end_group(os.getpid())
     os._exit(1)
 
@@ -72,16 +72,16 @@ def _end() -> None:
 
 
 class Workers:
-    """An executor, and what is known about it.
+    """An executor with its number of workers.
 
     Parameters
     ----------
     executor
-        An executor; a pool of our own when left out.
+        An executor. Default: a pool of processes of this machine.
     processes
-        How many workers it has; the processors of the machine when left out.
+        Number of workers. Default: the processors of the machine.
     seconds
-        About so many seconds of searches are given to a worker at once.
+        Seconds of searches, about, that a worker gets at once.
     """
 
     def __init__(
@@ -97,65 +97,65 @@ class Workers:
         self.seconds = real("chunk", seconds, 0, 3600, "[]", str(TARGET))
         known = getattr(executor, "_max_workers", None)
         self.count = count("processes", processes or known or cores(), most=1 << 20 if executor else MOST)
-        self._given, self._own = executor, None if executor else self._started()
+        self._executor, self._pool = executor, None if executor else self._start_pool()
         self._answered = False
 
-    def _started(self) -> ProcessPoolExecutor:
-        """A pool of our own, which is first asked whether it is there."""
-        own = local(self.count)
-        self._hello = own.submit(os.getpid)
-        return own
+    def _start_pool(self) -> ProcessPoolExecutor:
+        """Start a pool of processes with a first task, which shows whether workers start."""
+        pool = local(self.count)
+        self._hello = pool.submit(os.getpid)
+        return pool
 
     @property
     def depth(self) -> int:
-        """How many chunks may be under way."""
+        """Most chunks under way."""
         return self.count * AHEAD
 
-    def submit(self, chunk: Chunk) -> Future[Done]:
+    def submit(self, chunk: Chunk) -> Future[ChunkResult]:
         """Give a chunk to a worker."""
-        executor = self._given or self._own
+        executor = self._executor or self._pool
         assert executor is not None
         return executor.submit(work, chunk)
 
     def renew(self, reason: BaseException) -> None:
-        """Begin again after the pool broke.
+        """Replace the pool after it broke.
 
         Raises
         ------
         InputError
-            The executor is not ours, or no worker of ours has ever answered.
+            The executor belongs to the caller, or no worker of the pool has ever answered.
         """
-        if self._own is None:
+        if self._pool is None:
             raise InputError("executor-broken", reason=str(reason) or type(reason).__name__) from reason
         leaders = self._leaders()
-        self._own.shutdown(wait=True, cancel_futures=True)
+        self._pool.shutdown(wait=True, cancel_futures=True)
         for leader in leaders:
             end_group(leader)
         self._answered = self._answered or not (self._hello.cancelled() or self._hello.exception())
         if not self._answered:
-            # Others would end as they did, before any search.
+            # New workers would end in the same way, before any search.
             raise InputError("workers-not-started") from reason
-        self._own = self._started()
+        self._pool = self._start_pool()
 
     def end_orphans(self) -> None:
-        """End what lost workers of our own pool have started: a child of a fork keeps open what tells of the loss."""
+        """End the children of lost workers; a forked child keeps the pipe open that reports the loss."""
         for leader, process in self._leaders().items():
             if not process.is_alive():
                 end_group(leader)
 
     def close(self, at_once: bool) -> None:
-        """End our own pool; `at_once` also what is under way."""
-        if self._own is None:
+        """End the pool; with `at_once` also its running chunks."""
+        if self._pool is None:
             return
         processes = self._leaders() if at_once else {}
-        self._own.shutdown(wait=False, cancel_futures=True)
+        self._pool.shutdown(wait=False, cancel_futures=True)
         for leader, process in processes.items():
             end_group(leader)
-            # One that has only just been started leads no group yet.
+            # A process that has just started leads no group yet.
             process.kill()
         for process in processes.values():
             process.join()
 
     def _leaders(self) -> dict[int, BaseProcess]:
-        """The processes of our own pool, by their numbers."""
-        return dict(getattr(self._own, "_processes", None) or {})
+        """Return the processes of the pool, by their numbers."""
+        return dict(getattr(self._pool, "_processes", None) or {})

@@ -1,9 +1,9 @@
-"""Segments: files of records that only grow. One writer has one segment, and never writes to another's.
+"""Segments: files of records that only grow. Each writer has a segment of its own.
 
 A record is a head and a body. The head has four bytes that mark a record, the key (32 bytes), the length of the body
-and the CRC-32 of the key and the body (both big-endian, 32 bits). A record that a kill or a full disk left unfinished
-is no record: readers look for the next mark after it. So a segment is read while another process writes it, and nothing
-has to be repaired.
+and the CRC-32 of the key and the body (both big-endian, 32 bits). Readers skip a record that a kill or a full disk left
+incomplete, and continue at the next mark. So a segment can be read while another process writes it, and needs no
+repair.
 """
 
 from __future__ import annotations
@@ -21,26 +21,26 @@ from pathlib import Path
 from niwaki.errors.files import sync_folder, unreadable, unwritable, write_all
 from niwaki.inputs import regular
 
-#: What a record begins with.
+#: The first bytes of a record.
 MARK = b"nwk\x01"
 
 #: Mark, key, length of the body, CRC-32.
 HEAD = struct.Struct(">4s32sII")
 
-#: How the names of segments begin, and of the logs beside them.
+#: Prefixes of the names of segments and of the logs beside them.
 SEGMENT, LOG = "seg-", "log-"
 
-#: Seconds between two times at which a segment is brought to the disk.
+#: Seconds between two calls of fsync for a segment.
 SYNC = 1.0
 
 
 def record(key: bytes, body: bytes) -> bytes:
-    """The bytes of one record."""
+    """Return the bytes of a record."""
     return HEAD.pack(MARK, key, len(body), _crc(key, body)) + body
 
 
 def records(place: Path) -> Iterator[tuple[bytes, int, int]]:
-    """The whole records of a segment, in its order: key, place of the body and its length, bytes.
+    """Yield the complete records of a segment in order: the key, and place and length of the body in bytes.
 
     Raises
     ------
@@ -70,12 +70,12 @@ def _crc(key: bytes, body: bytes) -> int:
 
 
 class Segment:
-    """A segment of one's own, and its log; both are made with the first record.
+    """A segment of one writer, with its log; both files are created with the first record.
 
     Parameters
     ----------
     folder
-        Where.
+        The folder of both files.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -84,8 +84,8 @@ class Segment:
         self._numbers: list[int] = []
         self._synced = 0.0
 
-    def append(self, found: Iterable[tuple[bytes, bytes]], lines: Iterable[str] = ()) -> list[int]:
-        """Add records, and lines to the log; the places of the bodies.
+    def append(self, entries: Iterable[tuple[bytes, bytes]], lines: Iterable[str] = ()) -> list[int]:
+        """Add records, and lines to the log; return the places of the bodies.
 
         Raises
         ------
@@ -95,11 +95,11 @@ class Segment:
         whole, places = bytearray(), []
         try:
             for place in (self.path, self.log)[len(self._numbers) :]:
-                self._numbers.append(_created(place))
+                self._numbers.append(_create(place))
                 sync_folder(self.path.parent)
-            # Where the file ends, also after a write that failed in its middle.
+            # The true end of the file, also after a write that failed half-way.
             end = os.lseek(self._numbers[0], 0, os.SEEK_END)
-            for key, body in found:
+            for key, body in entries:
                 places.append(end + len(whole) + HEAD.size)
                 whole += record(key, body)
             write_all(self._numbers[0], bytes(whole))
@@ -112,12 +112,12 @@ class Segment:
         return places
 
     def close(self) -> None:
-        """Bring all of it to the disk.
+        """Flush both files to the disk, and close them.
 
         Raises
         ------
         FileError
-            The disk does not take it.
+            The disk refuses the data.
         """
         numbers, self._numbers = self._numbers, []
         with ExitStack() as stack:
@@ -130,6 +130,6 @@ class Segment:
                 raise unwritable(self.path, error) from error
 
 
-def _created(place: Path) -> int:
+def _create(place: Path) -> int:
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_BINARY", 0)
     return os.open(place, flags, 0o666)

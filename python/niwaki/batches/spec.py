@@ -1,8 +1,8 @@
-"""What a batch consists of: cases, which are searches without a seed, and seeds. Each case is searched by each seed.
+"""Specs of batches: cases, which are searches without a seed, and seeds. Each case is searched with each seed.
 
-A spec is written once and is not changed: its name has the hash of its bytes, which is computed again wherever it is
-read. Another spec in the same folder has the same cases and other seeds. The results depend on the engine and on the
-bits that a machine computes, so both are part of it.
+A spec is written once and never changed: its file name contains the hash of its bytes, which each reader checks.
+Another spec in the same folder has the same cases and other seeds. Results depend on the engine and on the bits that a
+machine computes, so a spec contains both.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from niwaki.once import cached_property
 from niwaki.search import Search
 from niwaki.search.request import check_format, engine_hash
 
-#: The version of the JSON form, and of what segments hold.
+#: The version of the JSON form, and of the contents of segments.
 FORMAT = 1
 
-#: How the names of specs begin, and how many digits of the hash follow.
+#: Prefix of the names of specs, and number of digits of the hash after it.
 SPEC, DIGITS = "spec-", 16
 
-#: The most searches of a batch.
+#: Most searches of a batch.
 MOST = 100_000_000
 
 Whole = Annotated[int, Meta(ge=0)]
@@ -57,7 +57,7 @@ class SpecData(Struct):
 
 
 class Seeds(Sequence[int]):
-    """Whole numbers as ranges: first number, and how many.
+    """Seeds as ranges: the first number, and the length.
 
     >>> list(Seeds([(0, 3), (10, 1)]))
     [0, 1, 2, 10]
@@ -68,34 +68,34 @@ class Seeds(Sequence[int]):
         self._ends = [0, *accumulate(length for _, length in self.ranges)]
 
     @classmethod
-    def of(cls, given: Any) -> Seeds:
-        """Of a number of seeds (0, 1, ...) or the seeds themselves; each once, in their order of size.
+    def of(cls, value: Any) -> Seeds:
+        """Return the seeds of a number (0, 1, ...) or of a collection, sorted and without repetition.
 
         Raises
         ------
         InputError
-            They are no seeds.
+            The value is not a number or a collection of seeds.
         """
-        if is_whole(given):
-            return cls([(0, count("seeds", given, most=MOST))])
+        if is_whole(value):
+            return cls([(0, count("seeds", value, most=MOST))])
         expected, example = "a number of seeds, or seeds from 0 to 2**64 - 1", "1000, or `range(1000, 2000)`"
-        if isinstance(given, str) or not isinstance(given, Iterable):
-            raise bad("seeds", given, expected, example)
-        if isinstance(given, range) and given.step == 1 and len(given) and 0 <= given[0] <= given[-1] < 2**64:
-            return cls([(given.start, count("seeds", len(given), most=MOST))])
+        if isinstance(value, str) or not isinstance(value, Iterable):
+            raise bad("seeds", value, expected, example)
+        if isinstance(value, range) and value.step == 1 and len(value) and 0 <= value[0] <= value[-1] < 2**64:
+            return cls([(value.start, count("seeds", len(value), most=MOST))])
         ranges: list[tuple[int, int]] = []
-        listed = list(given)
-        if not listed or not all(is_whole(one) and 0 <= one < 2**64 for one in listed):
+        listed = list(value)
+        if not listed or not all(is_whole(seed) and 0 <= seed < 2**64 for seed in listed):
             raise bad("seeds", listed, expected, example)
-        for one in sorted(set(listed)):
-            if ranges and sum(ranges[-1]) == one:
+        for seed in sorted(set(listed)):
+            if ranges and sum(ranges[-1]) == seed:
                 ranges[-1] = ranges[-1][0], ranges[-1][1] + 1
             else:
-                ranges.append((one, 1))
+                ranges.append((seed, 1))
         return cls(ranges)
 
     def united(self, other: Seeds) -> Seeds:
-        """Those of both."""
+        """Return the seeds of both."""
         ranges: list[tuple[int, int]] = []
         for first, length in sorted(self.ranges + other.ranges):
             if ranges and first <= sum(ranges[-1]):
@@ -109,11 +109,11 @@ class Seeds(Sequence[int]):
         return self._ends[-1]
 
     def __iter__(self) -> Iterator[int]:
-        return (one for first, length in self.ranges for one in range(first, first + length))
+        return (seed for first, length in self.ranges for seed in range(first, first + length))
 
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
-            return [self[one] for one in range(*index.indices(len(self)))]
+            return [self[position] for position in range(*index.indices(len(self)))]
         for (first, length), end in zip(self.ranges, self._ends, strict=False):
             if 0 <= index - end < length:
                 return first + index - end
@@ -122,16 +122,16 @@ class Seeds(Sequence[int]):
 
 @dataclass(frozen=True)
 class Case:
-    """A search by any seed, with the values in which it differs from the other cases.
+    """A search without its seed, with the values in which it differs from the other cases.
 
     Attributes
     ----------
     labels : dict
-        Those values by name, as texts, numbers and truth values.
+        The differing values by name, as texts, numbers and truth values.
     hash : str
-        SHA-256 of what decides its results, but for the seed.
+        SHA-256 of everything that determines the results, except the seed.
     about : dict
-        The same by name; see `Search.about`.
+        Hashes of the parts of the search, by name; see `Search.about`.
     data : dict
         The search as data.
     """
@@ -143,15 +143,15 @@ class Case:
 
     @classmethod
     def of_search(cls, search: Search, labels: Mapping[str, Any]) -> Case:
-        """The case of a search, whose seed does not matter.
+        """Return the case of a search; its seed is ignored.
 
         Raises
         ------
         InputError
-            A clock would decide the result, or there are several runs.
+            The result depends on a clock, or the search has several runs.
         """
         if getattr(search.method, "seconds", None) is not None:
-            expected = "None: a clock must not decide the results of a batch, which are compared byte by byte"
+            expected = "None: results of a batch are compared byte by byte, and must not depend on a clock"
             raise bad(
                 "seconds",
                 getattr(search.method, "seconds", None),
@@ -162,11 +162,11 @@ class Case:
             raise bad(
                 "runs",
                 search.runs,
-                "1: in a batch each seed is a search of its own",
-                "1, and give more `seeds`",
+                "1: in a batch each seed is a separate search",
+                "1, and use more `seeds`",
             )
-        own = search.with_seed(0)
-        return cls(dict(labels), own.hash, own.about, own.data("inside"))
+        seedless = search.with_seed(0)
+        return cls(dict(labels), seedless.hash, seedless.about, seedless.data("inside"))
 
     @cached_property
     def text(self) -> str:
@@ -174,23 +174,23 @@ class Case:
         return json.dumps(self.data, allow_nan=False)
 
     def search(self, trust: tuple[str, ...] = ()) -> Search:
-        """The search; `trust` as for `Search.of_data`.
+        """Return the search; see `Search.of_data` for `trust`.
 
         Raises
         ------
         InputError
-            It is none, or not that of the hash, by which results are found.
+            The data is not a search, or its hash differs from the hash of the results.
         """
-        found = Search.of_data(self.data, trust).with_seed(0)
-        if found.hash != self.hash:
-            reason = f"its results are those of the search {self.hash[:16]}, and it has the search {found.hash[:16]}"
+        search = Search.of_data(self.data, trust).with_seed(0)
+        if search.hash != self.hash:
+            reason = f"its results belong to the search {self.hash[:16]}, but it contains the search {search.hash[:16]}"
             raise InputError("bad-batch", path=f"the case {dict(self.labels)}", reason=reason)
-        return found
+        return search
 
 
 @dataclass(frozen=True)
 class Spec:
-    """All cases, and the seeds by which each is searched.
+    """The cases of a batch, and the seeds for each case.
 
     Attributes
     ----------
@@ -209,53 +209,58 @@ class Spec:
 
     @classmethod
     def here(cls, cases: Iterable[Case], seeds: Seeds) -> Spec:
-        """A spec for this engine and this machine."""
-        own = tuple(cases)
-        count("the number of searches", len(own) * len(seeds), most=MOST)
-        return cls(own, seeds, engine_hash(), _engine.fingerprint())
+        """Return a spec for this engine and this machine."""
+        case_list = tuple(cases)
+        count("the number of searches", len(case_list) * len(seeds), most=MOST)
+        return cls(case_list, seeds, engine_hash(), _engine.fingerprint())
 
     def __len__(self) -> int:
         return len(self.cases) * len(self.seeds)
 
     @property
     def identity(self) -> tuple[Any, ...]:
-        """What two specs of one folder have in common: all but the seeds."""
+        """The engine, bits and cases, which all specs of a folder share."""
         return self.engine, self.bits, [(dict(case.labels), case.hash) for case in self.cases]
 
     @property
-    def asked(self) -> tuple[Any, ...]:
-        """What decides which results the batch has: the cases and the seeds."""
+    def contents(self) -> tuple[Any, ...]:
+        """The identity and the seeds, which determine the results of the batch."""
         return *self.identity, self.seeds.ranges
 
     @cached_property
     def prefixes(self) -> list[bytes]:
-        """What the key of a result begins with before it is hashed, by case."""
+        """The first part of a result's key, before it is hashed, for each case."""
         return [f"{case.hash} {self.engine} {self.bits} ".encode() for case in self.cases]
 
     def key(self, case: int, seed: int) -> bytes:
-        """The key of a result: SHA-256 of what decides its bytes."""
+        """Return the key of a result: SHA-256 of everything that determines its bytes."""
         return sha256(self.prefixes[case] + str(seed).encode()).digest()
 
     def data(self) -> dict[str, Any]:
-        """The spec as plain data."""
+        """Return the spec as plain data."""
         return {
             "format": FORMAT,
             "engine": self.engine,
             "bits": self.bits,
             "cases": [
-                {"labels": dict(one.labels), "hash": one.hash, "about": dict(one.about), "search": one.data}
-                for one in self.cases
+                {
+                    "labels": dict(case.labels),
+                    "hash": case.hash,
+                    "about": dict(case.about),
+                    "search": case.data,
+                }
+                for case in self.cases
             ],
             "seeds": self.seeds.ranges,
         }
 
     def text(self) -> str:
-        """The spec as JSON."""
+        """Return the spec as JSON."""
         return json.dumps(self.data(), allow_nan=False)
 
     @staticmethod
     def name_of(text: bytes) -> str:
-        """The name of the file that has this text."""
+        """Return the name of the file with this text."""
         return f"{SPEC}{sha256(text).hexdigest()[:DIGITS]}.json"
 
     @classmethod
@@ -265,13 +270,11 @@ class Spec:
         Raises
         ------
         InputError
-            It is none, or was changed.
+            The file is not a spec, or its bytes have changed.
         """
         try:
             if place.name != cls.name_of(text):
-                raise InputError(
-                    "bad-batch", path=place, reason="its bytes are not those that its name is the hash of"
-                )
+                raise InputError("bad-batch", path=place, reason="its bytes do not have the hash in its name")
             data = decoded(text)
             check_format(data, FORMAT)
             read = fitted(data, SpecData)
@@ -279,5 +282,5 @@ class Spec:
                 raise Unfit("$.seeds", "seeds below 2**64", "larger ones")
         except Unfit as error:
             raise InputError("bad-batch", path=place, reason=str(error)) from error
-        cases = (Case(one.labels, one.hash, one.about, one.search) for one in read.cases)
+        cases = (Case(case.labels, case.hash, case.about, case.search) for case in read.cases)
         return cls(tuple(cases), Seeds(read.seeds), read.engine, read.bits)

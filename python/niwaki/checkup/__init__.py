@@ -1,11 +1,13 @@
-"""A look at an installation: what is there, what works, and what is missing for what.
+"""A report on an installation: versions, tests of the core, the machine, and the extras.
 
-doctor    all of it, as `niwaki doctor` prints it
-trials    what a search needs, tried by small searches
-report    what was found, as text and as JSON
+| module | contents |
+| --- | --- |
+| `inspection` | `doctor`, which makes the report |
+| `trials` | small searches that test the core |
+| `report` | the report as values, as text and as JSON |
 """
 
-from niwaki.checkup.looking import doctor
+from niwaki.checkup.inspection import doctor
 from niwaki.checkup.report import Checkup, Extra, Trial
 
 __all__ = ["Checkup", "Extra", "Trial", "doctor"]

@@ -1,4 +1,4 @@
-"""What a checkup found, as values, as text and as JSON."""
+"""The report of a checkup as values, as text and as JSON."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from niwaki.errors.memory import size
 
 @dataclass(frozen=True)
 class Trial:
-    """Something that must work, tried.
+    """A test of the core.
 
     Attributes
     ----------
     name : str
-        What was tried.
+        The subject of the test.
     error : str
-        Why it does not work; empty where it does.
+        The error of a test that fails; empty if it passes.
     """
 
     name: str
@@ -27,18 +27,18 @@ class Trial:
 
 @dataclass(frozen=True)
 class Extra:
-    """Packages that one may leave out.
+    """An extra: optional packages.
 
     Attributes
     ----------
     name : str
-        As `pip` knows it.
+        The name of the extra for `pip`.
     purpose : str
-        What it is for.
+        The features that need it.
     missing : tuple of str
-        Packages that are not there, or are too old; empty where the extra is installed.
+        Packages that are missing or too old; empty if the extra is installed.
     command : str
-        What installs it.
+        The command that installs it.
     """
 
     name: str
@@ -49,20 +49,20 @@ class Extra:
 
 @dataclass(frozen=True)
 class Checkup:
-    """What an installation has, and what works.
+    """The report on an installation.
 
     Attributes
     ----------
     versions : mapping of str to str
-        Of the package, its engine, Python and what the core needs.
+        Versions of the package, its engine, Python and the packages that the core needs.
     core : tuple of Trial
-        What must work.
+        Tests of the core.
     machine : mapping
-        `processors`; `free_memory`, bytes, None where the system does not say; and where the engine loads `threads`, as
-        many as a search takes; `vectors`, the instructions for gradients; `machine_code`, whether gradients are
-        compiled; `bits`, a fingerprint of the numbers that the machine computes.
+        `processors`; `free_memory` in bytes, None if the system does not tell it. If the engine loads, also `threads`,
+        the number of threads of a search; `vectors`, the instructions for gradients; `machine_code`, whether gradients
+        are compiled; `bits`, a fingerprint of the numbers that the machine computes.
     extras : tuple of Extra
-        What may be installed beside the core.
+        Optional packages beside the core.
     """
 
     versions: Mapping[str, str]
@@ -76,21 +76,24 @@ class Checkup:
         return not any(trial.error for trial in self.core)
 
     def data(self) -> dict[str, Any]:
-        """Everything, for JSON."""
+        """Return the report as data for JSON."""
         return {"works": self.works, **asdict(self)}
 
     def __str__(self) -> str:
-        """The report that `niwaki doctor` prints."""
+        """Return the report that `niwaki doctor` prints."""
         return "\n".join(
             [
                 "Versions",
                 *_rows(self.versions),
                 "",
                 "Core: works" if self.works else "Core: does not work",
-                *(f"  {'fails' if one.error else 'ok':<7}{one.name}{_after(one.error)}" for one in self.core),
+                *(
+                    f"  {'fails' if trial.error else 'ok':<7}{trial.name}{_suffix(trial.error)}"
+                    for trial in self.core
+                ),
                 "",
                 "This machine",
-                *_rows(_told(self.machine)),
+                *_rows(_description(self.machine)),
                 "",
                 "Extras",
                 *(line for extra in self.extras for line in _extra(extra)),
@@ -100,21 +103,21 @@ class Checkup:
     __repr__ = __str__
 
 
-def _told(machine: Mapping[str, Any]) -> dict[str, str]:
-    """The machine in words."""
+def _description(machine: Mapping[str, Any]) -> dict[str, str]:
+    """Describe the machine in words."""
     free = machine["free_memory"]
-    told = {
+    words = {
         "processors": str(machine["processors"]),
-        "memory": "how much is free is not known" if free is None else f"{size(free)} free",
+        "memory": "the free memory is unknown" if free is None else f"{size(free)} free",
     }
     if "threads" in machine:
-        told |= {
-            "threads": f"{machine['threads']} for a search; `threads=` and RAYON_NUM_THREADS say another number",
-            "vectors": machine["vectors"].replace("any", "those of any processor"),
+        words |= {
+            "threads": f"{machine['threads']} for a search; `threads=` and RAYON_NUM_THREADS set another number",
+            "vectors": machine["vectors"].replace("any", "instructions of any processor"),
             "gradients": "compiled to machine code" if machine["machine_code"] else "evaluated by tape",
-            "bits": f"{machine['bits']}: machines with the same give the same results",
+            "bits": f"{machine['bits']}: machines with the same bits give the same results",
         }
-    return told
+    return words
 
 
 def _rows(values: Mapping[str, Any]) -> list[str]:
@@ -122,12 +125,12 @@ def _rows(values: Mapping[str, Any]) -> list[str]:
     return [f"  {name:<{width}}  {value}" for name, value in values.items()]
 
 
-def _after(error: str) -> str:
+def _suffix(error: str) -> str:
     return f": {error}" if error else ""
 
 
 def _extra(extra: Extra) -> list[str]:
-    state = "missing" if extra.missing else "there"
+    state = "missing" if extra.missing else "ok"
     lines = [f"  {state:<9}{extra.name:<9}{extra.purpose}"]
     if extra.missing:
         lines.append(f"{'':20}{extra.command}   (needs {', '.join(extra.missing)})")

@@ -1,6 +1,6 @@
-"""What must work, tried: an exact search, a scene grown into a target, and its files.
+"""Tests of the core: an exact search, a scene that grows into a target, and its files.
 
-A trial returns nothing, or raises an error that says what does not work.
+A test that fails raises an error with the reason.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from niwaki.words import box, condition, emit, flip, uniform
 
 @model
 def coins() -> Any:
-    """Two coins that do not both show tails: whether the first shows heads."""
+    """Toss two coins that do not both show tails; return whether the first shows heads."""
     first = flip(0.5)
     condition(first or flip(0.5))
     return first
@@ -29,20 +29,20 @@ def coins() -> Any:
 
 @model
 def block() -> Any:
-    """A block of any width."""
+    """Emit a block of a random width."""
     width = uniform(0.5, 2.0)
     emit(box((0.0, 0.0, 0.0), (width, 1.0, 1.0)))
     return width
 
 
 def exact() -> None:
-    """Compile a model and enumerate its runs; the first coin shows heads in two of three."""
-    found = run(coins, method=enumerate_all()).to_its_end().distribution()[True]
-    if not math.isclose(found, 2.0 / 3.0, rel_tol=1e-9):
-        raise ArithmeticError(f"the probability of two of three is {found!r}")
+    """Compile a model and enumerate its runs; the first coin shows heads with probability 2/3."""
+    probability = run(coins, method=enumerate_all()).to_its_end().distribution()[True]
+    if not math.isclose(probability, 2.0 / 3.0, rel_tol=1e-9):
+        raise ArithmeticError(f"the probability is {probability!r}, not 2/3")
 
 
-def grown() -> None:
+def growth() -> None:
     """Grow a block into a target, draw it and write it as a mesh."""
     target = Target.of_shapes(box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)))
     result = run(block, method=smc(20), score=match_volume(target, voxel=0.125), seed=1).to_its_end()
@@ -56,7 +56,7 @@ def grown() -> None:
                 raise OSError(f"{file.name} is empty")
 
 
-def one_version(package: str) -> None:
-    """Hold the version of the engine against that of the package."""
+def same_version(package: str) -> None:
+    """Compare the version of the engine with the version of the package."""
     if _engine.__version__ != package:
-        raise ImportError(f"the engine is of version {_engine.__version__}, the package of version {package}")
+        raise ImportError(f"the engine has version {_engine.__version__}, the package has version {package}")

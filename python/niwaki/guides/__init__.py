@@ -1,15 +1,18 @@
-"""Guides: networks that have learnt, from the traces of searches, what leads where (dissertation chapter 6).
+"""Guides: networks that learn from traces of searches and draw choices in place of the prior (dissertation chapter 6).
 
-settings    of a network and its training
-training    traces from searches in rounds, and a guide from them; or one that learns from runs of its own
-ahead       what a paused run will still gain, learned
-orders      which future should run next, learned
-traces      many searches side by side, each for its best run
-report      what a round of training did
-shipped     the guides that come with the package
+| module | contents |
+| --- | --- |
+| `settings` | settings of a network and its training |
+| `training` | training on traces of searches in rounds, or on runs of the guide itself |
+| `training_checkpoint` | the checkpoint of a training |
+| `look_ahead` | training of the future gain of a paused run |
+| `orders` | training of the order in which futures run |
+| `traces` | many searches side by side, each for its best run |
+| `report` | the results of a round of training |
+| `shipped` | the guides of the package |
 """
 
-from niwaki.guides.ahead import train_look_ahead
+from niwaki.guides.look_ahead import train_look_ahead
 from niwaki.guides.orders import OrderTraining, train_order
 from niwaki.guides.report import Round
 from niwaki.guides.settings import Training

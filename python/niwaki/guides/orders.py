@@ -1,10 +1,10 @@
-"""Learning in which order futures should run, from which orders won.
+"""Training of the order in which futures run.
 
-The cross-entropy method (Rubinstein 1999): draw orders from normals over their numbers, search with each by the same
-seeds, keep the quarter that won, fit the normals to them, and begin again. An order wins by the log of its searches'
+The cross-entropy method (Rubinstein 1999): draw orders from normals over their numbers, search with each order and the
+same seeds, keep the best quarter, fit the normals to it, and repeat. An order is ranked by the logs of its searches'
 estimates of the normalising constant. The estimate is unbiased under any order, so its log is lower the more it
-scatters: the mean log is a bound that is tight where no weight is wasted. What survives inside one population is no
-judge of orders, because it also rewards those that put bad news off.
+scatters: the mean log is a bound that is tight where no weight is wasted. Survival inside one population does not rank
+orders, because it also rewards orders that put off bad news.
 """
 
 from __future__ import annotations
@@ -27,35 +27,33 @@ from niwaki.methods import FutureOrder, Smc, at_least_one, smc
 from niwaki.search import Search
 from niwaki.search.checks import check_seed, check_threads, fresh
 
-#: The largest number of an order that is tried; the engine refuses larger ones.
-LARGEST = 50.0
-#: Numbers of an order beside those of its functions.
+#: Numbers of an order, beside the numbers of its functions.
 FEATURES = ("depth", "turns", "waited", "stay")
-#: The share of the orders of a round that the next one is fitted to.
+#: The share of a round's orders to which the next normals are fitted.
 WINNERS = 0.25
-#: How far the first normals reach, and the least that a later one does, nats.
+#: Standard deviation of the first normals, and the least of later normals, in nats.
 SPREAD, LEAST = 1.5, 0.1
 
 
-#: In core form, the functions that futures call, and that of the model, which is a future too.
-_CALLED = re.compile(r'\((?:future|entry) (?:[@#]\S+ )*"([^"]+)"')
+#: In core form, the functions that futures call, and the model's own function, which is also a future.
+_FUTURES = re.compile(r'\((?:future|entry) (?:[@#]\S+ )*"([^"]+)"')
 
 
 @dataclass(frozen=True)
 class OrderTraining:
-    """What a training found.
+    """The result of a training of orders.
 
     Attributes
     ----------
     order : FutureOrder
-        The mean of the last normals; the uniform order where that did no better on seeds of its own.
+        The mean of the last normals; the uniform order if the mean is no better on fresh seeds.
     learned, uniform : float
-        Mean log normalising constant of the judging searches with the learned order and with the uniform one, nats; of
-        those searches that both survived.
+        Mean log normalising constant of the judging searches with the learned order and with the uniform order, in
+        nats, over the searches that both survived.
     error : float
-        Standard error of their difference, search by search.
+        Standard error of the difference, search by search.
     died : (int, int)
-        Judging searches in which every particle became impossible, of each.
+        Number of judging searches in which all particles became impossible, for each of the two orders.
     rounds : tuple of FutureOrder
         The mean after each round.
     """
@@ -80,28 +78,27 @@ def train_order(
     seed: int | None = None,
     threads: int | None = None,
 ) -> OrderTraining:
-    """Learn which future should run next.
+    """Train an order of futures.
 
     Parameters
     ----------
     model
         The model of the searches.
     searches
-        What to be good at.
+        Searches for which the order is trained.
     method
-        How: 100 particles at the power 1 when left out. Its own order does not matter. Ratio weights alone have a
-        normalising constant.
+        Method of the searches. Default: 100 particles at the power 1. It needs ratio weights, which have a normalising
+        constant; its order is ignored.
     rounds, orders
-        How many rounds, and how many orders each tries.
+        Number of rounds, and of orders in each round.
     runs
-        How often each order makes each search in a round, by seeds that all orders of the round share.
+        Number of runs of each search with each order in a round; all orders of a round share the seeds.
     judging
-        How often each search is made to compare the order that was learned with the uniform one, by seeds that no round
-        had.
+        Number of runs of each search that compare the learned order with the uniform order, with fresh seeds.
     seed
-        Decides everything; fresh when left out.
+        Seed of the training. Default: a new seed.
     threads
-        How many to use; the result does not depend on it.
+        Number of threads; the result does not depend on it.
 
     Examples
     --------
@@ -110,8 +107,8 @@ def train_order(
     >>> from niwaki.gallery.spaceship import spaceship
     >>> score = nw.match_volume(nw.targets.examples.ship(), voxel=1.0)
     >>> searches, quick = [nw.Search(spaceship, score=score)], {"rounds": 1, "orders": 4, "runs": 1, "judging": 2}
-    >>> found = train_order(spaceship, searches, method=nw.smc(20), seed=1, **quick)
-    >>> found.order == found.rounds[-1] or found.order == nw.methods.FutureOrder()
+    >>> trained = train_order(spaceship, searches, method=nw.smc(20), seed=1, **quick)
+    >>> trained.order == trained.rounds[-1] or trained.order == nw.methods.FutureOrder()
     True
     """
     model, seed, method = as_model(model), fresh(seed), method or smc(100)
@@ -122,39 +119,39 @@ def train_order(
         raise bad("searches", searches, "at least one search", "`[Search(model, score=score)]`")
     if method.weights != "ratio":
         raise bad("method", method, "ratio weights, which have a normalising constant", "`smc(100)`")
-    names = sorted(set(_CALLED.findall(model.core().text)))
+    names = sorted(set(_FUTURES.findall(model.core().text)))
     draw = np.random.default_rng(seed)
     mean, spread = np.zeros(len(FEATURES) + len(names)), np.full(len(FEATURES) + len(names), SPREAD)
     means: list[FutureOrder] = []
     with ThreadPoolExecutor(check_threads(threads) or cpu_count() or 1) as pool:
 
-        def judged(tried: Sequence[FutureOrder], seeds: Sequence[int]) -> NDArray[np.float64]:
-            """Log normalising constants: a row for each order, a column for each search and seed."""
+        def judge(candidates: Sequence[FutureOrder], seeds: Sequence[int]) -> NDArray[np.float64]:
+            """Return log normalising constants: a row for each order, a column for each search and seed."""
             jobs = [
-                replace(search, method=replace(method, order=order), seed=own)
-                for order in tried
+                replace(search, method=replace(method, order=order), seed=shared_seed)
+                for order in candidates
                 for search in searches
-                for own in seeds
+                for shared_seed in seeds
             ]
-            return np.array(list(pool.map(_log_normaliser, jobs))).reshape(len(tried), -1)
+            return np.array(list(pool.map(_log_normaliser, jobs))).reshape(len(candidates), -1)
 
         for _ in range(rounds):
             numbers = np.clip(mean + spread * draw.normal(size=(orders, len(mean))), -LARGEST, LARGEST)
-            found = judged([_order(own, names) for own in numbers], draw.integers(2**63, size=runs).tolist())
-            # Ranks, because a search that died is as bad as can be, and one that nearly did says little about the rest.
-            won = np.argsort(-_ranks(found).mean(axis=1), kind="stable")[: max(2, round(WINNERS * orders))]
-            mean, spread = numbers[won].mean(axis=0), np.maximum(numbers[won].std(axis=0), LEAST)
+            logs = judge([_order(row, names) for row in numbers], draw.integers(2**63, size=runs).tolist())
+            # Ranks are robust: a search that died has minus infinity, and a search that nearly died an outlier.
+            best = np.argsort(-_ranks(logs).mean(axis=1), kind="stable")[: max(2, round(WINNERS * orders))]
+            mean, spread = numbers[best].mean(axis=0), np.maximum(numbers[best].std(axis=0), LEAST)
             means.append(_order(mean, names))
-        learned, uniform = judged([means[-1], FutureOrder()], draw.integers(2**63, size=judging).tolist())
-    lived = np.isfinite(learned) & np.isfinite(uniform)
+        learned, uniform = judge([means[-1], FutureOrder()], draw.integers(2**63, size=judging).tolist())
+    survived = np.isfinite(learned) & np.isfinite(uniform)
     died = (int(np.sum(learned == -inf)), int(np.sum(uniform == -inf)))
-    by = (learned - uniform)[lived]
-    error = float(np.std(by) / max(1.0, np.sqrt(len(by)))) if len(by) else inf
-    is_better = died[0] <= died[1] and len(by) > 0 and by.mean() > 0
+    differences = (learned - uniform)[survived]
+    error = float(np.std(differences) / max(1.0, np.sqrt(len(differences)))) if len(differences) else inf
+    is_better = died[0] <= died[1] and len(differences) > 0 and differences.mean() > 0
     return OrderTraining(
         order=means[-1] if is_better else FutureOrder(),
-        learned=float(learned[lived].mean()) if len(by) else -inf,
-        uniform=float(uniform[lived].mean()) if len(by) else -inf,
+        learned=float(learned[survived].mean()) if len(differences) else -inf,
+        uniform=float(uniform[survived].mean()) if len(differences) else -inf,
         error=error,
         died=died,
         rounds=tuple(means),
@@ -162,22 +159,22 @@ def train_order(
 
 
 def _order(numbers: NDArray[np.float64], names: Sequence[str]) -> FutureOrder:
-    """The order of its numbers."""
+    """Return the order with these numbers."""
     features = dict(zip(FEATURES, numbers.tolist(), strict=False))
     functions = dict(zip(names, numbers[len(FEATURES) :].tolist(), strict=True))
     return FutureOrder(functions, **features)
 
 
-def _ranks(found: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The rank of each order within each column; ties share the mean of theirs."""
-    below = (found[:, None, :] > found[None, :, :]).sum(axis=1)
-    same = (found[:, None, :] == found[None, :, :]).sum(axis=1)
-    ranks: NDArray[np.float64] = below + 0.5 * (same - 1)
+def _ranks(logs: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the rank of each order within each column; ties share their mean rank."""
+    below = (logs[:, None, :] > logs[None, :, :]).sum(axis=1)
+    equal = (logs[:, None, :] == logs[None, :, :]).sum(axis=1)
+    ranks: NDArray[np.float64] = below + 0.5 * (equal - 1)
     return ranks
 
 
 def _log_normaliser(search: Search) -> float:
-    """The estimate of a search, nats; minus infinity where every particle became impossible."""
+    """Return the log normalising constant of a search, in nats; minus infinity if all particles became impossible."""
     try:
         info: Any = search.run(threads=1).info
     except InputError as error:

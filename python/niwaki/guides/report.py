@@ -1,4 +1,4 @@
-"""What a round of training did: for people who watch it, and in the report of the guide."""
+"""The results of a round of training, for its progress and for the report of the guide."""
 
 from __future__ import annotations
 
@@ -8,35 +8,35 @@ from typing import Any
 
 import numpy as np
 
-#: A similarity below is that of a stump: a run that ended before it covered anything.
+#: A run with a lower similarity is a stump: it ended before it covered anything.
 STUMP = 0.1
 
 
 @dataclass(frozen=True)
 class Round:
-    """A round of training; given to `progress` as it goes on.
+    """A round of training, as `progress` gets it.
 
     Attributes
     ----------
     number, rounds : int
-        Which round, from 0, of how many.
+        Number of the round, from 0, and of all rounds.
     traces, wanted : int
-        Searches that gave a trace so far, and searches in all.
+        Number of searches that gave a trace so far, and of all searches.
     failed : int
-        Searches whose every run was impossible, ended by a fault, or was no better than an empty scene.
+        Number of searches in which each run was impossible, ended with a fault, or was no better than an empty scene.
     step, steps : int
-        Steps of training so far, and in all; 0 until it begins.
+        Number of training steps so far, and of all steps; 0 before training starts.
     losses : list of (int, float, float)
-        Steps, mean loss of the choices learned from, and of those held out, nats for each choice.
+        Rows of the number of steps, and the mean loss of training and of held-out choices, in nats for each choice.
     bounds : list of (int, float, float)
-        Where a bound is raised: steps, its mean over the runs since the line before, and over runs of the held-out
-        targets, nats.
+        For the bounds: rows of the number of steps, the mean bound over the runs since the last row, and over runs of
+        the held-out targets, in nats.
     lost : list of (int, int)
-        Of each of these: runs since the line before that were impossible, and those that a fault ended.
+        For each row of `bounds`: runs since the last row that were impossible, and that ended with a fault.
     scores : list of float
-        Log scores of the held-out targets, by a search with few particles.
+        Log scores of the held-out targets, from a search with few particles.
     similarities : list of float
-        Their similarities, where the score has one.
+        Similarities of the held-out targets, if the score has a similarity.
     """
 
     number: int
@@ -54,35 +54,35 @@ class Round:
 
     @property
     def is_judged(self) -> bool:
-        """Whether the round is over."""
+        """Whether the round is complete."""
         return bool(self.scores)
 
     @property
     def has_learned(self) -> bool:
-        """Whether a step of training was looked at."""
+        """Whether the losses or bounds have a row after the first step."""
         return any(looks and looks[-1][0] > 0 for looks in (self.losses, self.bounds))
 
     def summary(self) -> dict[str, float]:
-        """Mean, median and worst tenth of the similarities, and the share of stumps; or of the log scores."""
+        """Return mean, median and worst tenth of the similarities, and the share of stumps; or else of the scores."""
         return summary(self.similarities) if self.similarities else spread(self.scores)
 
     def data(self) -> dict[str, Any]:
-        """As plain data, for the guide's report."""
+        """Return the round as plain data, for the guide's report."""
         names = ["number", "traces", "wanted", "failed", "losses", "scores", "similarities"]
         if self.bounds:
             names += ["bounds", "lost"]
-        own = asdict(self)
-        return {**{name: own[name] for name in names}, "summary": self.summary()}
+        values = asdict(self)
+        return {**{name: values[name] for name in names}, "summary": self.summary()}
 
 
 def summary(similarities: Sequence[float]) -> dict[str, float]:
-    """Mean, median and worst tenth of similarities, and the share of stumps."""
+    """Return mean, median and worst tenth of similarities, and the share of stumps."""
     stumps = float(np.mean(np.asarray(similarities) < STUMP))
     return {**spread(similarities), "stumps": stumps}
 
 
 def spread(values: Sequence[float]) -> dict[str, float]:
-    """Mean, median, and the value that a tenth do not reach."""
+    """Return mean, median and the worst tenth, which is the 10 % quantile."""
     if not values:
         return {}
     numbers = np.asarray(values, dtype=np.float64)
@@ -91,7 +91,7 @@ def spread(values: Sequence[float]) -> dict[str, float]:
 
 
 def sentence(numbers: dict[str, float]) -> str:
-    """A summary as text."""
+    """Return a summary as text."""
     names = {"mean": "mean", "median": "median", "p10": "worst tenth", "stumps": "stumps"}
     shown = [
         f"{names[name]} {value:.0%}" if name == "stumps" else f"{names[name]} {value:.3f}"

@@ -17,11 +17,11 @@ class Training:
     Attributes
     ----------
     architecture : "shared" or "dissertation"
-        One network for all choices, which sees windows in the direction of growth; or that of the dissertation (see
+        One network for all choices, which sees windows in the direction of growth; or the dissertation's networks (see
         `Training.dissertation`).
     objective : "examples", "bound" or "particles"
-        What is raised: the density of traces that searches found; or the evidence bound, of one run or of several (see
-        `Training.bound`).
+        The quantity that training raises: the density of traces of searches; or the evidence bound, of one run or of
+        several (see `Training.bound`).
     runs : int
         Runs of each target in a step, for the two bounds.
     hidden : (int, int)
@@ -31,19 +31,19 @@ class Training:
     share : float
         Share of the prior in each proposal; the weight of a choice is at most 1 / share.
     looks : bool, "target" or "scene"
-        Whether it sees the surroundings in the sketches; with the dissertation's network also one of the two images.
+        Whether the network sees the surroundings in the sketches; the dissertation's network can also see one image.
     reads : bool or tuple of str
-        Whether it sees what is in scope, or the names of the variables that it sees.
+        Whether the network sees the variables in scope, or the names of the variables that it sees.
     steps : int
-        Steps of Adam; None for so many that each choice is seen about `passes` times, and 1,000 for the two bounds.
+        Number of steps of Adam. With None each choice is seen about `passes` times; the two bounds have 1,000 steps.
     passes : float
-        As many passes over the choices.
+        Number of passes over the choices, without `steps`.
     rate : float
         Step size of Adam.
     decays : (float, float)
-        Shares of Adam's means that stay at each step: of slopes, and of their squares.
+        Shares of Adam's means that stay at each step: of gradients, and of their squares.
     batch : int
-        Choices for each step; whole traces with the dissertation's network, targets for the two bounds.
+        Number of choices for each step; of whole traces for the dissertation's network, of targets for the two bounds.
     averaging : float
         Share of the mean of the weights that stays at each step; 0 for the last weights.
     """
@@ -69,13 +69,13 @@ class Training:
         one_of("objective", self.objective, ("examples", "bound", "particles"))
         if self.architecture == "dissertation" and self.objective != "examples":
             raise bad("objective", self.objective, "'examples' with the dissertation's network", "'examples'")
-        # The others are the baseline of each run.
+        # The other runs of a target are the baseline of each run, so there are at least two.
         count("runs", self.runs, 2, usual="16")
         images = ("target", "scene") if self.architecture == "dissertation" else ()
         if not isinstance(self.looks, bool) and self.looks not in images:
             expected = "True or False, or one image with the dissertation's network"
             raise bad("looks", self.looks, expected, "True")
-        if len(self.hidden) != 2 or not all(is_whole(one) and one >= 1 for one in self.hidden):
+        if len(self.hidden) != 2 or not all(is_whole(units) and units >= 1 for units in self.hidden):
             raise bad("hidden", self.hidden, "two whole numbers above 0", "(38, 32)")
         for name in ("components", "batch", "steps"):
             if getattr(self, name) is not None:
@@ -87,16 +87,17 @@ class Training:
 
     @classmethod
     def dissertation(cls, **changes: Any) -> Training:
-        """The dissertation's network and its recipe (6.4).
+        """Return settings for the dissertation's network and its recipe (6.4).
 
-        Each choice has a net of its own, with one hidden layer. It sees 3 by 3 windows of target and scene in four
-        resolutions, through filters that are learned too, its position and direction, and what `reads` names. Adam
-        makes 20,000 steps of one whole trace each. The share of the prior is nearly nothing; the dissertation has none.
+        Each choice has its own network, with one hidden layer. Its inputs are 3 by 3 windows of target and scene in
+        four resolutions, through filters that are trained too; its position and direction; and the variables that
+        `reads` names. Adam makes 20,000 steps, each with one whole trace. The share of the prior is nearly zero; in the
+        dissertation it is zero.
 
         Parameters
         ----------
         changes
-            Attributes with other values: `looks` and `reads` make the dissertation's ablations.
+            Attributes with other values. `looks` and `reads` give the dissertation's ablations.
         """
         recipe: dict[str, Any] = {
             "share": 1e-6,
@@ -109,18 +110,18 @@ class Training:
 
     @classmethod
     def bound(cls, **changes: Any) -> Training:
-        """By the evidence bound, in place of examples.
+        """Return settings for training by the evidence bound, in place of examples.
 
-        The guide is a family of distributions over runs, q. Each step draws `runs` runs of each of `batch` targets from
-        the present guide, and raises the mean of log p - log q, which is below the log evidence by the divergence of q
-        from the posterior. It needs no searches and no gradient of the model. A guide that cannot express the posterior
-        learns one part of it and leaves out the others; one that learns from examples covers all of it.
+        The guide is a family q of distributions over runs. Each step draws `runs` runs of each of `batch` targets from
+        the current guide, and raises the mean of log p - log q. This mean is below the log evidence by the divergence
+        of q from the posterior. The training needs no searches and no gradient of the model. A guide that cannot
+        express the posterior learns one part of it and leaves out the rest; training on examples covers all of it.
 
         Parameters
         ----------
         changes
-            Attributes with other values; `objective="particles"` raises the bound of all runs of a target together, the
-            mean log of their mean weight, which is kinder to runs of small weight.
+            Attributes with other values. `objective="particles"` raises the bound of all runs of a target together, the
+            mean log of their mean weight, which tolerates runs of small weight.
         """
         recipe: dict[str, Any] = {"objective": "bound", "batch": 8, "averaging": 0.99}
         return cls(**(recipe | changes))

@@ -1,6 +1,6 @@
-"""The guides that come with the package: one file each, named like the gallery's model that it is for.
+"""The guides of the package: a file for each, with the name of its model in the gallery.
 
-`make guides` trains them again, by `benches/shipped_guides.py`.
+`make guides` trains them again (`benches/shipped_guides.py`).
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from typing import Any
 from niwaki.lang.models import Model
 from niwaki.methods import Guide
 
-#: Where they are.
+#: The folder of the guides.
 FOLDER = Path(__file__).parent / "shipped"
 
 
 def shipped(model: Model[..., Any]) -> Guide | None:
-    """The guide that comes with a model of the gallery; None where there is none.
+    """Return the guide that is shipped with a model of the gallery, or None.
 
     Examples
     --------
@@ -31,7 +31,7 @@ def shipped(model: Model[..., Any]) -> Guide | None:
 
 
 def names() -> list[str]:
-    """Models of the gallery that a guide comes with."""
+    """Return the names of the models with a shipped guide."""
     return sorted(place.stem for place in FOLDER.glob("*.guide"))
 
 

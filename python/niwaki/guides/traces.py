@@ -1,4 +1,4 @@
-"""Many searches side by side, each for its best run."""
+"""Traces for training: many searches side by side, each for its best run."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from niwaki.search import Search
 
 
 class _Stopped(Exception):
-    """Ends a search from within its `progress`."""
+    """An exception that ends a search from its `progress`."""
 
 
 def best_of(
     searches: Sequence[Search], workers: int, faults: list[ModelFault] | None = None
 ) -> Generator[Sample | None]:
-    """The best sample of each search, in order; None where every particle became impossible, or a run had a fault.
+    """Yield the best sample of each search, in order; None if all particles became impossible, or a run had a fault.
 
-    The searches run on so many threads. Close the iterator (`contextlib.closing`) to end those that still run and to
-    drop those that wait. Faults are added to `faults`.
+    The searches run on `workers` threads. Close the iterator (`contextlib.closing`) to end searches that still run, and
+    to drop those that wait. Faults are added to `faults`.
     """
     stop = Event()
 
@@ -30,9 +30,9 @@ def best_of(
         if stop.is_set():
             raise _Stopped
 
-    def one(search: Search) -> Sample | None:
+    def best_sample(search: Search) -> Sample | None:
         try:
-            found = search.run(threads=1, progress=watch)
+            result = search.run(threads=1, progress=watch)
         except _Stopped:
             return None
         except ModelFault as fault:
@@ -43,11 +43,11 @@ def best_of(
             if error.code != "everything-impossible":
                 raise
             return None
-        return max(found, key=lambda sample: sample.log_score + sample.log_prior)
+        return max(result, key=lambda sample: sample.log_score + sample.log_prior)
 
     pool = ThreadPoolExecutor(workers)
     try:
-        yield from pool.map(one, searches)
+        yield from pool.map(best_sample, searches)
     finally:
         stop.set()
         pool.shutdown(wait=True, cancel_futures=True)

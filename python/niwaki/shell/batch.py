@@ -17,7 +17,7 @@ from niwaki.errors.settings import bad, count
 from niwaki.inputs.modules import run_file
 from niwaki.shell import batch_files, folders, formats, results
 from niwaki.shell.app import Runs, app
-from niwaki.shell.progress import batch_line, standing
+from niwaki.shell.progress import batch_line, batch_progress
 
 
 class _Group(typer.core.TyperGroup):
@@ -102,7 +102,7 @@ def run(
         folders.refuse_existing(results.present(folder), False, "an empty folder, or a folder of a batch")
     store = batches.Store(folder, table_spec)
     workers = count("--processes", batches.cores() if processes is None else processes, most=100_000)
-    last: batches.Standing | None = None
+    last: batches.BatchProgress | None = None
     try:
         with ExitStack() as stack:
             executor = None
@@ -110,7 +110,7 @@ def run(
                 executor = stack.enter_context(clusters.ENGINES[engine](workers, cluster))
             show = stack.enter_context(batch_line(batch.name))
 
-            def watch(now: batches.Standing) -> None:
+            def watch(now: batches.BatchProgress) -> None:
                 nonlocal last
                 last = now
                 show(now)
@@ -130,7 +130,7 @@ def run(
         print(f"interrupted; resume with: niwaki {again}", file=sys.stderr)
         raise typer.Exit(130) from None
     if last is not None:
-        print(standing(last))
+        print(batch_progress(last))
     faults = f" ({failed} failed)" if failed else ""
     print(f"{done:,} search{'' if done == 1 else 'es'}{faults}; files in {folder}")
 

@@ -62,13 +62,13 @@ def coloring_line(name: str) -> Iterator[Callable[[result.Progress], None]]:
 
 
 @contextmanager
-def batch_line(name: str) -> Iterator[Callable[[batches.Standing], None]]:
+def batch_line(name: str) -> Iterator[Callable[[batches.BatchProgress], None]]:
     """Show the progress of `batch`, over all its workers."""
     with status_line(f"batch {name}", keeps_best=False) as show:
-        yield lambda now: show(standing(now))
+        yield lambda now: show(batch_progress(now))
 
 
-def standing(now: batches.Standing) -> str:
+def batch_progress(now: batches.BatchProgress) -> str:
     """Describe the progress of a batch: searches, their rate, processor time, and the time that is left."""
     faults = f", {now.faults} failed" if now.faults else ""
     left = "" if now.seconds_left is None else f", {duration(now.seconds_left)} left"

@@ -1,10 +1,10 @@
 """Networks of arches: blocks along curves that stand on the ground or on one another (dissertation figures 4.8, 4.11).
 
-A curve is a cubic Bezier curve given by its ends and the tangents there, in the plane of x and z; block i lies between
-the curve's points i/n and (i+1)/n. Then each block slides along the face below, changes its height and its shear, and
-the next block's bottom follows. A curve that stands on another begins at a block's face with that face's own normal, so
-that it follows the random shape of what it stands on. Front is the inside of an arch, back its outside. Numbers are the
-original's; metres.
+A curve is a cubic Bezier curve in the plane of x and z, given by its ends and their tangents. Block i lies between the
+curve's points i/n and (i+1)/n. Each block then slides along the face below and changes height and shear, and the bottom
+of the next block follows. A curve on another curve starts at a block's face with the face's normal, so it follows the
+random shape of its base. Front is the inside of an arch, back its outside. Numbers are the original's; lengths are
+metres.
 """
 
 from __future__ import annotations
@@ -54,20 +54,20 @@ THICK = (0.02, 0.06)
 
 
 def ground_at(t, pull=0.9):
-    """A point of the ground, itself a curve: from x = -0.5 to 0.5 with tangents of `pull` metres at its ends."""
+    """Return a point of the ground, a curve from x = -0.5 to 0.5 with tangents of `pull` metres at its ends."""
     a, b, c, d = (1.0 - t) ** 3, 3.0 * (1.0 - t) ** 2 * t, 3.0 * (1.0 - t) * t**2, t**3
     return vec(-0.5 * a + (pull - 0.5) * b + (0.5 - pull) * c + 0.5 * d, 0.0, GROUND_TOP)
 
 
 def point_of(ends, t):
-    """A point of the curve with ends (start, start tangent, end, end tangent)."""
+    """Return a point of the curve with ends (start, start tangent, end, end tangent)."""
     p, u, q, v = ends
     s = 1.0 - t
     return s**3 * p + 3.0 * s * s * t * (p + u) + 3.0 * s * t * t * (q + v) + t**3 * q
 
 
 def outside_of(ends, t):
-    """The unit vector in the plane, a quarter turn from the curve's direction: the outside of an arch."""
+    """Return the direction to the outside of an arch: a quarter turn from the direction of the curve."""
     p, u, q, v = ends
     s = 1.0 - t
     along = s * s * u + 2.0 * s * t * (q + v - p - u) - t * t * v
@@ -76,19 +76,19 @@ def outside_of(ends, t):
 
 
 def face_at(ends, t, width, depth):
-    """The four corners of a block's end."""
+    """Return the four corners of a block's end."""
     at, out, side = point_of(ends, t), 0.5 * width * outside_of(ends, t), vec(0.0, 0.5 * depth, 0.0)
     return (at - out - side, at - out + side, at + out + side, at + out - side)
 
 
 def size_of(thick, depth):
-    """The width and the depth of a block."""
+    """Return the width and the depth of a block."""
     width = uniform(thick[0], thick[1])
     return width, uniform(thick[0], thick[1]) if depth is None else depth
 
 
 def curve(ends, count, thick=THICK, depth=None, margin=MARGIN):
-    """Blocks along a curve, reshaped from start to end and welded to both ends; depth is random if not given."""
+    """Return blocks along a curve, reshaped from start to end and welded to both ends; without `depth` it is random."""
     sizes = [size_of(thick, depth) for _ in range(count)]
     pieces = [
         face_at(ends, i / count, sizes[i][0], sizes[i][1])
@@ -100,7 +100,7 @@ def curve(ends, count, thick=THICK, depth=None, margin=MARGIN):
 
 
 def followed(pieces, i, ends, margin):
-    """Reshape the blocks from number `i` on."""
+    """Reshape the blocks from number `i`."""
     if i == len(pieces):
         return pieces
     block = pieces[i] if i == 0 else slid_out(pieces[i], pieces[i - 1], margin)
@@ -117,7 +117,7 @@ def followed(pieces, i, ends, margin):
 
 
 def slid_out(block, below, margin):
-    """A block on another, slid towards the outside or the inside of the arch as far as leaves `margin` of contact."""
+    """Put a block on another; it slides towards the outside or inside of the arch, and `margin` of contact remains."""
     block = standing(block, middle(below, TOP), outward(below, TOP))
     _, out = edges(below, TOP)
     _, mine = edges(block, (0, 1, 2, 3))
@@ -126,12 +126,12 @@ def slid_out(block, below, margin):
 
 
 def on_face(block, face, tangent):
-    """A point and a tangent for a curve that begins or ends on a face."""
+    """Return a point and a tangent for a curve that starts or ends on a face."""
     return middle(block, face), tangent * outward(block, face)
 
 
 def links(first, count, pieces):
-    """Contacts within a curve."""
+    """Return the contacts within a curve."""
     return [
         contact(i, corners(pieces[i], TOP), i + 1, corners(pieces[i + 1], BOTTOM))
         for i in range(first, first + count - 1)
@@ -139,7 +139,7 @@ def links(first, count, pieces):
 
 
 def feet(first, count, pieces):
-    """Contacts of a curve's ends with the ground."""
+    """Return the contacts of a curve's ends with the ground."""
     last = first + count - 1
     return [
         contact(first, corners(pieces[first], BOTTOM), GROUND, FLOOR),
@@ -155,7 +155,7 @@ def show(pieces):
 
 @model
 def arch(width=0.01, blocks=11, friction="cone", safety=SAFETY):
-    """One arch: 209 continuous choices with eleven blocks."""
+    """An arch: 209 continuous choices with eleven blocks."""
     pieces = curve((ground_at(0.2), 0.3 * UP, ground_at(0.8), 0.3 * UP), blocks)
     touches = tuple(links(0, blocks, pieces) + feet(0, blocks, pieces))
     balance(pieces, touches, OAK, tolerance_of(width, friction, safety), DOWN)
@@ -166,14 +166,14 @@ def arch(width=0.01, blocks=11, friction="cone", safety=SAFETY):
 
 @model
 def symmetric_arch(width=0.01, blocks=11, friction="cone", safety=SAFETY, apart=0.002):
-    """One arch that is nearly its own mirror image."""
+    """An arch that is nearly its own mirror image."""
     made = arch(width, blocks, friction, safety)
     mirrored(made.blocks, made.blocks, apart)
     return made
 
 
 def three(starts, tolerance):
-    """Two arches on the ground and a third on their keystones."""
+    """Build two arches on the ground and a third on their keystones."""
     a, b, c, d = starts
     left = curve((a, 0.3 * UP, b, 0.3 * UP), 9)
     right = curve((c, 0.3 * UP, d, 0.3 * UP), 9)
@@ -220,12 +220,12 @@ def symmetric_tri_arch(width=0.01, friction="cone", safety=SAFETY, apart=0.002):
     return made
 
 
-def mirrored(one, other, apart):
-    """Ask that corners lie opposite in x = 0, within `apart` metres; the image of an arch runs backwards."""
-    for i in range(len(one)):
+def mirrored(blocks, other, apart):
+    """Score a mirror image in x = 0, within `apart` metres; the image of an arch runs backwards."""
+    for i in range(len(blocks)):
         image = other[len(other) - 1 - i]
         for k in range(8):
-            p, q = one[i][k], image[(k + 4) % 8]
+            p, q = blocks[i][k], image[(k + 4) % 8]
             factor(
                 softeq(p.x, -q.x, apart) + softeq(p.y, q.y, apart) + softeq(p.z, q.z, apart)
             )  # fmt: skip

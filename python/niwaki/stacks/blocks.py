@@ -1,10 +1,10 @@
-"""Blocks: convex solids with eight corners that are sheared, put on one another and welded (dissertation 4.5).
+"""Blocks: convex solids with eight corners that are sheared, stacked and welded (dissertation 4.5).
 
-A block is a tuple of eight points: the four corners of its bottom, front left, front right, back right, back left, then
-those of its top in the same order. In its start position left is -x, front is -y and z is up. Lengths are metres.
+A block is a tuple of eight points: the corners of its bottom (front left, front right, back right, back left), then the
+corners of its top in the same order. In its start position left is -x, front is -y and z is up. Lengths are metres.
 
-The solid of a block is the convex hull of its corners. A side that shears have twisted is not flat: there the hull
-takes the diagonal that lies outside, which `volume_and_centre` does exactly, without a branch.
+The solid of a block is the convex hull of its corners. A side that is twisted by shears is not flat: the hull has the
+outer one of its diagonals, and `volume_and_centre` follows it exactly, without a branch.
 
 Everything here is in the modelling language, so that gradients flow through it.
 """
@@ -24,13 +24,13 @@ LEFT = (0, 4, 7, 3)
 RIGHT = (1, 2, 6, 5)
 SIDES = (FRONT, RIGHT, BACK, LEFT)
 
-#: The faces that do not meet corner 0, each cut along its first diagonal; those that do are cut at corner 0.
+#: Triangles of the faces without corner 0, each cut along its first diagonal. Faces with corner 0 need none.
 FAR_TRIANGLES = ((4, 5, 6), (4, 6, 7), (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6))
 
-#: The square of a volume, m^6, that counts as none when a block is drawn.
+#: The square of a volume, in m^6, below which a drawn side counts as flat.
 FLAT = 1e-30
 
-#: A drawn block: a side is a fan about the middle of its outer diagonal (corners 8 to 11).
+#: Triangles of a drawn block; a side is a fan about the middle of its outer diagonal (corners 8 to 11).
 DRAWN = (
     (0, 3, 2), (0, 2, 1), (4, 5, 6), (4, 6, 7),
     (0, 1, 8), (1, 5, 8), (5, 4, 8), (4, 0, 8),
@@ -41,7 +41,7 @@ DRAWN = (
 
 
 def box_corners(centre, width, depth, height):
-    """A box about its centre: `width` along x, `depth` along y, `height` along z."""
+    """Return a box around a centre: `width` along x, `depth` along y, `height` along z."""
     x, y, z = 0.5 * width, 0.5 * depth, 0.5 * height
     return (
         centre + vec(-x, -y, -z),
@@ -56,13 +56,13 @@ def box_corners(centre, width, depth, height):
 
 
 def middle(block, face):
-    """The mean of a face's corners."""
+    """Return the mean of a face's corners."""
     a, b, c, d = face
     return 0.25 * (block[a] + block[b] + block[c] + block[d])
 
 
 def outward(block, face):
-    """The outward normal of a flat face."""
+    """Return the outward normal of a flat face."""
     a, b, c, d = face
     return normalize(cross(block[c] - block[a], block[d] - block[b]))
 
@@ -92,37 +92,37 @@ def top_shear_y(block, slope):
 
 
 def moved(block, by):
-    """A block somewhere else."""
+    """Move a block by a vector."""
     return tuple([p + by for p in block])
 
 
 def raise_top(block, share):
-    """Move the top along the line from the bottom's middle to its own, by a share of that."""
+    """Move the top along the line from the middle of the bottom to the middle of the top, by a share of its length."""
     by = share * (middle(block, TOP) - middle(block, BOTTOM))
     return block[:4] + tuple([p + by for p in block[4:]])
 
 
 def swung(v, start, end):
-    """Turn a vector by the smallest rotation that takes the unit vector `start` to `end`, which is not its opposite."""
+    """Turn a vector by the smallest rotation from the unit vector `start` to `end`, which must not be its opposite."""
     axis = cross(start, end)
     once = cross(axis, v)
     return v + once + cross(axis, once) / (1.0 + dot(start, end))
 
 
 def swung_block(block, about, start, end):
-    """Turn a block about a point by the smallest rotation that takes `start` to `end`."""
+    """Turn a block about a point by the smallest rotation from `start` to `end`."""
     return tuple([about + swung(p - about, start, end) for p in block])
 
 
 def standing(block, point, normal):
-    """Put the middle of a block's bottom at a point of a face with that outward normal."""
+    """Put a block with the middle of its bottom at a point of a face with outward normal `normal`."""
     about = middle(block, BOTTOM)
     turned = swung_block(block, about, -outward(block, BOTTOM), normal)
     return moved(turned, point - about)
 
 
 def welded(block, face, point, normal):
-    """Move one face's corners rigidly until it lies at `point`, facing what has that outward normal."""
+    """Move the corners of a face rigidly to `point`, so that it faces a surface with outward normal `normal`."""
     about = middle(block, face)
     facing = outward(block, face)
     return tuple(
@@ -134,13 +134,13 @@ def welded(block, face, point, normal):
 
 
 def edges(block, face):
-    """The directions of a rectangular face's first edge and of the one from its first corner to its last."""
+    """Return the directions of the two edges of a rectangular face at its first corner."""
     a, b, _, d = face
     return block[b] - block[a], block[d] - block[a]
 
 
 def volume_and_centre(block):
-    """The volume and the centre of mass of a block's convex hull."""
+    """Return volume and centre of mass of a block's convex hull."""
     origin = block[0]
     volume, moment = 0.0, vec(0.0, 0.0, 0.0)
     for a, b, c in FAR_TRIANGLES:
@@ -156,7 +156,7 @@ def volume_and_centre(block):
 
 
 def bulge(block, face):
-    """The volume between a face's two diagonals; above 0 where the second one lies outside of the first."""
+    """Return the volume between a face's diagonals; it is above 0 if the second diagonal lies outside of the first."""
     a, b, c, d = face
     at = block[a]
     return dot(block[b] - at, cross(block[c] - at, block[d] - at)) / 6.0
@@ -168,7 +168,7 @@ def drawn(block, color):
     for face in SIDES:
         a, b, c, d = face
         first, second = 0.5 * (block[a] + block[c]), 0.5 * (block[b] + block[d])
-        # No branch, and so no path for a gradient to record; a flat face takes the mean of both.
+        # Without a branch a gradient has only one path; a flat face takes the mean of both diagonals.
         twist = bulge(block, face)
         points = points + [first + (0.5 + 0.5 * twist / sqrt(twist * twist + FLAT)) * (second - first)]
     emit(mesh([(p.x, p.z, -p.y) for p in points], DRAWN, color=color))

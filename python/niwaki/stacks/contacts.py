@@ -1,14 +1,13 @@
-"""Contacts and equilibrium: latent forces at the corners of each contact, and a soft balance of every block.
+"""Contacts and equilibrium: latent forces at the corners of each contact, and a soft balance of each block.
 
-Dissertation 4.5 and appendix B.2. A contact's area is where two rectangles overlap; at each of its four corners is
-a force of three latent numbers, twelve for a contact. Forces are in units of the structure's mean weight and torques in
-mean weight times the cube root of the mean volume, so that neither size nor density matters.
+Dissertation 4.5 and appendix B.2. A contact is the overlap of two rectangles. At each of its four corners there is a
+force of three latent numbers, so a contact has twelve. The unit of forces is the structure's mean weight, and the unit
+of torques is the mean weight times the cube root of the mean volume, so that neither size nor density matters.
 
-Where this is not the original: friction is a true cone (the original's square pyramid is `friction="pyramid"`); the
-centre of mass is exact; a push has an exponential prior of ten mean weights, where the original's is flat in newtons
-and so prefers heavy structures by the power of the number of pushes; a block that is lighter than the mean balances
-within a share of its own weight, since the tolerance of heavier blocks would let it fall; and latent forces spare a
-share of each contact and of its friction.
+Differences from the original: friction is a true cone (`friction="pyramid"` is the original's square pyramid). The
+centre of mass is exact. A push has an exponential prior with a mean of ten mean weights; the original's prior is flat
+in newtons, which favours heavy structures. A light block balances within a share of its own weight, because the
+tolerance of a heavier block would let it fall. Latent forces leave out a share of each contact and of its friction.
 """
 
 from __future__ import annotations
@@ -34,28 +33,28 @@ GROUND = -1
 
 DOWN = vec(0.0, 0.0, -1.0)
 
-#: The share of a contact and of its friction that models spare by default.
+#: The default share of a contact and of its friction that latent forces leave out.
 SAFETY = 0.15
 
-#: The share of the mean weight below which a block's balance need not be more exact.
+#: A share of the mean weight; the tolerance of lighter blocks does not get narrower.
 LIGHTEST = 0.01
 
-#: Mean of the prior of a push, mean weights.
+#: Mean of the prior of a push, in mean weights.
 PUSH = 10.0
 
 
 class Contact(NamedTuple):
-    """Where two faces meet.
+    """A contact of two faces.
 
     Attributes
     ----------
     first, second : int
         Numbers of the two bodies; `GROUND` is the ground.
     points : four vectors
-        The corners of what the faces share.
+        The corners of the common part of the faces.
     normal, along, across : vector
-        The outward normal of the first body's face and the directions of its edges. A force acts on the second body,
-        and its opposite on the first.
+        The outward normal of the first body's face, and the directions of its edges. A force acts on the second body,
+        and the opposite force on the first.
     """
 
     first: Any
@@ -67,18 +66,18 @@ class Contact(NamedTuple):
 
 
 class Tolerance(NamedTuple):
-    """How exactly blocks should balance.
+    """The tolerance of balance.
 
     Attributes
     ----------
     width : float
         The standard deviation of a net force in mean weights, and of a net torque in mean weights times the cube root
-        of the mean volume; for a block that is lighter than the mean, in its own weights.
+        of the mean volume; for a block that is lighter than the mean, in units of its own weight.
     cone : bool
-        Friction in Coulomb's cone; otherwise in the original's square pyramid, which is up to 1.4 times too strong.
+        Whether friction stays in Coulomb's cone; else in the original's pyramid, which is up to 1.4 times too strong.
     safety : float
-        The share that is spared: latent forces are moved towards the middle of each contact by this share, with this
-        share less of friction. 0 is the original; then a draw may balance on an edge, or within the tolerance only.
+        The share of a contact that is left out: latent forces move towards its middle by this share, and friction is
+        lower by it. With 0, as in the original, a draw may balance on an edge, or only within the tolerance.
     """
 
     width: Any
@@ -87,20 +86,20 @@ class Tolerance(NamedTuple):
 
 
 class StackValue(NamedTuple):
-    """What a model of stacks returns.
+    """The value of a model of stacks.
 
     Attributes
     ----------
     blocks : tuple of blocks
-        Eight corners each, metres, z up.
+        Blocks of eight corners, metres, z up.
     contacts : tuple of Contact
-        Where they touch.
+        The contacts of the blocks.
     friction : float
         Coulomb's coefficient.
     downs : tuple of vectors
-        The directions of gravity in which it should stand, with the bodies held fixed.
+        The directions of gravity in which the structure should stand.
     prefixes : tuple of int
-        How many blocks there are at each step of the construction that should stand.
+        The number of blocks at each step of construction that should stand.
     """
 
     blocks: Any
@@ -111,9 +110,9 @@ class StackValue(NamedTuple):
 
 
 def contact(first, face, second, other):
-    """The contact of body `first`'s rectangular `face` with `second`'s `other`, each four points.
+    """Return the contact of two rectangles of four points: `face` of body `first`, and `other` of body `second`.
 
-    The rectangles are compared in the first one's frame. Where they no longer overlap the run is impossible.
+    The rectangles are compared in the frame of the first. A run in which they do not overlap is impossible.
     """
     origin = face[0]
     along, across = face[1] - origin, face[3] - origin
@@ -134,12 +133,12 @@ def contact(first, face, second, other):
 
 
 def corners(block, face):
-    """The corners of a block's face."""
+    """Return the corners of a block's face."""
     return tuple([block[i] for i in face])
 
 
 def force_at(touch, friction, cone):
-    """A latent force within its friction cone (uniform over the disc), or within the original's square pyramid."""
+    """Draw a latent force in its friction cone (uniform over the disc), or in the original's square pyramid."""
     push = exponential(1.0 / PUSH)
     if cone:
         # Two draws of Student's t make a plane's bivariate t with two degrees of freedom, scaled so that
@@ -156,7 +155,7 @@ def force_at(touch, friction, cone):
 
 
 def forces(touch, friction, cone):
-    """Latent forces at the four corners of a contact."""
+    """Draw latent forces at the four corners of a contact."""
     return [force_at(touch, friction, cone) for _ in touch.points]
 
 
@@ -171,7 +170,7 @@ def torque_balance(total, width):
 
 
 def tolerance_of(width, friction, safety):
-    """Name how exactly blocks should balance; friction is "cone" or "pyramid"."""
+    """Return the tolerance of a model; friction is "cone" or "pyramid"."""
     assert friction == "cone" or friction == "pyramid"
     return Tolerance(width, friction == "cone", safety)
 
@@ -179,8 +178,8 @@ def tolerance_of(width, friction, safety):
 def balance(blocks, contacts, friction, tolerance, down=DOWN):
     """Score equilibrium under latent forces: a force and a torque factor for each block.
 
-    `down` is the direction of gravity. Every call has its own forces. The normal densities include their widths, so
-    they do not make a light block heavier.
+    `down` is the direction of gravity. Each call has its own forces. The normal densities contain their widths, so
+    they do not favour heavier blocks.
     """
     safety = tolerance.safety
     spared = [drawn_in(touch, safety) for touch in contacts]
@@ -205,7 +204,7 @@ def balance(blocks, contacts, friction, tolerance, down=DOWN):
 
 
 def drawn_in(touch, safety):
-    """A contact whose corners are moved towards its middle by a share of the distance."""
+    """Return a contact whose corners are moved towards its middle by a share of the distance."""
     a, b, c, d = touch.points
     middle = 0.25 * (a + b + c + d)
     points = tuple([p + safety * (middle - p) for p in touch.points])
@@ -213,12 +212,12 @@ def drawn_in(touch, safety):
 
 
 def added(push):
-    """The sum of four forces."""
+    """Return the sum of four forces."""
     return push[0] + push[1] + push[2] + push[3]
 
 
 def turned(points, push, centre):
-    """The torque of four forces about a centre."""
+    """Return the torque of four forces about a centre."""
     torque = vec(0.0, 0.0, 0.0)
     for point, force in zip(points, push):  # noqa: B905
         torque = torque + cross(point - centre, force)
@@ -226,7 +225,7 @@ def turned(points, push, centre):
 
 
 def positive_volume(block, least):
-    """Keep a block from turning inside out: a barrier that rises as its volume falls to `least` cubic metres."""
+    """Score a barrier against blocks that turn inside out; it rises as the volume falls to `least` cubic metres."""
     volume, _ = volume_and_centre(block)
     condition(volume > 0.0)
     factor(-least / volume)

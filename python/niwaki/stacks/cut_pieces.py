@@ -1,7 +1,7 @@
-"""Structures of pieces that are cut from a board: every block is a plane outline 38 mm deep (dissertation 4.5, 4.12).
+"""Structures of pieces that are cut from a board: each block is a plane outline 38 mm deep (dissertation 4.5, 4.12).
 
-Among them the ones that stand when their ground is tilted by ten degrees in either direction: each tilt has its own
-forces. Tilting the bodies is the same as turning gravity in the opposite direction. Numbers are the original's. Metres.
+Some structures also stand on ground that is tilted by ten degrees in either direction: each tilt has its own forces.
+A tilt of the ground equals an opposite turn of gravity. Numbers are the original's; lengths are metres.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ TILTED = (vec(-sin(TILT), 0.0, -cos(TILT)), vec(sin(TILT), 0.0, -cos(TILT)))
 
 
 def piece(i, tall, wide, turned):
-    """A sheared outline; odd ones turned by a quarter about z if `turned`."""
+    """Return a sheared outline; with `turned`, odd outlines have a quarter turn about z."""
     height, width = uniform(tall[0], tall[1]), uniform(wide[0], wide[1])
     block = box_corners(vec(0.0, 0.0, 0.0), width, BOARD, height)
     block = shear_x(top_shear_x(block, slope()), slope())
@@ -52,12 +52,12 @@ def piece(i, tall, wide, turned):
 
 
 def pile(count, tall, wide, margin, turned):
-    """Pieces on one another, slid along x only or, where every other one is turned, along both axes."""
+    """Return a pile of pieces that slide along x, or, with every other piece `turned`, along both axes."""
     return raised([standing(piece(0, tall, wide, turned), FEET, UP)], 1, count, tall, wide, margin, turned)
 
 
 def raised(blocks, i, count, tall, wide, margin, turned):
-    """The pile with the pieces from number `i` on."""
+    """Add the pieces from number `i` to the pile."""
     if i == count:
         return blocks
     below = blocks[i - 1]
@@ -74,7 +74,7 @@ def raised(blocks, i, count, tall, wide, margin, turned):
 
 
 def finish(pieces, touches, downs, tolerance, ground):
-    """Balance for each direction of gravity, and emit."""
+    """Score balance for each direction of gravity, and emit the pieces."""
     for down in downs:
         balance(pieces, touches, POPLAR, tolerance, down)
     clear(pieces, touches, ground)
@@ -91,7 +91,7 @@ def cut_stack(width=0.01, friction="cone", safety=SAFETY):
 
 @model
 def cut_lean(width=0.01, friction="cone", safety=SAFETY, astray=0.01):
-    """A leaning tower of outlines, every other one turned: 106 continuous choices."""
+    """A leaning tower of outlines, of which every other one is turned: 106 continuous choices."""
     pieces = pile(6, (0.03, 0.07), (0.015, 0.07), 0.008, True)
     made = finish(pieces, touching(pieces), (DOWN,), tolerance_of(width, friction, safety), GROUND_TOP)
     lean_on(made.blocks, astray)
@@ -115,7 +115,7 @@ def tilt_stack(width=0.01, friction="cone", safety=SAFETY):
 
 
 def cut_curve():
-    """Seven outlines along an arch."""
+    """Return seven outlines along an arch."""
     return curve((ground_at(0.2), 0.3 * UP, ground_at(0.8), 0.3 * UP), 7, (0.015, 0.07), BOARD, 0.008)
 
 

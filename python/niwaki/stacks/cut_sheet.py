@@ -1,7 +1,7 @@
-"""Pieces of a structure on boards, to be cut: outlines in millimetres with the kerf added, numbered, packed.
+"""Cutting sheets: the pieces of a structure as numbered outlines on boards, in millimetres, with the kerf added.
 
-Every block must be an outline of one thickness (`cut_pieces`). Each outline grows by half the kerf, which is what the
-saw takes; the rectangles around them are packed by rectpack (MaxRects), turned where that helps.
+Each block must be an outline, and all must have the same thickness (`cut_pieces`). Each outline grows by half the kerf,
+the width of the cut. Rectpack (MaxRects) packs the rectangles around the outlines, and turns them where that helps.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ OUTLINES = (
     ((0, 4, 7, 3), ((0, 1), (4, 5), (7, 6), (3, 2))),
 )
 
-#: Lengths within this many metres are one length.
-SAME = 1e-7
+#: Lengths are equal if they differ by at most this, in metres.
+LENGTH_TOLERANCE = 1e-7
 
 MILLIMETRES = 1000.0
-#: The packer counts in whole hundredths of a millimetre.
+#: Units of the packer in a millimetre: it counts in whole hundredths.
 GRAIN = 100.0
 INK, CUT = "#20304c", "#d62728"
 
@@ -43,13 +43,13 @@ class Piece:
     Attributes
     ----------
     number : int
-        From 1, from the bottom of the structure.
+        The number of the piece, from 1 at the bottom of the structure.
     board : int
-        Which board, from 0.
+        The number of the board, from 0.
     outline : array of shape (4, 2)
-        What the piece will be.
+        The outline of the piece.
     cut : array of shape (corners, 2)
-        Where the middle of the saw runs: half a kerf outside.
+        The middle of the cut, half a kerf outside of the outline.
     """
 
     number: int
@@ -65,15 +65,15 @@ class Sheet:
     Attributes
     ----------
     pieces : tuple of Piece
-        In order of number.
+        The pieces, sorted by number.
     board : (float, float)
         Width and height of a board, millimetres.
     boards : int
-        How many it takes.
+        Number of boards.
     thickness : float
-        Of the board, millimetres.
+        Thickness of the board, millimetres.
     kerf, gap : float
-        What the saw takes, and the least distance between two cuts and from a cut to the board's edge, millimetres.
+        Width of the cut, and least distance between two cuts and from a cut to the board's edge, millimetres.
     """
 
     pieces: tuple[Piece, ...]
@@ -84,11 +84,11 @@ class Sheet:
     gap: float
 
     def on(self, board: int) -> list[Piece]:
-        """The pieces of one board."""
+        """Return the pieces of a board."""
         return [piece for piece in self.pieces if piece.board == board]
 
     def svg(self, board: int = 0) -> str:
-        """One board as SVG in millimetres: cuts in red, numbers in dark blue."""
+        """Return a board as SVG in millimetres: cuts in red, numbers in dark blue."""
         width, height = self.board
         body = [
             f'<rect width="{width:g}" height="{height:g}" fill="none" stroke="#b8b8b8" stroke-width="0.3"/>'
@@ -107,7 +107,7 @@ class Sheet:
         return self.svg()
 
     def dxf(self, board: int = 0) -> str:
-        """One board as DXF in millimetres, with the layers CUT, NUMBERS and BOARD.
+        """Return a board as DXF in millimetres, with the layers CUT, NUMBERS and BOARD.
 
         Raises
         ------
@@ -132,12 +132,12 @@ class Sheet:
         return out.getvalue()
 
     def save(self, path: str | PathLike[str]) -> list[Path]:
-        """Write every board into `.dxf` or `.svg` files; a second board and further ones get a number.
+        """Write each board to a `.dxf` or `.svg` file; the second and further boards get a number.
 
         Raises
         ------
         FileError
-            Another format, or a place that cannot be written.
+            The format is unknown, or the file cannot be written.
         """
         place = Path(path)
         writers = {".dxf": self.dxf, ".svg": self.svg}
@@ -162,12 +162,12 @@ def cut_sheet(
     kerf: float = 0.2,
     gap: float = 2.0,
 ) -> Sheet:
-    """Lay the pieces of a structure out on boards.
+    """Lay out the pieces of a structure on boards.
 
     Parameters
     ----------
     structure
-        One whose blocks are outlines of one thickness.
+        A structure whose blocks are outlines of the same thickness.
     board
         Width and height of a board, millimetres.
     kerf
@@ -178,7 +178,7 @@ def cut_sheet(
     Raises
     ------
     FileError
-        A block is no outline, or larger than the board; rectpack or shapely is missing (extra `stacks`).
+        A block is not an outline, or larger than the board; rectpack or shapely is missing (extra `stacks`).
     """
     for name, number in (("kerf", kerf), ("gap", gap)):
         if not 0.0 <= number < np.inf:
@@ -186,12 +186,12 @@ def cut_sheet(
     if not all(0.0 < side < np.inf for side in board):
         raise FileError("setting", name="board", found=board, expected="two lengths above 0, millimetres")
     geometry, rectpack = need("shapely.geometry"), need("rectpack")
-    found = [outline(corners, number) for number, corners in enumerate(structure.corners)]
-    depth = found[0][1]
-    for number, (_, other) in enumerate(found):
-        if abs(other - depth) > SAME:
+    outlines = [outline(corners, number) for number, corners in enumerate(structure.corners)]
+    depth = outlines[0][1]
+    for number, (_, other) in enumerate(outlines):
+        if abs(other - depth) > LENGTH_TOLERANCE:
             raise FileError("piece-not-flat", block=f"block {number + 1}", depth=f"{depth * MILLIMETRES:g}")
-    lying = [_level(geometry, points * MILLIMETRES, kerf) for points, _ in found]
+    lying = [_level(geometry, points * MILLIMETRES, kerf) for points, _ in outlines]
     places = _packed(rectpack, [cut for _, cut in lying], board, gap)
     pieces = []
     for number, ((points, cut), (bin_, x, y, turned)) in enumerate(zip(lying, places, strict=True)):
@@ -204,14 +204,14 @@ def cut_sheet(
 
 
 def outline(corners: Floats, number: int) -> tuple[Floats, float]:
-    """The outline of a block, of shape (4, 2), and its thickness, metres."""
+    """Return the outline of a block, of shape (4, 2), and its thickness, in metres."""
     depth = 0.0
     for face, edges in OUTLINES:
         along = np.array([corners[b] - corners[a] for a, b in edges])
         depth = float(np.linalg.norm(along[0]))
         points = corners[list(face)]
-        flat = np.abs((points - points[0]) @ along[0]).max() <= SAME * depth
-        if flat and np.abs(along - along[0]).max() <= SAME:
+        flat = np.abs((points - points[0]) @ along[0]).max() <= LENGTH_TOLERANCE * depth
+        if flat and np.abs(along - along[0]).max() <= LENGTH_TOLERANCE:
             out = along[0] / depth
             first = (points[1] - points[0]) / np.linalg.norm(points[1] - points[0])
             second = np.cross(first, out)
@@ -226,7 +226,7 @@ def _area(points: Floats) -> float:
 
 
 def _level(geometry: Any, points: Floats, kerf: float) -> tuple[Floats, Floats]:
-    """Outline and cut, turned so that the smallest rectangle around the cut is level."""
+    """Return outline and cut, turned so that the smallest rectangle around the cut is level."""
     grown = geometry.Polygon(points).buffer(0.5 * kerf, join_style="mitre", mitre_limit=4.0)
     cut = np.array(grown.exterior.coords)[:-1]
     box = np.array(grown.minimum_rotated_rectangle.exterior.coords)
@@ -243,8 +243,8 @@ def _quarter(points: Floats) -> Floats:
 def _packed(
     rectpack: Any, cuts: list[Floats], board: tuple[float, float], gap: float
 ) -> list[tuple[int, float, float, bool]]:
-    """For each cut its board, the lower left corner of its rectangle, and whether it is turned."""
-    # Each rectangle carries its gap to the right and above; the board carries the gap to the left and below.
+    """Return for each cut its board, the lower left corner of its rectangle, and whether it is turned."""
+    # A rectangle contains its gap on the right and above; the board contains the gap on the left and below.
     sizes = [np.ceil((np.ptp(cut, axis=0) + gap) * GRAIN).astype(int) for cut in cuts]
     wide, high = (int((side - gap) * GRAIN) for side in board)
     for number, (w, h) in enumerate(sizes):
@@ -257,15 +257,15 @@ def _packed(
         packer.add_rect(int(w), int(h), rid=number)
     packer.add_bin(wide, high, count=float("inf"))
     packer.pack()
-    found: dict[int, tuple[int, float, float, bool]] = {}
+    places: dict[int, tuple[int, float, float, bool]] = {}
     for bin_, x, y, w, _, number in packer.rect_list():
-        found[number] = (bin_, x / GRAIN + gap, y / GRAIN + gap, bool(w != sizes[number][0]))
-    return [found[number] for number in range(len(cuts))]
+        places[number] = (bin_, x / GRAIN + gap, y / GRAIN + gap, bool(w != sizes[number][0]))
+    return [places[number] for number in range(len(cuts))]
 
 
 @dataclass(frozen=True)
 class Assembly:
-    """A structure from two sides.
+    """A drawing of a structure from two sides.
 
     Attributes
     ----------
@@ -276,19 +276,19 @@ class Assembly:
     page: str
 
     def svg(self) -> str:
-        """The drawing as SVG in millimetres."""
+        """Return the drawing as SVG in millimetres."""
         return self.page
 
     def _repr_svg_(self) -> str:
         return self.svg()
 
     def save(self, path: str | PathLike[str]) -> list[Path]:
-        """Write the drawing into an `.svg` file.
+        """Write the drawing to an `.svg` file.
 
         Raises
         ------
         FileError
-            Another format, or a place that cannot be written.
+            The format is unknown, or the file cannot be written.
         """
         place = Path(path)
         if place.suffix.lower() != ".svg":
@@ -298,9 +298,9 @@ class Assembly:
 
 
 def assembly(structure: Structure) -> Assembly:
-    """Draw the structure from the front and from the right, pieces numbered as on the boards.
+    """Draw a structure from the front and from the right; pieces have the numbers of the boards.
 
-    A piece has no number in a view in which a nearer one hides its middle.
+    A piece has no number in a view in which a nearer piece hides its middle.
     """
     views = (("front", 0, 1.0, 1), ("right", 1, 1.0, 0))
     corners = structure.corners * MILLIMETRES
@@ -310,7 +310,7 @@ def assembly(structure: Structure) -> Assembly:
     body, left = [], edge
     geometry = need("shapely.geometry")
     for name, across, sign, away in views:
-        # What is nearer is drawn later: from the front that is smaller y, from the right larger x.
+        # Nearer pieces are drawn later: from the front those with smaller y, from the right with larger x.
         order = np.argsort(
             corners[:, :, away].mean(axis=1) * (-1.0 if name == "front" else 1.0), kind="stable"
         )
@@ -347,7 +347,7 @@ def assembly(structure: Structure) -> Assembly:
 
 
 def label(points: Floats) -> tuple[tuple[float, float], float]:
-    """The place and the size of a number in a convex outline."""
+    """Return the place and the size of a number in a convex outline."""
     x, y = points.T
     parts = x * np.roll(y, -1) - y * np.roll(x, -1)
     area = 0.5 * parts.sum()
@@ -361,7 +361,7 @@ def label(points: Floats) -> tuple[tuple[float, float], float]:
 
 
 def svg_page(width: float, height: float, body: list[str]) -> str:
-    """A page in millimetres."""
+    """Return an SVG page in millimetres."""
     lines = "\n".join(body)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}mm" height="{height:g}mm" '

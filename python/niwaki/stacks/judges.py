@@ -1,8 +1,8 @@
-"""Two judges of a structure that share no assumption with the model's soft balance: a linear program, and a simulation.
+"""Two judges of a structure, independent of the model's soft balance: a linear program and a simulation.
 
-`balanced` computes by a linear program (HiGHS, through SciPy) contact forces in the friction cone that hold every block
-exactly. The program is elastic: it always has a solution, with the smallest residual. `simulated` hands the blocks to
-MuJoCo, each as a rigid body, and simulates some seconds.
+`balanced` solves a linear program (HiGHS, through SciPy) for contact forces in the friction cone that hold each block
+exactly. The program is elastic: it always has a solution, with the smallest residual. `simulated` simulates the blocks
+as rigid bodies in MuJoCo for some seconds.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from niwaki.errors import FileError
 from niwaki.errors.extras import optional
 from niwaki.stacks.structure import Floats, Structure
 
-#: A residual below this share of the mean weight is balance.
+#: A residual up to this share of the mean weight counts as balance.
 BALANCE = 1e-6
 
 #: Sides of the polygon inside the friction cone: at most half a percent too strict.
 SIDES = 32
 
-#: A block that goes farther than this share of its size has fallen.
-GONE = 0.05
+#: A block that moves farther than this share of its size has fallen.
+FALLEN = 0.05
 
-#: Directions in which `Balance.margin` pushes.
+#: Number of directions in which `Balance.margin` pushes.
 PUSHES = 8
 
 
@@ -36,12 +36,12 @@ class Balance:
     Attributes
     ----------
     residual : float
-        The largest force or torque that is left over, in mean weights and mean weights times the cube root of the mean
-        volume, at the forces where it is smallest; the worst of all directions of gravity and steps of construction.
+        The largest unbalanced force or torque, in mean weights and mean weights times the cube root of the mean volume,
+        with the forces that make it smallest; the worst of all directions of gravity and steps of construction.
     margin : float
-        The largest share of its own weight by which every block can be pushed sideways, in the worst of eight
-        directions, while balance remains: the tangent of the tilt at which it falls. 0 where there is no balance, NaN
-        where it was not computed.
+        The largest sideways push that leaves balance, as a share of each block's weight, in the worst of eight
+        directions. It is the tangent of the tilt at which the structure falls; 0 without balance, NaN if it was not
+        computed.
     """
 
     residual: float
@@ -49,21 +49,21 @@ class Balance:
 
     @property
     def holds(self) -> bool:
-        """Whether there are forces that hold everything."""
+        """Whether forces exist that hold all blocks."""
         return self.residual <= BALANCE
 
 
 def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Balance:
-    """Look for contact forces that hold every block.
+    """Find contact forces that hold all blocks.
 
     Parameters
     ----------
     structure
-        The structure that should stand.
+        The structure.
     cone
-        Friction within Coulomb's cone, a polygon of 32 sides inside it; otherwise the original's pyramid around it.
+        Whether friction stays in a polygon of 32 sides inside Coulomb's cone; else in the original's pyramid around it.
     margin
-        Whether to look for the margin, which takes eight programs more.
+        Whether to compute the margin, which takes eight more programs.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def balanced(structure: Structure, cone: bool = True, margin: bool = True) -> Ba
 
 
 def program(part: Structure, cone: bool) -> tuple[Any, Floats]:
-    """The matrix from sizes of rays to forces and torques (6 blocks), scaled; and relative weights."""
+    """Return the scaled matrix from sizes of rays to forces and torques (6 rows a block), and relative weights."""
     sparse = need("scipy.sparse")
     volumes, centres = part.solids()
     weights = volumes / volumes.mean()
@@ -109,14 +109,14 @@ def program(part: Structure, cone: bool) -> tuple[Any, Floats]:
 
 
 def loads_of(weights: Floats, direction: Floats) -> Floats:
-    """Weights in a direction, without torques."""
+    """Return the weights in a direction, with torques of zero."""
     loads = np.zeros((len(weights), 6))
     loads[:, :3] = weights[:, None] * direction
     return loads.reshape(-1)
 
 
 def _residual(rays: Any, weights: Floats, down: Floats) -> float:
-    """The smallest largest residual."""
+    """Return the smallest residual, which is the largest unbalanced force or torque."""
     sparse, optimize = need("scipy.sparse"), need("scipy.optimize")
     rows, columns = rays.shape
     slack = sparse.csc_array(-np.ones((rows, 1)))
@@ -124,13 +124,13 @@ def _residual(rays: Any, weights: Floats, down: Floats) -> float:
     loads = loads_of(weights, down)
     cost = np.zeros(columns + 1)
     cost[-1] = 1.0
-    found = solved(optimize.linprog(cost, A_ub=above, b_ub=np.concatenate([-loads, loads])))
+    solution = solved(optimize.linprog(cost, A_ub=above, b_ub=np.concatenate([-loads, loads])))
     # The solver satisfies its constraints to 1e-7 only: compute the residual of its forces.
-    return float(np.abs(rays @ np.maximum(found.x[:-1], 0.0) + loads).max())
+    return float(np.abs(rays @ np.maximum(solution.x[:-1], 0.0) + loads).max())
 
 
 def _margin(rays: Any, weights: Floats, down: Floats, direction: int) -> float:
-    """The largest push in one direction across gravity."""
+    """Return the largest push in a direction across gravity."""
     sparse, optimize = need("scipy.sparse"), need("scipy.optimize")
     side = np.cross(down, (0.0, 1.0, 0.0) if abs(down[1]) < 0.9 else (1.0, 0.0, 0.0))
     side /= np.linalg.norm(side)
@@ -139,15 +139,15 @@ def _margin(rays: Any, weights: Floats, down: Floats, direction: int) -> float:
     equal = sparse.hstack([rays, sparse.csc_array(loads_of(weights, push)[:, None])]).tocsc()
     cost = np.zeros(equal.shape[1])
     cost[-1] = -1.0
-    found = optimize.linprog(cost, A_eq=equal, b_eq=-loads_of(weights, down))
-    return float(found.x[-1]) if found.status == 0 else 0.0
+    solution = optimize.linprog(cost, A_eq=equal, b_eq=-loads_of(weights, down))
+    return float(solution.x[-1]) if solution.status == 0 else 0.0
 
 
-def solved(found: Any) -> Any:
-    """What the solver found; an error where it found nothing."""
-    if found.status != 0:
-        raise FileError("program-unsolved", reason=str(found.message))
-    return found
+def solved(solution: Any) -> Any:
+    """Return a solution of the solver; raise an error if there is none."""
+    if solution.status != 0:
+        raise FileError("program-unsolved", reason=str(solution.message))
+    return solution
 
 
 @dataclass(frozen=True)
@@ -157,12 +157,11 @@ class Simulation:
     Attributes
     ----------
     moved : float
-        The farthest that a block's centre of mass went, as a share of that block's size (the cube root of its volume).
+        The longest way of a block's centre of mass, as a share of the block's size (the cube root of its volume).
     block : int
-        Which one.
+        The number of this block.
     each : tuple of float
-        How far each block went, in the worst case; what came after the first block had gone its own size is not
-        simulated.
+        The way of each block, in the worst case; the simulation ends when a block has moved by its own size.
     """
 
     moved: float
@@ -171,26 +170,27 @@ class Simulation:
 
     @property
     def fallen(self) -> tuple[int, ...]:
-        """The numbers of the blocks that went farther than 5 % of their size."""
-        return tuple(number for number, share in enumerate(self.each) if not share <= GONE)
+        """The numbers of the blocks that moved farther than 5 % of their size."""
+        return tuple(number for number, share in enumerate(self.each) if not share <= FALLEN)
 
     @property
     def stands(self) -> bool:
-        """Whether no block went farther than 5 % of its size."""
-        return self.moved <= GONE
+        """Whether all blocks moved by at most 5 % of their size."""
+        return self.moved <= FALLEN
 
 
 def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0005) -> Simulation:
-    """Let go of the blocks in MuJoCo: rigid bodies, elliptic friction cones with the structure's coefficient.
+    """Simulate the blocks in MuJoCo as rigid bodies, with elliptic friction cones and the structure's coefficient.
 
     Parameters
     ----------
     structure
-        The structure that should stand, in every direction of gravity and at every step of construction that it names.
+        The structure, which is simulated for each of its directions of gravity and steps of construction.
     seconds
-        Simulated time of each.
+        Simulated time of each simulation.
     time_step
-        Seconds. A contact yields by about gravity times the square of twice this, so it decides how hard blocks are.
+        Time step in seconds. A contact yields by about gravity times the square of twice the step, which sets the
+        hardness of blocks.
 
     Raises
     ------
@@ -198,8 +198,8 @@ def simulated(structure: Structure, seconds: float = 5.0, time_step: float = 0.0
         MuJoCo is missing (extra `stacks`).
     """
     parts = [structure.first(count) for count in structure.prefixes]
-    found = [_run(part, down, seconds, time_step) for part in parts for down in structure.downs]
-    return max(found, key=lambda one: one.moved)
+    simulations = [_run(part, down, seconds, time_step) for part in parts for down in structure.downs]
+    return max(simulations, key=lambda simulation: simulation.moved)
 
 
 def _run(part: Structure, down: Floats, seconds: float, time_step: float) -> Simulation:
@@ -223,7 +223,7 @@ def _run(part: Structure, down: Floats, seconds: float, time_step: float) -> Sim
 
 
 def _document(part: Structure, down: Floats, time_step: float) -> str:
-    """The structure in MuJoCo's format."""
+    """Return the structure in MuJoCo's format."""
     gravity = " ".join(repr(float(x)) for x in 9.81 * down)
     floor = _floor(part)
     assets, bodies = [], []
@@ -248,7 +248,7 @@ def _document(part: Structure, down: Floats, time_step: float) -> str:
 
 
 def _floor(part: Structure) -> float:
-    """The height of the ground."""
+    """Return the height of the ground."""
     heights = [touch.points[:, 2].mean() for touch in part.touches if min(touch.first, touch.second) < 0]
     return float(np.mean(heights))
 

@@ -1,8 +1,8 @@
 """Platforms: two bars, each on two towers, one bar's tower standing on the other bar (dissertation figure 4.8).
 
-A tower reaches from one point to another: its blocks are put up as boxes, the last one's top is welded to the bar, and
-then the blocks below change their height and shear while the next one's bottom follows; the last takes the slack. Only
-x is sheared and slid, so that edges stay aligned. Numbers are the original's; metres.
+A tower reaches from one point to another. Its blocks start as boxes; the top of the last block is welded to the bar.
+Then the blocks below change height and shear, and the bottom of the next block follows; the last block takes the rest.
+Blocks shear and slide along x only, so that edges stay aligned. Numbers are the original's; lengths are metres.
 """
 
 from __future__ import annotations
@@ -40,33 +40,33 @@ BAR = (0.42, 0.30, 0.22)
 
 
 def bar_at(centre, width):
-    """A flat bar, turned about its long sides' direction."""
+    """Return a flat bar, turned about the direction of its long sides."""
     angle = uniform(-WIDEST, WIDEST)
     return tuple([centre + rotate(p - centre, Y, angle) for p in box_corners(centre, width, 0.1, 0.01)])
 
 
 def on_ground(share):
-    """A point of the ground, from left to right."""
+    """Return a point of the ground, from left to right."""
     return vec(lerp(-HALF, HALF, share), 0.0, GROUND_TOP)
 
 
 def above(bar, share):
-    """A point of a bar's top, from left to right."""
+    """Return a point of a bar's top, from left to right."""
     return lerp_points(bar[4] + bar[7], bar[5] + bar[6], share)
 
 
 def under(bar, share):
-    """A point of a bar's bottom, from right to left."""
+    """Return a point of a bar's bottom, from right to left."""
     return lerp_points(bar[1] + bar[2], bar[0] + bar[3], share)
 
 
 def lerp_points(left, right, share):
-    """Between the middles of two edges, each given as the sum of its ends."""
+    """Return a point between the middles of two edges; an edge is the sum of its ends."""
     return 0.5 * left + (0.5 * share) * (right - left)
 
 
 def tower(count, start, normal, end, bar):
-    """Blocks from `start`, on what has that normal, up to `end` on the underside of a bar."""
+    """Return blocks from `start`, on a surface with normal `normal`, up to `end` on the underside of a bar."""
     height = (end.z - start.z) / count
     pieces = upright([standing(plain(height), start, normal)], 1, count, height)
     seats = [seat(pieces[i], pieces[i - 1]) for i in range(1, count)]
@@ -75,13 +75,13 @@ def tower(count, start, normal, end, bar):
 
 
 def plain(height):
-    """A box of random width and depth."""
+    """Return a box of random width and depth."""
     width, depth = uniform(0.02, 0.08), uniform(0.02, 0.08)
     return box_corners(vec(0.0, 0.0, 0.0), width, depth, height)
 
 
 def upright(pieces, i, count, height):
-    """The boxes from number `i` on, slid along x."""
+    """Add the boxes from number `i`, which slide along x."""
     if i == count:
         return pieces
     below = pieces[i - 1]
@@ -94,14 +94,14 @@ def upright(pieces, i, count, height):
 
 
 def seat(block, below):
-    """Where a block stands on the one below: distances along the edges of its top, from its first corner."""
+    """Return the place of a block on the block below: distances along the edges of its top, from its first corner."""
     along, across = edges(below, TOP)
     off = middle(block, BOTTOM) - below[4]
     return dot(off, along) / norm(along), dot(off, across) / norm(across)
 
 
 def reshaped(pieces, seats, i):
-    """Change height and shear of the blocks from number `i` on, but for the last; what is above follows."""
+    """Change height and shear of the blocks from number `i` to the last but one; the block above follows each time."""
     if i == len(pieces) - 1:
         return pieces
     block = pieces[i]
@@ -116,12 +116,12 @@ def reshaped(pieces, seats, i):
 
 
 def joined(first, count, base, face, bar, pieces):
-    """Contacts of a tower whose blocks are numbered from `first`: with its base, within, and with its bar."""
-    found = [contact(first, corners(pieces[first], BOTTOM), base, face)]
+    """Return the contacts of a tower whose blocks start at number `first`: with its base, within, and with its bar."""
+    touches = [contact(first, corners(pieces[first], BOTTOM), base, face)]
     for i in range(first + 1, first + count):
-        found = found + [contact(i, corners(pieces[i], BOTTOM), i - 1, corners(pieces[i - 1], TOP))]
+        touches = touches + [contact(i, corners(pieces[i], BOTTOM), i - 1, corners(pieces[i - 1], TOP))]
     top = first + count - 1
-    return found + [contact(top, corners(pieces[top], TOP), bar, corners(pieces[bar], BOTTOM))]
+    return touches + [contact(top, corners(pieces[top], TOP), bar, corners(pieces[bar], BOTTOM))]
 
 
 @model

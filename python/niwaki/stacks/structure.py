@@ -1,4 +1,4 @@
-"""A structure as arrays: the input of judges, files and pictures, converted from the value of a model of stacks."""
+"""Structures as arrays, made from the values of models: the input of judges, files and pictures."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Touch:
-    """Where two bodies touch.
+    """A contact of two bodies.
 
     Attributes
     ----------
     first, second : int
-        Their numbers; -1 is the ground. The normal points from the first to the second.
+        Numbers of the bodies; -1 is the ground. The normal points from the first body to the second.
     points : array of shape (4, 3)
-        Metres.
+        Corners of the contact, metres.
     frame : array of shape (3, 3)
-        Rows: the normal and two directions of the contact's plane.
+        The normal and two directions in the contact's plane, as rows.
     """
 
     first: int
@@ -36,20 +36,20 @@ class Touch:
 
 @dataclass(frozen=True)
 class Structure:
-    """Blocks, where they touch, and how they should stand.
+    """A structure: blocks, their contacts, and the conditions under which it should stand.
 
     Attributes
     ----------
     corners : array of shape (blocks, 8, 3)
-        Metres, z up; a block is the convex hull of its corners.
+        Corners in metres, z up; a block is the convex hull of its corners.
     touches : tuple of Touch
         The contacts.
     friction : float
         Coulomb's coefficient.
     downs : array of shape (directions, 3)
-        The directions of gravity in which it should stand.
+        The directions of gravity in which the structure should stand.
     prefixes : tuple of int
-        How many blocks there are at each step at which it should stand.
+        The number of blocks at each step of construction at which the structure should stand.
     """
 
     corners: Floats
@@ -60,7 +60,7 @@ class Structure:
 
     @classmethod
     def of(cls, value: Any) -> Structure:
-        """Make a structure of a sample of a result, or of what a model of stacks returned.
+        """Make a structure from a sample of a result, or from the value of a model of stacks.
 
         Raises
         ------
@@ -78,15 +78,15 @@ class Structure:
             )
             for touch in value.contacts
         )
-        found = cls(
+        structure = cls(
             corners,
             touches,
             float(value.friction),
             _points(value.downs),
             tuple(int(count) for count in value.prefixes),
         )
-        found.check()
-        return found
+        structure.check()
+        return structure
 
     def check(self) -> None:
         """Refuse contacts without area, and blocks that are inside out."""
@@ -105,22 +105,22 @@ class Structure:
         return len(self.corners)
 
     def first(self, count: int) -> Structure:
-        """The structure when only its first blocks are there."""
-        kept = tuple(touch for touch in self.touches if max(touch.first, touch.second) < count)
-        return Structure(self.corners[:count], kept, self.friction, self.downs, (count,))
+        """Return the structure of the first blocks alone."""
+        touches = tuple(touch for touch in self.touches if max(touch.first, touch.second) < count)
+        return Structure(self.corners[:count], touches, self.friction, self.downs, (count,))
 
     def faces(self, number: int) -> NDArray[np.int64]:
-        """Triangles of a block, counter-clockwise from outside; a twisted side is cut along its outer diagonal."""
+        """Return a block's triangles, counter-clockwise from outside; a twisted side is cut at its outer diagonal."""
         corners = self.corners[number]
-        found = [(a, b, c) for a, b, c, _ in (BOTTOM, TOP)] + [(a, c, d) for a, _, c, d in (BOTTOM, TOP)]
+        triangles = [(a, b, c) for a, b, c, _ in (BOTTOM, TOP)] + [(a, c, d) for a, _, c, d in (BOTTOM, TOP)]
         for a, b, c, d in SIDES:
             p, q, r, s = corners[[a, b, c, d]]
             outer = np.linalg.det([q - p, r - p, s - p]) > 0.0
-            found += [(a, b, d), (b, c, d)] if outer else [(a, b, c), (a, c, d)]
-        return np.array(found, dtype=np.int64)
+            triangles += [(a, b, d), (b, c, d)] if outer else [(a, b, c), (a, c, d)]
+        return np.array(triangles, dtype=np.int64)
 
     def is_convex(self, number: int) -> bool:
-        """Whether no corner of a block lies outside of one of its faces, by more than a thousandth of its size."""
+        """Return whether all corners lie inside all faces of a block, up to a thousandth of its size."""
         corners = self.corners[number]
         p, q, r = corners[self.faces(number)].transpose(1, 0, 2)
         out = np.cross(q - p, r - p)
@@ -129,7 +129,7 @@ class Structure:
         return bool(heights.max() <= 1e-3 * float(np.ptp(corners, axis=0).max()))
 
     def solid(self, number: int) -> tuple[float, Floats]:
-        """Volume and centre of mass of a block."""
+        """Return volume and centre of mass of a block."""
         corners = self.corners[number]
         middle = corners.mean(axis=0)
         p, q, r = (corners[self.faces(number)] - middle).transpose(1, 0, 2)
@@ -138,18 +138,18 @@ class Structure:
         return volume, middle + 0.25 * (parts[:, None] * (p + q + r)).sum(axis=0) / volume
 
     def solids(self) -> tuple[Floats, Floats]:
-        """Volumes, of shape (blocks,), and centres of mass, of shape (blocks, 3)."""
-        found = [self.solid(number) for number in range(len(self))]
-        return np.array([volume for volume, _ in found]), np.array([centre for _, centre in found])
+        """Return volumes, of shape (blocks,), and centres of mass, of shape (blocks, 3)."""
+        solids = [self.solid(number) for number in range(len(self))]
+        return np.array([volume for volume, _ in solids]), np.array([centre for _, centre in solids])
 
 
 def plain(corners: ArrayLike, touches: Any, friction: float, down: ArrayLike = (0.0, 0.0, -1.0)) -> Structure:
     """Make a structure from arrays: corners (blocks, 8, 3), and for each contact (first, second, points, frame)."""
     blocks = np.asarray(corners, dtype=np.float64)
     contacts = tuple(Touch(a, b, np.asarray(p, float), np.asarray(f, float)) for a, b, p, f in touches)
-    found = Structure(blocks, contacts, friction, np.asarray([down], dtype=np.float64), (len(blocks),))
-    found.check()
-    return found
+    structure = Structure(blocks, contacts, friction, np.asarray([down], dtype=np.float64), (len(blocks),))
+    structure.check()
+    return structure
 
 
 def _points(points: Any) -> Floats:

@@ -1,7 +1,7 @@
-"""Towers: six blocks on one another, sheared and slid; straight, leaning, or heavy above (dissertation figure 4.8).
+"""Towers: piles of six blocks that shear and slide; straight, leaning, or top-heavy (dissertation figure 4.8).
 
-Also the tower that stands when its ground is tilted, and the one that stands at every step of its construction. Numbers
-are the original's; lengths in metres.
+Another tower stands at each step of its construction.
+Numbers are the original's; lengths are metres.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ FEET = vec(0.0, 0.0, GROUND_TOP)
 UP = vec(0.0, 0.0, 1.0)
 WIDEST = radians(30.0)
 
-#: Oak, as the original has it, and poplar of which its pieces are cut.
+#: Friction of oak, as in the original, and of poplar, the material of pieces to cut.
 OAK, POPLAR = 0.5, 0.3
-#: The line that `lean` scores: 20 degrees from upright.
+#: The direction of the line that `lean` scores, 20 degrees from upright.
 LEANING = vec(
     -sin(radians(20.0)) * cos(radians(45.0)), -sin(radians(20.0)) * sin(radians(45.0)), cos(radians(20.0))
 )
@@ -52,12 +52,12 @@ TURN = 2.0 * pi
 
 
 def slope():
-    """The tangent of an angle within 30 degrees."""
+    """Draw the tangent of an angle within 30 degrees."""
     return tan(uniform(-WIDEST, WIDEST))
 
 
 def sheared(i):
-    """Block `i` in its start position; the order of shears keeps its top a rectangle."""
+    """Return block `i` in its start position; the order of the shears keeps its top a rectangle."""
     width, depth, height = uniform(0.02, 0.08), uniform(0.02, 0.08), uniform(0.02, 0.08)
     block = box_corners(vec(0.0, 0.0, 0.0), width, depth, height)
     if i % 2 == 0:
@@ -66,7 +66,7 @@ def sheared(i):
 
 
 def slid(block, below, margin):
-    """A block on top of another, slid in both directions as far as leaves `margin` of contact, its edges aligned."""
+    """Put a block on another with aligned edges; it slides in both directions, and `margin` of contact remains."""
     normal, at = outward(below, TOP), middle(below, TOP)
     block = standing(block, at, normal)
     along, across = edges(below, TOP)
@@ -82,12 +82,12 @@ def slid(block, below, margin):
     return aligned(moved(block, u * along + v * across), along, across)
 
 
-#: The bottom's corners so that its first edge is the front one.
+#: The corners of the bottom, in an order whose first edge is the front edge.
 BOTTOM_BY_X = (0, 1, 2, 3)
 
 
 def aligned(block, along, across):
-    """Turn a block about its bottom's middle until its front edge is parallel to the nearer of two directions."""
+    """Turn a block about its bottom's middle, so that its front edge is parallel to the nearer of two directions."""
     front = normalize(block[1] - block[0])
     x, y = dot(front, along), dot(front, across)
     if x * x >= y * y:
@@ -98,24 +98,24 @@ def aligned(block, along, across):
 
 
 def pile(count, margin):
-    """Blocks on one another; each on its own address."""
+    """Return a pile of blocks; each block has its own address."""
     first = standing(sheared(0), FEET, UP)
     return raised([first], 1, count, margin)
 
 
 def raised(blocks, i, count, margin):
-    """The pile with the blocks from number `i` on."""
+    """Add the blocks from number `i` to the pile."""
     if i == count:
         return blocks
     return raised(blocks + [slid(sheared(i), blocks[i - 1], margin)], i + 1, count, margin)
 
 
 def touching(blocks):
-    """Contacts of a pile: the bottom of each block with the top below."""
-    found = [contact(0, corners(blocks[0], BOTTOM), GROUND, FLOOR)]
+    """Return the contacts of a pile: the bottom of each block with the top of the block below."""
+    touches = [contact(0, corners(blocks[0], BOTTOM), GROUND, FLOOR)]
     for i in range(1, len(blocks)):
-        found = found + [contact(i, corners(blocks[i], BOTTOM), i - 1, corners(blocks[i - 1], TOP))]
-    return tuple(found)
+        touches = touches + [contact(i, corners(blocks[i], BOTTOM), i - 1, corners(blocks[i - 1], TOP))]
+    return tuple(touches)
 
 
 def show(blocks):
@@ -137,7 +137,7 @@ def stack(width=0.005, blocks=6, friction="cone", safety=SAFETY):
 
 @model
 def lean(width=0.005, blocks=6, friction="cone", safety=SAFETY, astray=0.01):
-    """A tower whose blocks' centres of mass keep to a leaning line, within `astray` metres."""
+    """A tower whose blocks have their centres of mass on a leaning line, within `astray` metres."""
     made = stack(width, blocks, friction, safety)
     lean_on(made.blocks, astray)
     return made
@@ -149,13 +149,13 @@ def lean_on(blocks, astray):
     for block in blocks:
         _, centre = volume_and_centre(block)
         off = cross(centre - foot, LEANING)
-        # A distance's normal density is that of its square; the square is smooth on the line.
+        # The normal density of a distance needs only its square, which is smooth on the line.
         factor(softeq(off.x, 0.0, astray) + softeq(off.y, 0.0, astray) + softeq(off.z, 0.0, astray))
 
 
 @model
 def top_heavy(width=0.005, blocks=6, friction="cone", safety=SAFETY, ratio=2.0):
-    """A tower in which each block has twice the volume of the one below."""
+    """A tower in which each block has twice the volume of the block below."""
     made = stack(width, blocks, friction, safety)
     grow_by(made.blocks, ratio)
     return made
@@ -170,7 +170,7 @@ def grow_by(blocks, ratio):
 
 @model
 def every_step(width=0.005, blocks=5, friction="cone", safety=SAFETY):
-    """A tower that balances whenever another block has been put on it: 198 continuous choices with five blocks."""
+    """A tower that balances after each block of its construction: 198 continuous choices with five blocks."""
     pieces = centred([standing(sheared(0), FEET, UP)], 1, blocks)
     touches = touching(pieces)
     for built in range(2, blocks + 1):
@@ -181,7 +181,7 @@ def every_step(width=0.005, blocks=5, friction="cone", safety=SAFETY):
 
 
 def centred(blocks, i, count):
-    """The pile with the blocks from number `i` on, each in the middle of the one below."""
+    """Add the blocks from number `i` to the pile, each on the middle of the block below."""
     if i == count:
         return blocks
     below = blocks[i - 1]

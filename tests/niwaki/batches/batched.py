@@ -102,14 +102,14 @@ def whole(folder: Path) -> str:
 
 def main(folder: str, seeds: str = "200", search: nw.Search = WAITING) -> None:
     """Search in the folder, by two processes, in chunks of a tenth of a second; print the hash."""
-    found: Any = list(nw.batch(search, seeds=int(seeds), folder=folder, processes=2, chunk=0.1))
-    print(len(found), whole(Path(folder)))
+    outcomes: Any = list(nw.batch(search, seeds=int(seeds), folder=folder, processes=2, chunk=0.1))
+    print(len(outcomes), whole(Path(folder)))
 
 
 def on_cluster(engine: str, folder: str, seeds: str) -> None:
-    """The same on a cluster of this machine."""
+    """Run the batch on a cluster of this machine."""
     with batches.clusters.ENGINES[engine](2) as executor:
-        found = list(
+        outcomes = list(
             nw.batch(WAITING, seeds=int(seeds), folder=folder, executor=executor, processes=2, chunk=0.1)
         )
-    print(len(found), whole(Path(folder)))
+    print(len(outcomes), whole(Path(folder)))

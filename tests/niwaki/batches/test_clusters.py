@@ -75,27 +75,27 @@ def below(process: int) -> set[int]:
         except OSError:
             continue
         parents[int(name.split()[0])] = int(rest.split()[1])
-    found, waiting = set[int](), {process}
+    descendants, waiting = set[int](), {process}
     while waiting:
-        waiting = {own for own, parent in parents.items() if parent in waiting} - found
-        found |= waiting
-    return found
+        waiting = {child for child, parent in parents.items() if parent in waiting} - descendants
+        descendants |= waiting
+    return descendants
 
 
 def test_a_cluster_gives_the_bytes_of_a_thread(engine: str, tmp_path: Path) -> None:
     with started(engine, tmp_path / "there", 60, 0.0) as child:
-        said, error = child.communicate(timeout=180)
+        output, error = child.communicate(timeout=180)
     assert child.returncode == 0, error
-    assert said.split()[-2:] == ["60", alone(tmp_path / "alone", 60)]
+    assert output.split()[-2:] == ["60", alone(tmp_path / "alone", 60)]
 
 
 def test_a_worker_is_killed(engine: str, tmp_path: Path) -> None:
     with started(engine, tmp_path / "there", 120, 40.0) as child:
         until_some(tmp_path / "there", child, 10)
         os.kill(int(str(next(notes(tmp_path / "there"))["process"])), signal.SIGKILL)
-        said, error = child.communicate(timeout=180)
+        output, error = child.communicate(timeout=180)
     assert child.returncode == 0, error
-    assert said.split()[-2:] == ["120", alone(tmp_path / "alone", 120)]
+    assert output.split()[-2:] == ["120", alone(tmp_path / "alone", 120)]
 
 
 def test_the_process_that_collects_is_killed(engine: str, tmp_path: Path) -> None:
@@ -105,12 +105,12 @@ def test_the_process_that_collects_is_killed(engine: str, tmp_path: Path) -> Non
         child.kill()
         child.communicate(timeout=60)
     assert ended(children, 180.0)
-    begun = sum(1 for _ in notes(tmp_path / "there"))
+    done_before = sum(1 for _ in notes(tmp_path / "there"))
     with started(engine, tmp_path / "there", 120, 0.0) as child:
-        said, error = child.communicate(timeout=180)
+        output, error = child.communicate(timeout=180)
     assert child.returncode == 0, error
-    assert said.split()[-2:] == ["120", alone(tmp_path / "alone", 120)]
-    assert sum(1 for _ in notes(tmp_path / "there")) <= 120 + 1 and begun >= 10
+    assert output.split()[-2:] == ["120", alone(tmp_path / "alone", 120)]
+    assert sum(1 for _ in notes(tmp_path / "there")) <= 120 + 1 and done_before >= 10
 
 
 #: Addresses in the arguments of a system call.
@@ -119,15 +119,15 @@ ADDRESS = re.compile(r'inet_(?:addr\(|pton\(AF_INET6, )"([0-9a-fA-F.:]+)"')
 
 def is_own(address: str) -> bool:
     """Whether an address is one of this machine alone."""
-    found = ipaddress.ip_address(address)
-    found = getattr(found, "ipv4_mapped", None) or found
-    return found.is_loopback or found.is_unspecified
+    parsed = ipaddress.ip_address(address)
+    parsed = getattr(parsed, "ipv4_mapped", None) or parsed
+    return parsed.is_loopback or parsed.is_unspecified
 
 
 def test_addresses_are_told_apart() -> None:
     line = 'connect(6, {sa_family=AF_INET, sin_port=htons(53), sin_addr=inet_addr("8.8.8.8")}, 16) = 0'
     mapped = 'connect(7, {sa_family=AF_INET6, inet_pton(AF_INET6, "::ffff:127.0.0.1", &sin6_addr)}, 28) = 0'
-    assert [is_own(one) for one in ADDRESS.findall(line + mapped)] == [False, True]
+    assert [is_own(address) for address in ADDRESS.findall(line + mapped)] == [False, True]
     assert not is_own("::ffff:192.0.2.2") and not is_own("2001:db8::1") and is_own("::1")
 
 
@@ -138,7 +138,7 @@ def test_nothing_outside_of_this_machine_is_asked(engine: str, tmp_path: Path) -
         _, error = child.communicate(timeout=300)
     assert child.returncode == 0, error
     calls = (tmp_path / "calls").read_text(errors="replace").splitlines()
-    outside = [one for one in calls if any(not is_own(address) for address in ADDRESS.findall(one))]
+    outside = [call for call in calls if any(not is_own(address) for address in ADDRESS.findall(call))]
     assert not outside
 
 

@@ -25,9 +25,9 @@ def thread() -> Iterator[ThreadPoolExecutor]:
         yield executor
 
 
-@pytest.mark.parametrize("begun", [False, True])
+@pytest.mark.parametrize("has_results", [False, True])
 def test_a_batch_goes_on_after_each_fault_of_the_disk(
-    begun: bool, tmp_path: Path, thread: ThreadPoolExecutor
+    has_results: bool, tmp_path: Path, thread: ThreadPoolExecutor
 ) -> None:
     def search(folder: Path, seeds: int = 3) -> None:
         # A chunk for each search: several appends.
@@ -35,18 +35,24 @@ def test_a_batch_goes_on_after_each_fault_of_the_disk(
 
     (tmp_path / "alone").mkdir()
     search(tmp_path / "alone")
-    wanted, kinds = batched.whole(tmp_path / "alone"), set()
+    expected, kinds = batched.whole(tmp_path / "alone"), set()
     (tmp_path / "tried").mkdir()
-    for trial in trials(tmp_path / "tried", search, lambda folder: search(folder, 1) if begun else None):
+    for trial in trials(
+        tmp_path / "tried", search, lambda folder: search(folder, 1) if has_results else None
+    ):
         assert trial.error is None or isinstance(trial.error, FileError), trial
         kinds.add((trial.call, trial.error is None))
         if trial.error is not None:
-            said = str(trial.error)
-            assert "No space left" in said or "Input/output error" in said or "Permission denied" in said
+            message = str(trial.error)
+            assert (
+                "No space left" in message
+                or "Input/output error" in message
+                or "Permission denied" in message
+            )
         if batches.is_batch(trial.folder):
-            assert len(batches.Store(trial.folder)) >= 2 * begun
+            assert len(batches.Store(trial.folder)) >= 2 * has_results
         search(trial.folder)
-        assert batched.whole(trial.folder) == wanted, trial
+        assert batched.whole(trial.folder) == expected, trial
     assert {call for call, _ in kinds} >= {"open", "write", "fsync", "mkdir", "replace"}
 
 
@@ -85,17 +91,17 @@ def test_the_files_of_an_export_are_whole_after_each_fault(
     store = batches.Store(tmp_path / "batch")
 
     def exported(folder: Path) -> None:
-        found = export.best_of(store, 1)
+        best = export.best_of(store, 1)
         export.write_csv(folder / "results.csv", store)
-        export.write_meshes(folder / "meshes", found)
+        export.write_meshes(folder / "meshes", best)
 
     exported(tmp_path)
     whole = {name: (tmp_path / name).read_bytes() for name in ("results.csv", "meshes/case-0-seed-0.glb")}
     (tmp_path / "tried").mkdir()
     for trial in trials(tmp_path / "tried", exported):
         assert trial.error is None or isinstance(trial.error, FileError), trial
-        for one in trial.folder.rglob("*.*"):
-            assert one.read_bytes() == whole[str(one.relative_to(trial.folder))], trial
+        for file in trial.folder.rglob("*.*"):
+            assert file.read_bytes() == whole[str(file.relative_to(trial.folder))], trial
 
 
 def _half(number: int, data: bytes) -> None:

@@ -29,12 +29,14 @@ def test_the_table_has_what_the_results_have(tmp_path: Path) -> None:
     store = stored(tmp_path)
     with open(export.write_csv(tmp_path / "results.csv", store, choices=True), newline="") as file:
         rows = list(csv.DictReader(file))
-    found = list(batches.outcomes(store))
-    assert [int(row["seed"]) for row in rows] == [one.seed for one in found]
-    for row, one in zip(rows, found, strict=True):
-        assert row["fault"] == (one.fault or "")
-        if one.fault is None:
-            assert float(row["log_score"]) == one.best.log_score and int(row["samples"]) == len(one.result)
+    outcomes = list(batches.outcomes(store))
+    assert [int(row["seed"]) for row in rows] == [outcome.seed for outcome in outcomes]
+    for row, outcome in zip(rows, outcomes, strict=True):
+        assert row["fault"] == (outcome.fault or "")
+        if outcome.fault is None:
+            assert float(row["log_score"]) == outcome.best.log_score and int(row["samples"]) == len(
+                outcome.result
+            )
     assert {row["fault"] for row in rows} == {"", "everything-impossible"}
     assert [row["name"] for row in rows[::5]] == ["bump", "7"]
 
@@ -45,8 +47,8 @@ def test_parquet_has_the_same(tmp_path: Path) -> None:
 
     store = stored(tmp_path)
     rows = pyarrow.parquet.read_table(export.write_parquet(tmp_path / "results.parquet", store)).to_pylist()
-    wanted = [export.numbers(one) for one in batches.outcomes(store)]
-    assert [{**row, "name": str(row["name"])} for row in wanted] == rows
+    expected = [export.numbers(outcome) for outcome in batches.outcomes(store)]
+    assert [{**row, "name": str(row["name"])} for row in expected] == rows
     assert rows[4]["seed"] == 2**64 - 1 and rows[0]["size"] == 1.0
 
 

@@ -36,9 +36,9 @@ def test_populations_anywhere_give_the_same_bits(name: str) -> None:
 def test_populations_that_died_count_as_zero() -> None:
     search = nw.Search(often_impossible, method=nw.smc([1, 1, 1, 2, 1]), seed=2)
     with ThreadPoolExecutor(2) as threads:
-        found = batches.spread(search, executor=threads)
-        assert 0 < found.died < 5
-        assert body_of(found) == body_of(search.run())
+        result = batches.spread(search, executor=threads)
+        assert 0 < result.died < 5
+        assert body_of(result) == body_of(search.run())
         all_dead = nw.Search(often_impossible, method=nw.smc([1, 1]), seed=_dead())
         with pytest.raises((InputError, ModelFault), match="everything-impossible"):
             batches.spread(all_dead, executor=threads)
@@ -57,11 +57,11 @@ def _dead() -> int:
 def test_several_runs_the_best_of_each_and_a_folder_that_goes_on(tmp_path: Path) -> None:
     """In spawned processes, as a person has it; the second time nothing is searched."""
     search = nw.Search(pile, method=nw.smc(20, populations=3), runs=2, keep="best")
-    found = batches.spread(search, folder=tmp_path / "islands", processes=2)
-    assert body_of(found) == body_of(search.run())
-    stored = [one.stat().st_size for one in sorted((tmp_path / "islands").rglob("seg-*"))]
-    assert stored and body_of(batches.spread(search, folder=tmp_path / "islands")) == body_of(found)
-    assert [one.stat().st_size for one in sorted((tmp_path / "islands").rglob("seg-*"))][
+    result = batches.spread(search, folder=tmp_path / "islands", processes=2)
+    assert body_of(result) == body_of(search.run())
+    stored = [segment.stat().st_size for segment in sorted((tmp_path / "islands").rglob("seg-*"))]
+    assert stored and body_of(batches.spread(search, folder=tmp_path / "islands")) == body_of(result)
+    assert [segment.stat().st_size for segment in sorted((tmp_path / "islands").rglob("seg-*"))][
         : len(stored)
     ] == stored
 

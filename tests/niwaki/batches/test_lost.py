@@ -30,7 +30,7 @@ UNIX = pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 PROGRAM = "import batched, sys; batched.main(*sys.argv[1:])"
 
 
-def wanted(folder: Path, seeds: int) -> str:
+def expected_hash(folder: Path, seeds: int) -> str:
     """The hash of a batch that is left alone, in a thread."""
     with ThreadPoolExecutor(1) as thread:
         list(nw.batch(batched.WAITING, seeds=seeds, folder=folder, executor=thread))
@@ -65,7 +65,7 @@ def ended(processes: set[int], seconds: float = 10.0) -> bool:
     """Whether processes are gone, after at most so many seconds."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        if not any(Path(f"/proc/{one}/cmdline").exists() for one in processes):
+        if not any(Path(f"/proc/{process}/cmdline").exists() for process in processes):
             return True
         time.sleep(0.05)
     return False
@@ -79,17 +79,17 @@ def test_a_batch_goes_on_after_its_end(number: signal.Signals, tmp_path: Path) -
         child.send_signal(number)
         child.communicate(timeout=60)
     assert child.returncode != 0
-    begun = list(notes(tmp_path / "kill"))
+    lines_before = list(notes(tmp_path / "kill"))
     there = len(batches.Store(tmp_path / "kill"))
     assert 15 <= there < 60
     if sys.platform == "linux":
-        assert ended({int(str(one["process"])) for one in begun})
+        assert ended({int(str(line["process"])) for line in lines_before})
     with started(tmp_path / "kill", 60, 0.0) as child:
-        said, error = child.communicate(timeout=60)
+        output, error = child.communicate(timeout=60)
     assert child.returncode == 0, error
-    assert said.split() == ["60", wanted(tmp_path / "alone", 60)]
+    assert output.split() == ["60", expected_hash(tmp_path / "alone", 60)]
     # What had a record was not done again; of a chunk that was being written, a line may be missing.
-    assert 60 - there <= sum(1 for _ in notes(tmp_path / "kill")) - len(begun) <= 60 - there + 1
+    assert 60 - there <= sum(1 for _ in notes(tmp_path / "kill")) - len(lines_before) <= 60 - there + 1
 
 
 @UNIX
@@ -97,10 +97,10 @@ def test_a_batch_goes_on_without_a_worker(tmp_path: Path) -> None:
     with started(tmp_path / "kill", 60, 20.0) as child:
         until_some(tmp_path / "kill", child, 15)
         os.kill(int(str(next(notes(tmp_path / "kill"))["process"])), signal.SIGKILL)
-        said, error = child.communicate(timeout=60)
+        output, error = child.communicate(timeout=60)
     assert child.returncode == 0, error
-    assert said.split() == ["60", wanted(tmp_path / "alone", 60)]
-    assert {one["attempt"] for one in notes(tmp_path / "kill")} == {1}
+    assert output.split() == ["60", expected_hash(tmp_path / "alone", 60)]
+    assert {line["attempt"] for line in notes(tmp_path / "kill")} == {1}
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
@@ -121,13 +121,13 @@ def test_what_a_host_function_started_ends_with_its_batch(end: str, tmp_path: Pa
             _, error = child.communicate(timeout=60)
         finally:
             child.kill()
-            numbers = {int(one.name) for one in (tmp_path / "numbers").iterdir()}
-            gone = ended(numbers)
-            for number in () if gone else numbers:
+            numbers = {int(file.name) for file in (tmp_path / "numbers").iterdir()}
+            have_ended = ended(numbers)
+            for number in () if have_ended else numbers:
                 with suppress(ProcessLookupError):
                     os.kill(number, signal.SIGKILL)
     assert child.returncode == 0 or end in ("Ctrl-C", "a kill"), error
-    assert len(numbers) >= 10 and gone
+    assert len(numbers) >= 10 and have_ended
 
 
 @UNIX
@@ -135,8 +135,8 @@ def test_a_worker_that_leads_no_group_yet_ends_with_its_batch(monkeypatch: pytes
     # As one that is still being started: nobody would wait for it, and it waits for others.
     monkeypatch.setattr(pools, "end_group", lambda leader: None)
     workers = pools.Workers(processes=1)
-    assert workers._own is not None
-    workers._own.submit(time.sleep, 60)
+    assert workers._pool is not None
+    workers._pool.submit(time.sleep, 60)
     (process,) = workers._leaders().values()
     workers.close(at_once=True)
     assert process.exitcode == -signal.SIGKILL
@@ -146,13 +146,13 @@ def test_what_ends_its_worker_is_given_up_alone(monkeypatch: pytest.MonkeyPatch,
     search = nw.Search(batched.dangerous, method=nw.importance(1))
     values = [search.with_seed(seed).run().best.choices["x"] for seed in range(3)]
     monkeypatch.setenv("DEADLY", "1")
-    found = []
+    outcomes = []
     with pytest.raises(InputError, match="searches-lost") as error:
-        for one in nw.batch(search, seeds=3, folder=tmp_path, processes=1):
-            found.append(one.seed)
-    assert 0 < len(found) < 3 and found == [seed for seed in range(3) if values[seed] <= batched.LIMIT]
-    assert f"{3 - len(found)} of 3 searches" in str(error.value)
-    assert len(batches.Store(tmp_path)) == len(found)
+        for outcome in nw.batch(search, seeds=3, folder=tmp_path, processes=1):
+            outcomes.append(outcome.seed)
+    assert 0 < len(outcomes) < 3 and outcomes == [seed for seed in range(3) if values[seed] <= batched.LIMIT]
+    assert f"{3 - len(outcomes)} of 3 searches" in str(error.value)
+    assert len(batches.Store(tmp_path)) == len(outcomes)
 
 
 def test_a_program_without_a_guard_ends_with_its_first_workers(tmp_path: Path) -> None:
@@ -185,8 +185,8 @@ def test_a_process_that_computes_other_bits_is_refused(
 ) -> None:
     monkeypatch.setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2,-AVX2_Usable,-FMA_Usable")
     with local(1) as executor:
-        own = executor.submit(nw._engine.fingerprint).result()
-        if own == nw._engine.fingerprint():
+        bits = executor.submit(nw._engine.fingerprint).result()
+        if bits == nw._engine.fingerprint():
             pytest.skip("this C library has no other functions")
         with pytest.raises(InputError, match="worker-differs"):
             list(nw.batch(batched.PILES, folder=tmp_path, executor=executor))
@@ -203,7 +203,7 @@ def test_ten_kills_at_random(tmp_path: Path) -> None:
         with started(tmp_path / "kill", 1000, 30.0) as child:
             end = time.monotonic() + 120.0
             try:
-                said, error = child.communicate(timeout=chance.uniform(0.5, 2.0) if kills < 10 else 120)
+                output, error = child.communicate(timeout=chance.uniform(0.5, 2.0) if kills < 10 else 120)
             except subprocess.TimeoutExpired:
                 assert time.monotonic() < end
                 child.send_signal(signal.SIGKILL)
@@ -213,4 +213,4 @@ def test_ten_kills_at_random(tmp_path: Path) -> None:
         assert child.returncode == 0, error
         break
     assert kills == 10
-    assert said.split() == ["1000", wanted(tmp_path / "alone", 1000)]
+    assert output.split() == ["1000", expected_hash(tmp_path / "alone", 1000)]

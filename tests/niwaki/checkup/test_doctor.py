@@ -1,4 +1,4 @@
-"""`niwaki doctor` says what there is and what is missing for what; what does not work ends it with 1."""
+"""`niwaki doctor` reports versions, the core and missing extras; a core that does not work ends it with 1."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from importlib import metadata
 
 import niwaki as nw
 import pytest
-from niwaki.checkup import looking
+from niwaki.checkup import inspection
 from niwaki.errors.extras import EXTRAS, install
 
 PROGRAM = """
@@ -24,22 +24,22 @@ main()
 
 
 def doctor(*arguments: str, breaking: str = "", **environment: str) -> tuple[int, str]:
-    """The status and the output of the command in a process of its own."""
+    """Return the status and the output of the command in a process of its own."""
     command = [sys.executable, "-c", PROGRAM.format(breaking=breaking, arguments=list(arguments))]
-    ended = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment})
-    assert ended.stderr == ""
-    return ended.returncode, ended.stdout
+    process = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **environment})
+    assert process.stderr == ""
+    return process.returncode, process.stdout
 
 
 def test_the_core_works_and_json_says_the_same() -> None:
     status, text = doctor("--json", RAYON_NUM_THREADS="3")
-    found = json.loads(text)
-    assert status == 0 and found["works"] and not any(trial["error"] for trial in found["core"])
-    assert found["versions"]["numpy"] == metadata.version("numpy")
-    assert found["versions"]["engine"].startswith(f"{nw.__version__}, ")
-    assert found["machine"]["threads"] == 3
-    assert re.fullmatch("[0-9a-f]{32}", found["machine"]["bits"])
-    assert [extra["name"] for extra in found["extras"]] == list(EXTRAS)
+    report = json.loads(text)
+    assert status == 0 and report["works"] and not any(trial["error"] for trial in report["core"])
+    assert report["versions"]["numpy"] == metadata.version("numpy")
+    assert report["versions"]["engine"].startswith(f"{nw.__version__}, ")
+    assert report["machine"]["threads"] == 3
+    assert re.fullmatch("[0-9a-f]{32}", report["machine"]["bits"])
+    assert [extra["name"] for extra in report["extras"]] == list(EXTRAS)
 
 
 @pytest.mark.parametrize(
@@ -52,7 +52,7 @@ def test_the_core_works_and_json_says_the_same() -> None:
         ),
         (
             "import niwaki._engine as e; e.__version__ = '0'",
-            "the engine is of version 0, the package of version ",
+            "the engine has version 0, the package has version ",
         ),
     ],
     ids=["engine", "pillow", "version"],
@@ -65,7 +65,7 @@ def test_what_does_not_work_is_named_and_ends_with_1(breaking: str, words: str) 
 
 def test_a_missing_extra_is_told_with_what_it_is_for_and_its_command(monkeypatch: pytest.MonkeyPatch) -> None:
     here = {"numpy": "2.0", "starlette": "1.0", "uvicorn": "0.39.9", "watchfiles": "1.1.1", "ezdxf": "1.3"}
-    monkeypatch.setattr(looking, "_version", here.get)
+    monkeypatch.setattr(inspection, "_version", here.get)
     extras = {extra.name: extra for extra in nw.doctor().extras}
     assert extras["studio"].missing == ("uvicorn>=0.40, not 0.39.9", "websockets")
     assert extras["print"].missing == ("manifold3d",)
@@ -77,5 +77,5 @@ def test_a_missing_extra_is_told_with_what_it_is_for_and_its_command(monkeypatch
 
 def test_versions_are_compared_by_their_numbers() -> None:
     ordered = ["0.9", "1", "1.0.1rc1", "1.10", "2.17.7.post6"]
-    assert [looking._numbers(one) for one in ordered] == sorted(map(looking._numbers, ordered))
-    assert looking._numbers("1.0") == looking._numbers("1") > looking._numbers("0.30.2")
+    assert [inspection._numbers(version) for version in ordered] == sorted(map(inspection._numbers, ordered))
+    assert inspection._numbers("1.0") == inspection._numbers("1") > inspection._numbers("0.30.2")

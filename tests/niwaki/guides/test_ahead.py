@@ -48,8 +48,8 @@ def brittle(size):  # type: ignore[no-untyped-def]
         factor(size / (2.0 - size))
 
 
-def score(one: Any) -> nw.Score:
-    return nw.match_drawing(one, WINDOW, sigma=0.4)
+def score(target: Any) -> nw.Score:
+    return nw.match_drawing(target, WINDOW, sigma=0.4)
 
 
 def taught(guide: nw.Guide, **more: Any) -> nw.Guide:
@@ -74,11 +74,11 @@ def test_the_bytes_depend_on_the_seed_and_not_on_the_threads(plain: nw.Guide, gu
 
 
 def test_the_report_says_how_well_it_was_learned(guide: nw.Guide, plain: nw.Guide) -> None:
-    told = guide.report["look_ahead"]
+    report = guide.report["look_ahead"]
     # Of six pages one judges, and a search has one to three barriers at which it still runs.
-    assert told["rises"][0] > 2 * told["rises"][1] > 20 and sum(told["rises"]) <= 180
-    assert (told["failed"], told["interrupted"], told["seed"]) == (0, False, 1)
-    assert told["error"][1] < told["deviation"]
+    assert report["rises"][0] > 2 * report["rises"][1] > 20 and sum(report["rises"]) <= 180
+    assert (report["failed"], report["interrupted"], report["seed"]) == (0, False, 1)
+    assert report["error"][1] < report["deviation"]
     assert {name: guide.report[name] for name in plain.report} == plain.report
     assert any(line.startswith("looks ahead") for line in guide.show().splitlines())
 
@@ -115,7 +115,7 @@ def test_it_is_a_setting_and_goes_through_json(
     other = replace(search, method=replace(method, look_ahead=None))
     assert again.hash == search.hash != other.hash
     first, second = search.run(), again.run()
-    assert [one.log_score for one in first] == [one.log_score for one in second]
+    assert [sample.log_score for sample in first] == [sample.log_score for sample in second]
 
 
 @pytest.mark.parametrize("strength", [0.2, 3.0])
@@ -126,8 +126,8 @@ def test_the_evidence_is_that_of_enumeration(guide: nw.Guide, strength: float, s
     assert exact is not None
     method = smc(6, resampling="tempered", guide=guide, look_ahead=strength)
     search = nw.Search(path, score=score(PAGES[side]), method=method)
-    found = [replace(search, seed=seed).run(threads=1).log_evidence for seed in range(600)]
-    ratios = np.array([math.exp(one - exact) for one in found if one is not None])
+    logs = [replace(search, seed=seed).run(threads=1).log_evidence for seed in range(600)]
+    ratios = np.array([math.exp(log - exact) for log in logs if log is not None])
     assert len(ratios) == 600 and len(set(ratios)) > 100
     assert abs(ratios.mean() - 1.0) < 5 * ratios.std() / np.sqrt(600)
 
@@ -135,7 +135,7 @@ def test_the_evidence_is_that_of_enumeration(guide: nw.Guide, strength: float, s
 def test_a_line_in_the_score_alone_is_another_one(plain: nw.Guide, guide: nw.Guide) -> None:
     blind = taught(plain, looks=False)
     weights = blind.form["ahead"]["weights"]
-    assert [k for k, one in enumerate(weights) if one] == [2, 3]
+    assert [k for k, weight in enumerate(weights) if weight] == [2, 3]
     assert blind.report["look_ahead"]["rises"] == guide.report["look_ahead"]["rises"]
 
 
@@ -144,32 +144,36 @@ def test_it_weighs_particles_on_their_way(guide: nw.Guide) -> None:
         nw.run(path, method=smc(40, guide=guide, look_ahead=strength), score=score(PAGES[0]), seed=4)
         for strength in (None, 3.0)
     )
-    assert [one.log_score for one in near] != [one.log_score for one in far]
+    assert [sample.log_score for sample in near] != [sample.log_score for sample in far]
 
 
 def test_ctrl_c_learns_from_what_there_is(plain: nw.Guide) -> None:
-    def progress(done: int, wanted: int) -> None:
-        assert wanted == 100_000
+    def progress(done: int, total: int) -> None:
+        assert total == 100_000
         if done > 100:
             raise KeyboardInterrupt
 
-    found = taught(plain, searches=100_000, progress=progress).report["look_ahead"]
-    assert found["interrupted"] and 100 < sum(found["rises"]) < 100_000
+    report = taught(plain, searches=100_000, progress=progress).report["look_ahead"]
+    assert report["interrupted"] and 100 < sum(report["rises"]) < 100_000
 
 
 def test_a_fault_is_shown_where_nothing_else_was_found() -> None:
     def on(sizes: list[float], start: nw.Guide | None) -> nw.Guide:
-        given: dict[str, Any] = {"score": lambda _: nw.floor(0), "args": lambda one: (one,), "seed": 1}
+        defaults: dict[str, Any] = {
+            "score": lambda _: nw.floor(0),
+            "args": lambda target: (target,),
+            "seed": 1,
+        }
         if start is None:
             fast = Training.bound(steps=2, hidden=(8, 8))
-            return train_guide(brittle, sizes, training=fast, **given)
-        return train_look_ahead(start, brittle, sizes, searches=40, **given)
+            return train_guide(brittle, sizes, training=fast, **defaults)
+        return train_look_ahead(start, brittle, sizes, searches=40, **defaults)
 
-    own = on([1.0, 1.5, 1.0], None)
+    guide = on([1.0, 1.5, 1.0], None)
     with pytest.raises(ModelFault, match="division-by-zero"):
-        on([2.0, 2.0], own)
-    found = on([1.0, 1.0, 2.0], own).report["look_ahead"]
-    assert found["failed"] > 0 and found["rises"][0] > 20
+        on([2.0, 2.0], guide)
+    report = on([1.0, 1.0, 2.0], guide).report["look_ahead"]
+    assert report["failed"] > 0 and report["rises"][0] > 20
 
 
 def refused(make: Callable[[], Any]) -> str:
@@ -210,5 +214,5 @@ def test_a_guide_of_another_model_is_refused(guide: nw.Guide) -> None:
 
 def test_the_network_of_the_dissertation_is_refused() -> None:
     fast = Training.dissertation(steps=2)
-    own = train_guide(path, PAGES, score, rounds=(4,), searches=(smc(20),), training=fast, seed=1)
-    assert refused(lambda: taught(own)) == "bad-setting"
+    guide = train_guide(path, PAGES, score, rounds=(4,), searches=(smc(20),), training=fast, seed=1)
+    assert refused(lambda: taught(guide)) == "bad-setting"

@@ -48,15 +48,17 @@ def broken(strength):  # type: ignore[no-untyped-def]
 
 
 def trained(model: Any, **settings: Any) -> nw.Guide:
-    given: dict[str, Any] = {"seed": 1, "training": Training.bound(**FAST)}
+    defaults: dict[str, Any] = {"seed": 1, "training": Training.bound(**FAST)}
     strengths = settings.pop("strengths", (1.0, 2.0, 1.5))
-    return train_guide(model, strengths, lambda _: nw.floor(0), lambda one: (one,), **given | settings)
+    return train_guide(
+        model, strengths, lambda _: nw.floor(0), lambda strength: (strength,), **defaults | settings
+    )
 
 
 def bound(model: Any, guide: nw.Guide, strength: float, runs: int = 4000) -> tuple[float, float]:
     """The evidence bound of a guide by fresh runs, nats, and its standard error."""
-    found = nw.run(model, strength, method=nw.importance(runs, guide=guide), seed=9)
-    logs = np.array([one.log_weight for one in found])
+    result = nw.run(model, strength, method=nw.importance(runs, guide=guide), seed=9)
+    logs = np.array([sample.log_weight for sample in result])
     return float(logs.mean()), float(logs.std() / np.sqrt(len(logs)))
 
 
@@ -75,11 +77,11 @@ def test_the_bound_comes_near_the_log_evidence(guide: nw.Guide) -> None:
         reached, error = bound(agree, guide, strength)
         # Without a guide it is 0.24 and 0.87 nats below. Its errors: 5 deviations, once in 1.7 million runs.
         assert exact - 0.05 - 5 * error < reached < exact + 5 * error
-    bounds = [one[2] for one in guide.report["rounds"][0]["bounds"]]
+    bounds = [row[2] for row in guide.report["rounds"][0]["bounds"]]
     # The first target judges, by 512 runs: of the prior with a standard error of 0.03, of the last guide with less.
     assert len(bounds) == 21 and bounds[0] == pytest.approx(1.0, abs=0.15)
     assert bounds[-1] == pytest.approx(log_evidence(agree, 1.0), abs=0.05)
-    assert all(one == [0, 0] for one in guide.report["rounds"][0]["lost"])
+    assert all(row == [0, 0] for row in guide.report["rounds"][0]["lost"])
 
 
 def test_a_guide_that_cannot_express_the_posterior_leaves_a_part_of_it_out() -> None:
@@ -96,9 +98,9 @@ def test_a_guide_that_cannot_express_the_posterior_leaves_a_part_of_it_out() -> 
         keep=lambda sample: True,
     )
     sides = []
-    for made in (by_bound, by_examples):
-        method = nw.importance(400, guide=made)
-        falls = np.array([sum(one.value) for one in nw.run(agree, 2.0, method=method, seed=2)])
+    for guide in (by_bound, by_examples):
+        method = nw.importance(400, guide=guide)
+        falls = np.array([sum(sample.value) for sample in nw.run(agree, 2.0, method=method, seed=2)])
         sides.append([float(np.mean(falls == 0)), float(np.mean(falls == 3))])
     # Exactly (1/2, 1/2) of what counts; without a guide 1/8 each.
     assert max(sides[0]) > 0.6 and min(sides[0]) < 0.02
@@ -121,18 +123,18 @@ def test_the_bytes_depend_on_the_seed_and_not_on_the_threads(objective: str) -> 
 
 @pytest.mark.parametrize("objective", ["bound", "particles"])
 def test_impossible_runs_are_counted_and_become_rare(objective: str) -> None:
-    made = trained(chosen, training=Training.bound(objective=objective, **FAST))
-    lost = [one[0] for one in made.report["rounds"][0]["lost"]]
+    guide = trained(chosen, training=Training.bound(objective=objective, **FAST))
+    lost = [row[0] for row in guide.report["rounds"][0]["lost"]]
     # Of 15 steps of 32 runs a fifth. One run must not be impossible; of several, one must be possible.
     assert lost[1] > 50 and (lost[-1] < 0.25 * lost[1] or objective == "particles")
     exact = log_evidence(chosen, 1.0)
-    found = nw.run(chosen, 1.0, method=nw.importance(4000, guide=made), seed=3)
-    assert found.log_evidence == pytest.approx(exact, abs=0.05)
+    result = nw.run(chosen, 1.0, method=nw.importance(4000, guide=guide), seed=3)
+    assert result.log_evidence == pytest.approx(exact, abs=0.05)
 
 
 def test_it_goes_on_with_a_guide(guide: nw.Guide) -> None:
     more = trained(agree, start=guide, seed=3, training=Training.bound(**FAST | {"steps": 40}))
-    before, after = (one.report["rounds"][-1]["bounds"] for one in (guide, more))
+    before, after = (trained_guide.report["rounds"][-1]["bounds"] for trained_guide in (guide, more))
     assert after[0][2] > before[0][2] + 0.15
     by_examples = trained(
         agree,
@@ -155,36 +157,36 @@ def pressing(when: Callable[[Round], bool]) -> Callable[[Round], None]:
 
 def test_ctrl_c_keeps_the_best_so_far() -> None:
     long = Training.bound(**FAST | {"steps": 100_000})
-    made = trained(agree, training=long, progress=pressing(lambda now: now.step >= 5000))
-    assert made.report["interrupted"] and made.report["rounds"][0]["bounds"][-1][0] >= 5000
+    guide = trained(agree, training=long, progress=pressing(lambda now: now.step >= 5000))
+    assert guide.report["interrupted"] and guide.report["rounds"][0]["bounds"][-1][0] >= 5000
     with pytest.raises(KeyboardInterrupt):
         trained(agree, training=long, progress=pressing(lambda now: now.steps > 0))
 
 
 def test_numbers_that_are_not_finite_keep_the_weights_before(guide: nw.Guide) -> None:
     with pytest.warns(nw.search.SearchWarning, match=r"not finite in step \d+.*are kept"):
-        made = trained(agree, start=guide, training=Training.bound(**FAST | {"rate": 1e38}))
-    assert bound(agree, made, 1.0)[0] > log_evidence(agree, 1.0) - 0.2
+        trained_guide = trained(agree, start=guide, training=Training.bound(**FAST | {"rate": 1e38}))
+    assert bound(agree, trained_guide, 1.0)[0] > log_evidence(agree, 1.0) - 0.2
 
 
 def test_faults_are_counted_or_shown() -> None:
-    made = trained(broken, strengths=(0.0, 1.0), training=Training.bound(**FAST | {"steps": 20}))
-    assert made.report["rounds"][0]["lost"][-1][1] > 0
+    guide = trained(broken, strengths=(0.0, 1.0), training=Training.bound(**FAST | {"steps": 20}))
+    assert guide.report["rounds"][0]["lost"][-1][1] > 0
     with pytest.raises(ModelFault, match="division-by-zero"):
         trained(broken, strengths=(2.0, 2.0))
 
 
 @pytest.mark.parametrize(
-    "given",
+    "settings",
     [{"rounds": (4,)}, {"searches": (nw.smc(5),)}, {"keep": lambda _: True}],
 )
-def test_what_only_examples_need_is_refused(given: dict[str, Any]) -> None:
+def test_what_only_examples_need_is_refused(settings: dict[str, Any]) -> None:
     with pytest.raises(InputError, match="nothing with the objective 'bound'"):
-        trained(agree, **given)
+        trained(agree, **settings)
 
 
 def test_without_a_target_that_judges_it_is_refused() -> None:
-    with pytest.raises(InputError, match="at least one target by which the best guide is known"):
+    with pytest.raises(InputError, match="at least one target that judges the guides"):
         trained(agree, held_out=[])
 
 

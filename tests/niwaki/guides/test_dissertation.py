@@ -35,9 +35,9 @@ def drawing(seed):
     return Drawing(str(seed), greys, (0.5, 0.2))
 
 
-def score(one):
+def score(page):
     """Wide enough that all runs count."""
-    return one.score(WINDOW, sigma=0.5)
+    return page.score(WINDOW, sigma=0.5)
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def guide():
         dots,
         every,
         score,
-        lambda one: one.place(WINDOW)[:2],
+        lambda page: page.place(WINDOW)[:2],
         rounds=(30,),
         searches=(nw.smc(20),),
         training=training,
@@ -56,10 +56,10 @@ def guide():
     )
 
 
-def estimates(one, method, seeds):
-    args = one.place(WINDOW)[:2]
+def estimates(page, method, seeds):
+    args = page.place(WINDOW)[:2]
     runs = (
-        nw.run(dots, *args, score=score(one), method=method, seed=seed, threads=1) for seed in range(seeds)
+        nw.run(dots, *args, score=score(page), method=method, seed=seed, threads=1) for seed in range(seeds)
     )
     return np.exp([run.log_evidence for run in runs])
 
@@ -68,14 +68,14 @@ def estimates(one, method, seeds):
     ("particles", "resampling", "seeds"), [(1, "systematic", 1500), (5, "tempered", 500)]
 )
 def test_evidence_is_that_of_enumeration(guide, particles, resampling, seeds):
-    one = drawing(3)
-    args = one.place(WINDOW)[:2]
-    exact = np.exp(nw.run(dots, *args, score=score(one), method=nw.enumerate_all()).log_evidence)
-    found = estimates(one, nw.smc(particles, resampling=resampling, guide=guide), seeds)
-    assert abs(found.mean() - exact) < 5.0 * found.std() / np.sqrt(seeds)
+    page = drawing(3)
+    args = page.place(WINDOW)[:2]
+    exact = np.exp(nw.run(dots, *args, score=score(page), method=nw.enumerate_all()).log_evidence)
+    values = estimates(page, nw.smc(particles, resampling=resampling, guide=guide), seeds)
+    assert abs(values.mean() - exact) < 5.0 * values.std() / np.sqrt(seeds)
     # The guide is no prior: without its weights the estimate would be another.
-    plain = estimates(one, nw.smc(particles, resampling=resampling), 100)
-    assert not np.isclose(plain.std(), found.std(), rtol=0.02)
+    plain = estimates(page, nw.smc(particles, resampling=resampling), 100)
+    assert not np.isclose(plain.std(), values.std(), rtol=0.02)
 
 
 def test_its_file_comes_back(guide, tmp_path):
@@ -83,7 +83,7 @@ def test_its_file_comes_back(guide, tmp_path):
     back = Guide.load(tmp_path / "dots.guide")
     assert back == guide
     assert "the page of match_drawing: windows of 3 by 3 in four resolutions" in back.show()
-    again = [estimates(drawing(2), nw.smc(4, guide=own), 3).tolist() for own in (guide, back)]
+    again = [estimates(drawing(2), nw.smc(4, guide=loaded), 3).tolist() for loaded in (guide, back)]
     assert again[0] == again[1]
 
 

@@ -82,7 +82,7 @@ def test_a_search_with_a_guide_as_json(guide: Guide) -> None:
     search = Search(path(), score=score(), method=smc(8, guide=guide), seed=5)
     again = Search.of_json(search.json())
     assert again.hash == search.hash
-    assert [one.choices for one in again.run()] == [one.choices for one in search.run()]
+    assert [sample.choices for sample in again.run()] == [sample.choices for sample in search.run()]
     assert Search(path(), score=score(), method=smc(8), seed=5).hash != search.hash
     other = smc(8, guide=guide.reported({"other": 1}))
     assert Search(path(), score=score(), method=other, seed=5).hash != search.hash
@@ -93,8 +93,8 @@ def test_the_guides_of_the_package_fit_and_are_small() -> None:
     for name in names():
         entry = gallery.entry(name)
         assert entry is not None
-        own = guides.shipped(entry.model)
-        assert own is not None and (FOLDER / f"{name}.guide").stat().st_size < 300_000
+        shipped = guides.shipped(entry.model)
+        assert shipped is not None and (FOLDER / f"{name}.guide").stat().st_size < 300_000
         if entry.window is None:
             target = entry.target()
             assert target is not None
@@ -102,8 +102,8 @@ def test_the_guides_of_the_package_fit_and_are_small() -> None:
         else:
             page = drawings.drawing("letters/E")
             search = Search(entry.model, page.place(entry.window), score=page.score(entry.window))
-            assert own.report["rounds"][-1]["summary"]["stumps"] == 0.0
-        assert own._engine.lost(search.task) == []
+            assert shipped.report["rounds"][-1]["summary"]["stumps"] == 0.0
+        assert shipped._engine.lost(search.task) == []
     assert guides.shipped(path()) is None and guides.shipped(gallery.entry("coral").model) is None  # type: ignore[union-attr]
 
 
@@ -111,12 +111,12 @@ def test_few_guided_particles_do_what_many_others_do_not() -> None:
     """Six drawings that are for training: ten particles with the guide, and fifty without."""
 
     def mean(**settings: Any) -> float:
-        found = []
+        similarities = []
         for name in drawings.names("scribbles", "training")[:48:8]:
-            one = drawings.drawing(name)
-            result = nw.grow(vines, None, *one.place(WINDOW), score=one.score(WINDOW), seed=1, **settings)
-            found.append(result.best.similarity)
-        return float(np.mean(found))
+            page = drawings.drawing(name)
+            result = nw.grow(vines, None, *page.place(WINDOW), score=page.score(WINDOW), seed=1, **settings)
+            similarities.append(result.best.similarity)
+        return float(np.mean(similarities))
 
     assert mean(guide=guides.shipped(vines), particles=10) > 0.75 > 0.65 > mean(particles=50)
 
@@ -124,10 +124,10 @@ def test_few_guided_particles_do_what_many_others_do_not() -> None:
 def test_a_changed_model_keeps_what_matches_with_one_warning(guide: Guide) -> None:
     # The path has a choice less, one more, and a value of another name.
     changed = path(("side = flip(0.5)", "left = flip(0.5)"), ("1 if side", "1 if left"))
-    with pytest.warns(SearchWarning) as found:
+    with pytest.warns(SearchWarning) as record:
         nw.run(changed, score=score(), method=smc(30, guide=guide), seed=1)
-    assert len(found) == 1
-    text = str(found[0].message)
+    assert len(record) == 1
+    text = str(record[0].message)
     for part in (
         "the guide of `m`",
         "does not know `left`",
@@ -138,9 +138,9 @@ def test_a_changed_model_keeps_what_matches_with_one_warning(guide: Guide) -> No
 
 
 def test_weights_that_collapse_are_told() -> None:
-    page, own = drawings.drawing("scribbles/008"), guides.shipped(vines)
+    page, shipped = drawings.drawing("scribbles/008"), guides.shipped(vines)
     search = Search(
-        vines, page.place(WINDOW), score=page.score(WINDOW), method=importance(40, guide=own), seed=1
+        vines, page.place(WINDOW), score=page.score(WINDOW), method=importance(40, guide=shipped), seed=1
     )
     with pytest.warns(SearchWarning, match=r"1\.\d of 40 samples are effective"):
         search.run()
@@ -187,7 +187,7 @@ def train(guide: Guide, *pages: np.ndarray[Any, Any]) -> None:
     guides.train_guide(
         path(),
         [*pages, *pages],
-        lambda one: nw.match_drawing(one, ((-2.0, -1.0), (2.0, 3.0))),
+        lambda page: nw.match_drawing(page, ((-2.0, -1.0), (2.0, 3.0))),
         start=guide,
         seed=1,
     )

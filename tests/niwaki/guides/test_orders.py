@@ -54,37 +54,37 @@ def test_an_order_is_a_setting_and_goes_through_json(method: Method) -> None:
     assert again.method == method
     assert again.hash == search.hash != replace(search, method=replace(method, order="stochastic")).hash  # type: ignore[call-arg]
     first, second = search.run(), again.run()
-    assert [one.log_score for one in first] == [one.log_score for one in second]
-    assert [one.order for one in first] == [one.order for one in second]
+    assert [sample.log_score for sample in first] == [sample.log_score for sample in second]
+    assert [sample.order for sample in first] == [sample.order for sample in second]
 
 
 def test_an_order_without_numbers_is_the_uniform_one() -> None:
     uniform, zeros = (
         nw.run(beast, method=smc(30, order=order), seed=2) for order in ("stochastic", FutureOrder())
     )
-    assert [one.order for one in uniform] == [one.order for one in zeros]
+    assert [sample.order for sample in uniform] == [sample.order for sample in zeros]
     skewed = nw.run(beast, method=smc(30, order=SKEWED), seed=2)
-    assert [one.order for one in uniform] != [one.order for one in skewed]
+    assert [sample.order for sample in uniform] != [sample.order for sample in skewed]
 
 
 @pytest.mark.parametrize("order", ["stochastic", "depth-first", SKEWED])
 def test_the_evidence_does_not_depend_on_the_order(order: Any) -> None:
     """Its mean over 400 seeds, within 5 standard errors: a false alarm once in 1.7 million."""
-    found = [
+    values = [
         math.exp(nw.run(beast, method=smc(20, order=order), seed=seed, threads=1).log_evidence - EVIDENCE)
         for seed in range(400)
     ]
-    mean = sum(found) / len(found)
-    error = math.sqrt(sum((one - mean) ** 2 for one in found)) / len(found)
+    mean = sum(values) / len(values)
+    error = math.sqrt(sum((value - mean) ** 2 for value in values)) / len(values)
     assert abs(mean - 1.0) < 5 * error
 
 
 def test_training_finds_the_order_that_wastes_least() -> None:
     """An early tail, while all sides are still there, as the mean log of the evidence shows."""
-    found = train_order(beast, searches(), method=smc(12), rounds=4, orders=24, judging=200, seed=1)
-    assert found.order == found.rounds[-1]
-    assert found.learned > found.uniform + 3 * found.error
-    assert found.order.functions["tail"] > found.order.functions["arm"]
+    training = train_order(beast, searches(), method=smc(12), rounds=4, orders=24, judging=200, seed=1)
+    assert training.order == training.rounds[-1]
+    assert training.learned > training.uniform + 3 * training.error
+    assert training.order.functions["tail"] > training.order.functions["arm"]
 
 
 def test_training_depends_on_the_seed_alone() -> None:
@@ -111,8 +111,8 @@ def test_an_order_that_is_no_better_is_not_given() -> None:
     def plain():  # type: ignore[no-untyped-def]
         emit(stroke((0.0, 0.0, 0.0), (1.0, 1.0, 0.0), 0.1, 0.1))
 
-    found = train_order(plain, [nw.Search(plain)], method=smc(4), rounds=1, orders=4, judging=2, seed=1)
-    assert found.order == FutureOrder() != found.rounds[-1]
+    training = train_order(plain, [nw.Search(plain)], method=smc(4), rounds=1, orders=4, judging=2, seed=1)
+    assert training.order == FutureOrder() != training.rounds[-1]
 
 
 @pytest.mark.parametrize(

@@ -57,7 +57,7 @@ def test_a_guide_that_looks_from_the_last_part_gains_much(guide: Guide) -> None:
     def mean(method: Method) -> float:
         scores = [path(seed) for seed in range(200, 210)]
         return float(
-            np.mean([nw.run(snake, score=one, method=method, seed=1).best.log_score for one in scores])
+            np.mean([nw.run(snake, score=score, method=method, seed=1).best.log_score for score in scores])
         )
 
     assert mean(nw.smc(2, guide=guide)) > mean(nw.smc(6)) + 20.0
@@ -71,6 +71,6 @@ def test_it_sees_the_box_of_the_last_part(guide: Guide) -> None:
 @pytest.mark.parametrize("order", ["stochastic", "depth-first"])
 def test_threads_do_not_matter(guide: Guide, order: str) -> None:
     method = nw.smc(64, order=order, guide=guide)
-    one, two = (nw.run(snake, score=path(7), method=method, seed=3, threads=n) for n in (1, 2))
-    assert one.info.log_evidence == two.info.log_evidence
-    assert [s.choices for s in one] == [s.choices for s in two]
+    first, second = (nw.run(snake, score=path(7), method=method, seed=3, threads=n) for n in (1, 2))
+    assert first.info.log_evidence == second.info.log_evidence
+    assert [s.choices for s in first] == [s.choices for s in second]

@@ -52,14 +52,16 @@ def broken():  # type: ignore[no-untyped-def]
 
 
 def trained(**settings: Any) -> nw.Guide:
-    given: dict[str, Any] = {
+    defaults: dict[str, Any] = {
         "rounds": (12, 12),
         "searches": SEARCHES,
         "training": FAST,
         "seed": 1,
         "keep": lambda sample: sample.has_ended,
     }
-    return train_guide(path, PAGES, lambda one: nw.match_drawing(one, WINDOW, sigma=0.3), **given | settings)
+    return train_guide(
+        path, PAGES, lambda page: nw.match_drawing(page, WINDOW, sigma=0.3), **defaults | settings
+    )
 
 
 @pytest.fixture(scope="module")
@@ -118,9 +120,9 @@ def test_ctrl_c_keeps_the_best_so_far(guide: nw.Guide) -> None:
         trained(progress=pressing(lambda now: now.traces == 3))
 
 
-def unreported(one: nw.Guide) -> bytes:
+def unreported(guide: nw.Guide) -> bytes:
     """The bytes of a guide without its report."""
-    return one.reported({}).data
+    return guide.reported({}).data
 
 
 def test_ctrl_c_drops_the_searches_that_wait() -> None:
@@ -134,20 +136,20 @@ def test_ctrl_c_drops_the_searches_that_wait() -> None:
 
 def test_what_fails_is_left_out() -> None:
     shown: list[Round] = []
-    made = trained(
+    guide = trained(
         rounds=(12,), keep=lambda sample: sample.value is None and shown_even(shown), progress=shown.append
     )
-    last = made.report["rounds"][0]
+    last = guide.report["rounds"][0]
     assert last["traces"] + last["failed"] == 12 and last["failed"] > 0
-    with pytest.raises(InputError) as found:
+    with pytest.raises(InputError) as error:
         trained(keep=lambda sample: False)
-    assert found.value.code == "guide-traces"
+    assert error.value.code == "guide-traces"
 
 
 def test_a_model_that_fails_always_shows_its_fault() -> None:
     with pytest.raises(ModelFault, match="division-by-zero"):
         train_guide(
-            broken, PAGES, lambda one: nw.match_drawing(one, WINDOW), rounds=(4,), searches=SEARCHES, seed=1
+            broken, PAGES, lambda page: nw.match_drawing(page, WINDOW), rounds=(4,), searches=SEARCHES, seed=1
         )
 
 
@@ -158,8 +160,8 @@ def shown_even(shown: list[Round]) -> bool:
 
 def test_training_that_leaves_the_numbers_keeps_the_weights_before() -> None:
     with pytest.warns(nw.search.SearchWarning, match=r"not finite in step \d+.*are kept"):
-        made = trained(rounds=(12,), training=replace(FAST, rate=1e38))
-    assert made.report["rounds"][0]["scores"]
+        guide = trained(rounds=(12,), training=replace(FAST, rate=1e38))
+    assert guide.report["rounds"][0]["scores"]
 
 
 @pytest.mark.parametrize("bad", [{"share": 0.0}, {"rate": float("inf")}, {"hidden": (3,)}, {"batch": 0}])

@@ -33,49 +33,49 @@ HOSTILE: list[Any] = [
 
 def places(data: Any) -> list[tuple[Any, Any]]:
     """Every table or list with each of its keys."""
-    found: list[tuple[Any, Any]] = []
+    pairs: list[tuple[Any, Any]] = []
     waiting = [data]
     while waiting:
-        one = waiting.pop()
-        keys = list(one) if isinstance(one, dict) else range(len(one)) if isinstance(one, list) else ()
-        found += [(one, key) for key in keys]
-        waiting += [one[key] for key in keys]
-    return found
+        node = waiting.pop()
+        keys = list(node) if isinstance(node, dict) else range(len(node)) if isinstance(node, list) else ()
+        pairs += [(node, key) for key in keys]
+        waiting += [node[key] for key in keys]
+    return pairs
 
 
 def mutated(data: Any, chance: random.Random) -> tuple[str, bytes]:
-    """What was done, and the JSON afterwards."""
+    """Return a name of the change, and the JSON after it."""
     data = copy.deepcopy(data)
     known = places(data)
     # Deep lists of numbers are most of the places, and alike: prefer those near the root.
-    one, key = min(chance.sample(known, min(2, len(known))), key=lambda place: len(str(place[0])) < 40)
-    what = chance.choice(["value"] * 6 + ["swap", "gone", "name", "twice", "text"])
-    if what == "value":
-        one[key] = chance.choice(HOSTILE)
-    elif what == "swap":
+    node, key = min(chance.sample(known, min(2, len(known))), key=lambda place: len(str(place[0])) < 40)
+    change = chance.choice(["value"] * 6 + ["swap", "gone", "name", "twice", "text"])
+    if change == "value":
+        node[key] = chance.choice(HOSTILE)
+    elif change == "swap":
         other, there = chance.choice(known)
-        one[key] = copy.deepcopy(other[there])
-    elif what == "gone":
-        del one[key]
-    elif what == "name" and isinstance(one, dict):
-        one[chance.choice(["", "x", "format", "real", "settings"])] = one.pop(key)
-    elif what == "twice" and isinstance(one, list):
-        one.extend(copy.deepcopy(one))
+        node[key] = copy.deepcopy(other[there])
+    elif change == "gone":
+        del node[key]
+    elif change == "name" and isinstance(node, dict):
+        node[chance.choice(["", "x", "format", "real", "settings"])] = node.pop(key)
+    elif change == "twice" and isinstance(node, list):
+        node.extend(copy.deepcopy(node))
     text = bytearray(json.dumps(data).encode())
-    if what == "text":
+    if change == "text":
         for _ in range(chance.randint(1, 3)):
             at = chance.randrange(len(text))
             text[at : at + chance.randint(0, 8)] = bytes(
                 chance.choices(b'[]{}",:0e-9\\u\xff', k=chance.randint(0, 4))
             )
         text = text[: chance.randint(0, len(text))] if chance.random() < 0.3 else text
-    return f"{what} at {key!r}", bytes(text)
+    return f"{change} at {key!r}", bytes(text)
 
 
 def tracebacks(tries: Iterable[tuple[str, bytes]], read: Callable[[Path], object], place: Path) -> list[str]:
-    """What reading ended in, where it was neither success nor a message; also what took long, or much memory."""
-    found = []
-    for what, text in tries:
+    """Return the errors of reading that are not messages; also what took long, or much memory."""
+    errors = []
+    for change, text in tries:
         place.write_bytes(text)
         start, before = time.process_time(), peak()
         try:
@@ -84,12 +84,12 @@ def tracebacks(tries: Iterable[tuple[str, bytes]], read: Callable[[Path], object
             str(error)
         except BaseException as error:
             last = traceback.extract_tb(error.__traceback__)[-1]
-            found.append(f"{what}: {type(error).__name__}: {error} ({last.filename}:{last.lineno})")
+            errors.append(f"{change}: {type(error).__name__}: {error} ({last.filename}:{last.lineno})")
         if time.process_time() - start > SECONDS:
-            found.append(f"{what}: {time.process_time() - start:.1f} s")
+            errors.append(f"{change}: {time.process_time() - start:.1f} s")
         if peak() - before > MEMORY:
-            found.append(f"{what}: {(peak() - before) / 1e6:.0f} MB")
-    return found
+            errors.append(f"{change}: {(peak() - before) / 1e6:.0f} MB")
+    return errors
 
 
 def peak() -> int:

@@ -14,7 +14,7 @@ import pytest
 from niwaki import batches
 from niwaki.shell import batch_files
 from niwaki.shell.main import app
-from niwaki.shell.progress import duration, standing
+from niwaki.shell.progress import batch_progress, duration
 from PIL import Image
 from typer.testing import CliRunner
 
@@ -91,7 +91,7 @@ def test_a_batch_by_its_file_and_what_is_exported(place: Path, tmp_path: Path) -
     with Image.open("towers/sheet.png") as image:
         assert image.size[0] > 300
     best = sorted(rows, key=lambda row: -float(row["log_score"]))[:3]
-    assert sorted(one.name for one in Path("towers/meshes").iterdir()) == sorted(
+    assert sorted(file.name for file in Path("towers/meshes").iterdir()) == sorted(
         f"case-{row['case']}-seed-{row['seed']}.glb" for row in best
     )
     # Two parts, in other processes, make the same table.
@@ -102,7 +102,7 @@ def test_a_batch_by_its_file_and_what_is_exported(place: Path, tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         (("seeds = 4", "sedes = 4"), "`$.sedes`"),
         (("seeds = 4", 'seeds = "4"'), "a whole number or a list"),
@@ -116,14 +116,14 @@ def test_a_batch_by_its_file_and_what_is_exported(place: Path, tmp_path: Path) -
         (("voxel = 0.5", "runs = 3"), "`$.grow.runs`"),
     ],
 )
-def test_a_file_that_is_no_batch_has_a_message(change: tuple[str, str], said: str, place: Path) -> None:
+def test_a_file_that_is_no_batch_has_a_message(change: tuple[str, str], message: str, place: Path) -> None:
     place.write_text(SPEC.replace(*change))
-    found = run("batch", place, "--processes", "1")
-    assert found.exit_code != 0 and said in str(found.exception), str(found.exception)
+    done = run("batch", place, "--processes", "1")
+    assert done.exit_code != 0 and message in str(done.exception), str(done.exception)
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (["--shard", "5/4"], "shard"),
         (["--engine", "slurm"], "local, ray, dask"),
@@ -132,9 +132,9 @@ def test_a_file_that_is_no_batch_has_a_message(change: tuple[str, str], said: st
         (["--chunk", "-1"], "chunk"),
     ],
 )
-def test_flags_that_make_no_sense_have_a_message(words: list[str], said: str, place: Path) -> None:
-    found = run("batch", place, *words)
-    assert found.exit_code != 0 and said in str(found.exception), str(found.exception)
+def test_flags_that_make_no_sense_have_a_message(words: list[str], message: str, place: Path) -> None:
+    done = run("batch", place, *words)
+    assert done.exit_code != 0 and message in str(done.exception), str(done.exception)
 
 
 def test_a_folder_of_other_results_is_refused(place: Path, tmp_path: Path) -> None:
@@ -156,8 +156,8 @@ def test_every_flag_of_a_search_can_be_written(place: Path) -> None:
     place.write_text(text.replace("voxel = 0.5", 'target = "pillar.obj"\nmethod = "smc"\npower = 8'))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found = batch_files.load(place)
-    (first, *_) = found.table.searches
+        batch = batch_files.load(place)
+    (first, *_) = batch.table.searches
     names = [spec.name for spec in first.score.specs]
     assert names == [
         "no_self_intersection",
@@ -170,8 +170,15 @@ def test_every_flag_of_a_search_can_be_written(place: Path) -> None:
 
 
 def test_how_far_a_batch_is() -> None:
-    now = batches.Standing(
-        done=300, total=1000, begun=100, faults=2, lost=0, seconds=100.0, cpu_seconds=400.0
+    now = batches.BatchProgress(
+        done=300, total=1000, earlier=100, faults=2, lost=0, seconds=100.0, cpu_seconds=400.0
     )
-    assert standing(now) == "300 of 1,000 searches, 2 failed, 2 a second, 7 min of processors, 6 min left"
-    assert [duration(one) for one in (1.25, 90.0, 600.0, 90_000.0)] == ["1.2 s", "90 s", "10 min", "25.0 h"]
+    assert (
+        batch_progress(now) == "300 of 1,000 searches, 2 failed, 2 a second, 7 min of processors, 6 min left"
+    )
+    assert [duration(seconds) for seconds in (1.25, 90.0, 600.0, 90_000.0)] == [
+        "1.2 s",
+        "90 s",
+        "10 min",
+        "25.0 h",
+    ]

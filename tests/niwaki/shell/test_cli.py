@@ -60,7 +60,7 @@ def test_grow_writes_and_replay_gives_the_same_bytes(tmp_path: Path) -> None:
     assert run("replay", str(first / "run.json"), "-o", str(again), "--no-picture").exit_code == 0
     assert (first / "best.glb").read_bytes() == (again / "best.glb").read_bytes()
     data = json.loads((first / "run.json").read_text())
-    assert data["search"]["seed"] == 3 and [one["seed"] for one in data["runs"]] == [3, 4]
+    assert data["search"]["seed"] == 3 and [row["seed"] for row in data["runs"]] == [3, 4]
     assert data["search"]["method"]["power"] == 16.0
     assert data["search"]["score"][-1]["given"]["voxel"] == 0.5
     choice = data["runs"][0]["choices"][0]
@@ -100,7 +100,7 @@ def test_json_prints_the_numbers_and_nothing_else(tmp_path: Path, monkeypatch: p
         "covered",
         "outside",
     }
-    assert all(set(one) == names for one in data["runs"])
+    assert all(set(row) == names for row in data["runs"])
     assert not list(tmp_path.iterdir())
 
 
@@ -165,15 +165,15 @@ def refusals(folder: Path, garden: Path) -> dict[str, list[str]]:
 
 def test_messages(tower: Path, tmp_path: Path, golden: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    found = []
+    texts = []
     for name, words in refusals(tmp_path, tower).items():
         failed = run(*words)
         assert isinstance(failed.exception, NiwakiError), (name, failed.output, failed.exception)
         text = (
             str(failed.exception).replace(str(tmp_path.resolve()), "FOLDER").replace(str(tmp_path), "FOLDER")
         )
-        found.append(f"## {name}\n\n{text}\n")
-    golden(GOLDEN / "shell.txt", "\n".join(found))
+        texts.append(f"## {name}\n\n{text}\n")
+    golden(GOLDEN / "shell.txt", "\n".join(texts))
 
 
 def test_a_process_prints_errors_without_a_traceback() -> None:

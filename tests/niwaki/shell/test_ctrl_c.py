@@ -90,14 +90,14 @@ def run(words: str) -> Any:
 
 def whole(folder: Path) -> list[str]:
     """The files of a folder, each of which can be read to its end."""
-    found = [one for one in folder.rglob("*") if one.is_file()]
-    for one in found:
-        if one.suffix == ".json":
-            json.loads(one.read_bytes())
-        elif one.suffix == ".png":
-            Image.open(one).load()
-        assert not one.name.endswith(".part")
-    return sorted(str(one.relative_to(folder)) for one in found)
+    files = [file for file in folder.rglob("*") if file.is_file()]
+    for file in files:
+        if file.suffix == ".json":
+            json.loads(file.read_bytes())
+        elif file.suffix == ".png":
+            Image.open(file).load()
+        assert not file.name.endswith(".part")
+    return sorted(str(file.relative_to(folder)) for file in files)
 
 
 def stopped(words: str) -> None:
@@ -113,8 +113,16 @@ def test_ctrl_c_ends_a_command(name: str, place: Path, monkeypatch: pytest.Monke
         monkeypatch.setattr(module, "status_line", pressing)
     stopped(SHOWN[name])
     kept = whole(place / "out")
-    wanted = {"grow": "run.json", "sample": "samples.csv", "guide train": "vines.guide.checkpoint"}.get(name)
-    assert wanted in kept if wanted else not [one for one in kept if not one.startswith(("spec-", "1-of-1"))]
+    expected_file = {
+        "grow": "run.json",
+        "sample": "samples.csv",
+        "guide train": "vines.guide.checkpoint",
+    }.get(name)
+    assert (
+        expected_file in kept
+        if expected_file
+        else not [name_of_file for name_of_file in kept if not name_of_file.startswith(("spec-", "1-of-1"))]
+    )
 
 
 @pytest.mark.parametrize("name", HOSTS)
@@ -136,9 +144,9 @@ def test_each_command_is_pressed() -> None:
 
 
 def test_what_learns_to_look_ahead_is_kept(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    own = guides.shipped(nw.gallery.vines.vines)
+    shipped = guides.shipped(nw.gallery.vines.vines)
     pressed = partial(guides.train_look_ahead, progress=lambda *_: signal.raise_signal(signal.SIGINT))
-    monkeypatch.setattr(nw, "train_guide", lambda *_, **__: own)
+    monkeypatch.setattr(nw, "train_guide", lambda *_, **__: shipped)
     monkeypatch.setattr(guides, "train_look_ahead", pressed)
     stopped("guide train vines --targets scribbles --searches-ahead 100000 -o out/vines.guide")
     assert nw.Guide.load(place / "out/vines.guide").report["look_ahead"]["interrupted"]
@@ -150,8 +158,8 @@ def test_a_colouring_that_is_stopped_is_none() -> None:
 
 
 def test_a_part_whose_growth_is_stopped_is_none(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    found = nw.shell.references.find("garden.py:tower").model
-    sample = nw.run(found, seed=1).best
+    tower = nw.shell.references.find("garden.py:tower").model
+    sample = nw.run(tower, seed=1).best
     monkeypatch.setenv("PRESSED", "1")
     with pytest.raises(KeyboardInterrupt):
         sample.regrow("arm[1]", 10, seed=1)

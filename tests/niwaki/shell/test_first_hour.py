@@ -99,8 +99,8 @@ def test_arguments_have_the_types_of_the_signature(place: Path) -> None:
     tower = find("garden.py:tower").model
     words = ["width=3", "count=2", "name=3", "tall=no", "ends=(3, 4)"]
     expected = {"width": 3.0, "count": 2, "name": "3", "tall": False, "ends": (3, 4)}
-    found = arguments.read(tower, words)
-    assert found == expected and type(found["width"]) is float
+    values = arguments.read(tower, words)
+    assert values == expected and type(values["width"]) is float
     assert arguments.read(tower, ["width=4.5"], Path("wide.toml")) == {"width": 4.5, "count": 3}
 
 
@@ -118,13 +118,13 @@ def test_one_number_in_lines_and_files(place: Path) -> None:
     lines = [line.split()[0] for line in done.stdout.splitlines() if line.startswith("#")]
     assert lines == ["#1", "#2", "#3"]
     names = {"run.json", "best.glb", "best.png", "sheet.png", "run-1.glb", "run-3.glb"}
-    assert {one.name for one in Path("out").iterdir()} == names
+    assert {file.name for file in Path("out").iterdir()} == names
     assert set(data()["files"]) == names - {"run.json"}
     assert run("replay", "out/run.json", "--run", "3", "-o", "three", "--no-picture").exit_code == 0
     assert Path("three/best.glb").read_bytes() == Path("out/run-3.glb").read_bytes()
     again = run("replay", "out/run.json", "--export", "all", "--format", "obj", "-o", "all", "--no-picture")
     assert again.exit_code == 0, (again.output, again.exception)
-    assert {f"run-{k}.obj" for k in (1, 2, 3)} < {one.name for one in Path("all").iterdir()}
+    assert {f"run-{k}.obj" for k in (1, 2, 3)} < {file.name for file in Path("all").iterdir()}
     assert selection.exported("#2, 1", 2) == [2, 1]
 
 
@@ -146,17 +146,17 @@ def test_no_folder_is_replaced_without_a_word(place: Path) -> None:
 
 
 def choices(folder: str, number: int = 0) -> dict[str, Any]:
-    return {one["address"]: one["value"] for one in data(folder)["runs"][number]["choices"]}
+    return {choice["address"]: choice["value"] for choice in data(folder)["runs"][number]["choices"]}
 
 
 def test_what_is_held_stays_and_a_reroll_keeps_the_rest(place: Path) -> None:
     grown("--runs", "2", "-o", "a")
     before = choices("a", 1)
     grown("--from", "a/run.json", "--run", "2", "--hold", "hat", "-o", "b", "--seed", "5")
-    hat = [one for one in before if one.startswith("hat/")]
-    assert hat and all(choices("b")[one] == before[one] for one in hat)
+    hat = [address for address in before if address.startswith("hat/")]
+    assert hat and all(choices("b")[address] == before[address] for address in hat)
     assert choices("b") != before
-    (size,) = [one for one in before if one == "hat/side"]
+    (size,) = [address for address in before if address == "hat/side"]
     grown("--hold", f"{size}=0.5", "-o", "e")
     assert choices("e")[size] == 0.5
     grown("--hold", f"{size}=0.5", "--from", "a/run.json", "--run", "2", "--hold", "arm/size", "-o", "f")
@@ -164,7 +164,7 @@ def test_what_is_held_stays_and_a_reroll_keeps_the_rest(place: Path) -> None:
     assert isinstance(run(*GROW, "--hold", f"{size}=wide").exception, NiwakiError)
     grown("--from", "a/run.json", "--run", "2", "--reroll", "hat", "-o", "c", "--seed", "5", "--runs", "2")
     after = choices("c")
-    assert all(after[one] != before[one] for one in hat)
+    assert all(after[address] != before[address] for address in hat)
     assert {k: v for k, v in after.items() if k not in hat} == {
         k: v for k, v in before.items() if k not in hat
     }
@@ -257,13 +257,13 @@ def test_messages(place: Path, golden: Any) -> None:
         "a result that is not there": ["replay", "a/run.json", "--run", "2", "-o", "b"],
         "an export of what is not there": [*GROW, "--runs", "3", "--export", "1,4", "-o", "b"],
     }
-    found = []
+    texts = []
     for name, words in failing.items():
         failed = run(*words)
         assert isinstance(failed.exception, NiwakiError), (name, failed.output, failed.exception)
         text = str(failed.exception).replace(str(place.resolve()), "FOLDER").replace(str(place), "FOLDER")
-        found.append(f"## {name}\n\n{text}\n")
-    golden(GOLDEN / "first-hour.txt", "\n".join(found))
+        texts.append(f"## {name}\n\n{text}\n")
+    golden(GOLDEN / "first-hour.txt", "\n".join(texts))
 
 
 def test_the_model_of_a_file_is_its_own_where_it_has_one(place: Path) -> None:

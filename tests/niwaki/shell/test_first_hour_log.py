@@ -86,13 +86,13 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def said(words: str) -> str:
-    """What the shell says, warnings and errors included."""
+def output_of(words: str) -> str:
+    """Return the output of a command, with its warnings and errors."""
     with warnings.catch_warnings(record=True) as noted:
         warnings.simplefilter("always")
         done: Any = CliRunner().invoke(app, words.split())
     text = done.output + "".join(
-        f"warning: {one.message}\n" for one in noted if issubclass(one.category, UserWarning)
+        f"warning: {warning.message}\n" for warning in noted if issubclass(warning.category, UserWarning)
     )
     if isinstance(done.exception, NiwakiError):
         text += f"{done.exception}\n"
@@ -111,14 +111,14 @@ def plain(text: str, place: Path) -> str:
 
 
 def test_the_first_hour_is_as_reviewed(place: Path, golden: Any) -> None:
-    found = []
+    texts = []
     for task in TASKS:
         if isinstance(task, tuple):
             name, before, after = task
             text = (place / name).read_text()
             assert before in text
             (place / name).write_text(text.replace(before, after))
-            found.append(f"(in {name}: {before}  ->  {after})\n")
+            texts.append(f"(in {name}: {before}  ->  {after})\n")
         else:
-            found.append(f"$ niwaki {task}\n{plain(said(task), place)}\n")
-    golden(GOLDEN / "first-hour-log.txt", "\n".join(found))
+            texts.append(f"$ niwaki {task}\n{plain(output_of(task), place)}\n")
+    golden(GOLDEN / "first-hour-log.txt", "\n".join(texts))

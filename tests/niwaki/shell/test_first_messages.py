@@ -84,13 +84,13 @@ def run(*words: str) -> Any:
 
 
 def test_messages_of_the_first_hour_are_as_reviewed(place: Path, golden: Any) -> None:
-    found = []
+    texts = []
     for name, (model, *flags) in FAILING.items():
         words = ["grow", f"first.py:{model}", "--target", "box.obj", "--seed", "1", *flags, "--no-picture"]
         error = run(*words).exception
         assert isinstance(error, NiwakiError), (name, error)
-        found.append(f"## {name}\n\n{error}\n".replace(str(place), "FOLDER"))
-    golden(GOLDEN / "first-messages.txt", "\n".join(found))
+        texts.append(f"## {name}\n\n{error}\n".replace(str(place), "FOLDER"))
+    golden(GOLDEN / "first-messages.txt", "\n".join(texts))
 
 
 def test_each_model_is_listed_with_a_command_that_runs_it() -> None:
@@ -134,9 +134,9 @@ def test_losses_are_named_when_some_runs_survive(place: Path) -> None:
         "--particles",
         "1",
     )
-    with pytest.warns(UserWarning, match="runs became impossible") as found:
+    with pytest.warns(UserWarning, match="runs became impossible") as record:
         run(*words, "--runs", "8", "--seed", "1")
-    lost = next(str(one.message) for one in found if "became impossible" in str(one.message))
+    lost = next(str(warning.message) for warning in record if "became impossible" in str(warning.message))
     assert "`cable` (line 6) runs into `road` (line 5) in 1 of 1; put parts" in lost
     assert "put parts that belong together into one `emit`" in lost and "particles" not in lost
 

@@ -81,7 +81,7 @@ def test_particles_go_up_a_ladder(place: Path) -> None:
 
 def test_an_image_is_matched_beside_a_wall_on_a_floor(place: Path) -> None:
     data = grown(*IMAGE, "--avoid", "wall.obj", "--floor", "0", "--within", "-5,0,-5,5,6,5", "--no-picture")
-    sketches = {one["sketch"]: one["given"] for one in data["search"]["score"]}
+    sketches = {sketch["sketch"]: sketch["given"] for sketch in data["search"]["score"]}
     assert list(sketches) == ["no_self_intersection", "floor", "avoid", "match_image", "overshoot"]
     assert sketches["avoid"]["obstacle"]["file"] == str(place / "wall.obj") and sketches["floor"]["y"] == 0.0
     assert sketches["match_image"]["camera"]["camera"]["height"] == 6.0
@@ -104,8 +104,8 @@ def test_pictures_from_the_view_of_the_wish_and_from_another(place: Path) -> Non
 
 def test_a_shadow_is_matched(place: Path) -> None:
     data = grown(*SHADOW, "--sigma", "0.01")
-    given = data["search"]["score"][-1]["given"]
-    assert given["sigma"] == 0.01 and given["light"] == {"tuple": [-1.0, -1.0, 0.0]}
+    settings = data["search"]["score"][-1]["given"]
+    assert settings["sigma"] == 0.01 and settings["light"] == {"tuple": [-1.0, -1.0, 0.0]}
     assert Path("out/shadow.png").is_file()
 
 
@@ -124,7 +124,7 @@ def test_a_drawing_is_followed_from_its_own_start(place: Path) -> None:
     svg = Path("out/best.svg").read_bytes()
     again = run("replay", "out/run.json", "-o", "again")
     assert again.exit_code == 0 and Path("again/best.svg").read_bytes() == svg
-    own = run(
+    done_from_start = run(
         "grow",
         "circuit",
         "--particles",
@@ -138,7 +138,10 @@ def test_a_drawing_is_followed_from_its_own_start(place: Path) -> None:
         "--size",
         "60x60",
     )
-    assert own.exit_code == 0 and Path("board/growth.gif").is_file(), (own.output, own.exception)
+    assert done_from_start.exit_code == 0 and Path("board/growth.gif").is_file(), (
+        done_from_start.output,
+        done_from_start.exception,
+    )
 
 
 @pytest.mark.parametrize(
@@ -181,7 +184,7 @@ def test_a_chain_goes_on_from_the_best(place: Path) -> None:
 def test_results_that_differ(place: Path) -> None:
     data = grown(*IMAGE, "--diverse", "3", "--no-picture")
     assert len(data["runs"]) == 3
-    values = [{(c["address"], str(c["value"])) for c in one["choices"]} for one in data["runs"]]
+    values = [{(c["address"], str(c["value"])) for c in row["choices"]} for row in data["runs"]]
     assert all(len(a & b) <= len(a) / 2 for k, a in enumerate(values) for b in values[:k])
     assert run("replay", "out/run.json", "--run", "2", "-o", "third", "--no-picture").exit_code == 0
     assert Path("third/best.glb").read_bytes() != Path("out/best.glb").read_bytes()
@@ -283,14 +286,14 @@ REFUSALS = {
 
 
 def test_messages(place: Path, golden: Any) -> None:
-    found = []
+    texts = []
     for name, words in REFUSALS.items():
         failed = run(*GROW, *words)
         assert isinstance(failed.exception, NiwakiError), (name, failed.output, failed.exception)
         text = str(failed.exception).replace(str(place.resolve()), "FOLDER").replace(str(place), "FOLDER")
-        found.append(f"## {name}\n\n{text}\n")
+        texts.append(f"## {name}\n\n{text}\n")
         assert not Path("out").exists(), name
-    golden(GOLDEN / "flags.txt", "\n".join(found))
+    golden(GOLDEN / "flags.txt", "\n".join(texts))
 
 
 def test_a_run_that_is_not_among_the_results(place: Path) -> None:

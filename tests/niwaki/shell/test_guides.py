@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 
-TOLD = "the guide shipped with `vines` draws the choices (--guide none turns it off)\n"
+NOTICE = "the guide shipped with `vines` draws the choices (--guide none turns it off)\n"
 GROW = ["grow", "vines", "--match-image", "scribbles/008", "--seed", "1", "--no-picture"]
 
 
@@ -62,13 +62,13 @@ def trained(pictures: Path) -> tuple[Path, Any]:
 
 
 def test_a_guide_is_trained_on_a_folder(trained: tuple[Path, Any]) -> None:
-    out, made = trained
-    assert made.exit_code == 0, made.output
+    out, done = trained
+    assert done.exit_code == 0, done.output
     # On a slow machine there are lines of progress, too.
-    lines = [line for line in made.stderr.splitlines() if not line.startswith("training ")]
+    lines = [line for line in done.stderr.splitlines() if not line.startswith("training ")]
     assert [line.partition(":")[0] for line in lines] == ["round 1", "round 2"]
     assert re.fullmatch(
-        r".*lines\.guide: <guide of lightning: 5 choices, .*> *, \d+ kB, \d+ s, seed 1\n", made.stdout
+        r".*lines\.guide: <guide of lightning: 5 choices, .*> *, \d+ kB, \d+ s, seed 1\n", done.stdout
     )
     report = Guide.load(out).report
     assert (report["targets"], report["held_out"], report["seed"]) == (6, 1, 1)
@@ -91,8 +91,8 @@ def test_a_guide_is_shown_and_gone_on_with(trained: tuple[Path, Any], pictures: 
 def test_a_guide_is_taught_to_look_ahead(pictures: Path, tmp_path: Path) -> None:
     out = tmp_path / "far.guide"
     train = ("guide", "train", "lightning", "--targets", pictures, "-o", out, "--searches", "6")
-    made = run(*train, "--seed", "1", "--searches-ahead", "24")
-    assert made.exit_code == 0, made.output
+    done = run(*train, "--seed", "1", "--searches-ahead", "24")
+    assert done.exit_code == 0, done.output
     assert Guide.load(out).report["look_ahead"]["rises"][0] > 20
     assert "looks ahead: " in run("guide", "show", out).stdout
     grow = ("grow", "lightning", "--match-image", pictures / "0.png", "--seed", "1", "--no-picture")
@@ -104,7 +104,7 @@ def test_a_guide_is_taught_to_look_ahead(pictures: Path, tmp_path: Path) -> None
 
 def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
     grown = run(*GROW, "-o", tmp_path)
-    assert grown.exit_code == 0 and grown.stderr == TOLD
+    assert grown.exit_code == 0 and grown.stderr == NOTICE
     method = searched(tmp_path)
     assert (method["method"], method["particles"], method["resampling"]) == ("smc", 50, "tempered")
     assert "guided" in json.dumps(method["proposal"])
@@ -114,7 +114,7 @@ def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("flags", "told", "name", "particles"),
+    ("flags", "has_notice", "name", "particles"),
     [
         (["--particles", "12"], True, "smc", 12),
         (["--method", "smc"], True, "smc", 50),
@@ -126,23 +126,23 @@ def test_grow_takes_the_guide_that_comes_with_the_model(tmp_path: Path) -> None:
     ],
 )
 def test_other_settings_decide(
-    tmp_path: Path, flags: list[Any], told: bool, name: str, particles: int
+    tmp_path: Path, flags: list[Any], has_notice: bool, name: str, particles: int
 ) -> None:
     grown = run(*GROW, "-o", tmp_path, *flags)
     assert grown.exit_code == 0, grown.output
-    assert (TOLD in grown.stderr) == told
+    assert (NOTICE in grown.stderr) == has_notice
     method = searched(tmp_path)
     assert (method["method"], method["particles"]) == (name, particles)
-    assert (method.get("proposal") is not None) == (told or FOLDER / "vines.guide" in flags)
+    assert (method.get("proposal") is not None) == (has_notice or FOLDER / "vines.guide" in flags)
 
 
 def test_json_is_alone_on_stdout() -> None:
     grown = run(*GROW, "--json", "--particles", "5")
-    assert grown.stderr == TOLD and list(json.loads(grown.stdout)) == ["runs"]
+    assert grown.stderr == NOTICE and list(json.loads(grown.stdout)) == ["runs"]
 
 
 def test_a_word_is_written(tmp_path: Path) -> None:
-    made = run(
+    done = run(
         "letters",
         "Hi",
         "-o",
@@ -156,10 +156,10 @@ def test_a_word_is_written(tmp_path: Path) -> None:
         "--width",
         "160",
     )
-    assert made.exit_code == 0, made.output
+    assert done.exit_code == 0, done.output
     assert sorted(place.name for place in tmp_path.iterdir()) == ["growth.gif", "word.png", "word.svg"]
     assert re.match(
-        r"H 0\.\d\d  i 0\.\d\d\n2 letters in .* seed 1; word\.png, word\.svg, growth\.gif in ", made.stdout
+        r"H 0\.\d\d  i 0\.\d\d\n2 letters in .* seed 1; word\.png, word\.svg, growth\.gif in ", done.stdout
     )
     with Image.open(tmp_path / "word.png") as picture:
         assert picture.width == 160

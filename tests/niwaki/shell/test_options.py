@@ -148,8 +148,12 @@ WORDS = {
 
 def commands(group: Any, name: str = "") -> Iterator[tuple[str, Any]]:
     """All commands, by their full names."""
-    for word, one in group.commands.items():
-        yield from commands(one, f"{name}{word} ") if hasattr(one, "commands") else [(f"{name}{word}", one)]
+    for word, command in group.commands.items():
+        yield from (
+            commands(command, f"{name}{word} ")
+            if hasattr(command, "commands")
+            else [(f"{name}{word}", command)]
+        )
 
 
 @pytest.fixture(scope="module")
@@ -160,8 +164,8 @@ def all_commands() -> dict[str, Any]:
 
 
 def deviations(name: str, option: Any) -> Iterator[str]:
-    """What an option of a command does not share with the table."""
-    flag = next(one for one in option.opts if one.startswith("--"))
+    """Yield the differences between an option of a command and the table."""
+    flag = next(name_of_flag for name_of_flag in option.opts if name_of_flag.startswith("--"))
     if flag not in FLAGS:
         yield f"{name} {flag}: not in the table"
         return
@@ -180,46 +184,54 @@ def deviations(name: str, option: Any) -> Iterator[str]:
 
 
 def test_every_flag_is_that_of_the_table(all_commands: dict[str, Any]) -> None:
-    found = [
+    lines = [
         line
         for name, command in all_commands.items()
-        for one in command.params
-        if one.param_type_name == "option" and one.name != "help"
-        for line in deviations(name, one)
+        for option in command.params
+        if option.param_type_name == "option" and option.name != "help"
+        for line in deviations(name, option)
     ]
-    assert not found, "\n".join(found)
+    assert not lines, "\n".join(lines)
 
 
 def test_every_word_is_that_of_the_table(all_commands: dict[str, Any]) -> None:
-    found = [
-        f"{name} {one.metavar}: {one.help}"
+    lines = [
+        f"{name} {argument.metavar}: {argument.help}"
         for name, command in all_commands.items()
-        for one in command.params
-        if one.param_type_name == "argument" and not one.help.startswith(WORDS.get(one.metavar, "?"))
+        for argument in command.params
+        if argument.param_type_name == "argument"
+        and not argument.help.startswith(WORDS.get(argument.metavar, "?"))
     ]
-    assert not found, "\n".join(found)
+    assert not lines, "\n".join(lines)
 
 
 def test_the_table_has_no_flag_twice_and_none_that_is_gone(all_commands: dict[str, Any]) -> None:
-    used = {flag for command in all_commands.values() for one in command.params for flag in one.opts}
+    used = {flag for command in all_commands.values() for first in command.params for flag in first.opts}
     assert not set(FLAGS) - used
     shorts = [short for names, _, _ in FLAGS.values() for short in names.split("/") if len(short) == 2]
     assert sorted(shorts) == ["-n", "-o"]
     # Of two flags that begin alike one is another name of the other; a default says nothing about the meaning.
     meanings = [meaning for _, _, meaning in FLAGS.values() if not str(meaning).startswith("Default")]
-    alike = {one for one in meanings for two in meanings if one is not two and str(two).startswith(str(one))}
+    alike = {
+        first
+        for first in meanings
+        for second in meanings
+        if first is not second and str(second).startswith(str(first))
+    }
     assert not alike - {"How "}
 
 
 def test_commands_that_write_have_the_same_three(all_commands: dict[str, Any]) -> None:
-    writing = {name for name, command in all_commands.items() for one in command.params if "-o" in one.opts}
+    writing = {
+        name for name, command in all_commands.items() for option in command.params if "-o" in option.opts
+    }
     assert writing == {
         *("show", "grow", "replay", "sample", "color", "letters", "explain"),
         *("batch run", "batch export", "guide train"),
     }
     for name in writing - {"batch run"}:
         # A batch is gone on with, and never replaced.
-        assert "--force" in {flag for one in all_commands[name].params for flag in one.opts}, name
+        assert "--force" in {flag for option in all_commands[name].params for flag in option.opts}, name
 
 
 def run(*words: object) -> Any:
@@ -290,15 +302,15 @@ CALLS: dict[str, tuple[tuple[str, ...], str, tuple[str, ...]]] = {
 
 
 def done(*words: object) -> Any:
-    found = run(*words)
-    assert found.exit_code == 0, (found.output, found.exception)
-    return found
+    finished = run(*words)
+    assert finished.exit_code == 0, (finished.output, finished.exception)
+    return finished
 
 
 def refused(*words: object) -> InputError:
-    found = run(*words)
-    assert isinstance(found.exception, InputError), (words, found.output, found.exception)
-    return found.exception
+    finished = run(*words)
+    assert isinstance(finished.exception, InputError), (words, finished.output, finished.exception)
+    return finished.exception
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -311,7 +323,7 @@ def test_o_is_a_folder_or_with_a_suffix_a_file_and_nothing_is_replaced(place: Pa
     before = set(place.iterdir())
     for file in files:
         done(*call, "-o", f"alone/{file}")
-        assert {one.name for one in (place / "alone").iterdir()} >= {file}
+        assert {written.name for written in (place / "alone").iterdir()} >= {file}
         first = Path("alone", file).read_bytes()
         assert first
         error = refused(*call, "-o", f"alone/{file}")
@@ -333,7 +345,12 @@ def test_o_is_a_folder_or_with_a_suffix_a_file_and_nothing_is_replaced(place: Pa
             done(*call, "-o", folder, "--force")
     # A format that the command does not write, and no folder of that name.
     assert refused(*call, "-o", "what.xyz").code == "bad-setting"
-    assert {one.name for one in set(place.iterdir()) - before} <= {"alone", "folder", "v1.2", "__pycache__"}
+    assert {written.name for written in set(place.iterdir()) - before} <= {
+        "alone",
+        "folder",
+        "v1.2",
+        "__pycache__",
+    }
 
 
 def test_without_o_the_next_name_is_taken(place: Path) -> None:

@@ -51,13 +51,13 @@ def data(seed: int) -> dict[str, Any]:
 
 def check_whole(folder: Path) -> None:
     """Every file beside run.json is of its run, and has the hash that is written there."""
-    found = run_files.load(folder / "run.json")
+    data = run_files.load(folder / "run.json")
     beside = [place for place in folder.iterdir() if place.name in results.KNOWN]
     for place in beside:
         text = place.read_bytes()
-        assert text == found["hash"].encode() * 200, place.name
-        wanted = found["files"][place.name]
-        assert wanted is None or wanted == hashlib.sha256(text).hexdigest()
+        assert text == data["hash"].encode() * 200, place.name
+        digest = data["files"][place.name]
+        assert digest is None or digest == hashlib.sha256(text).hexdigest()
 
 
 def killed(folder: Path, kills: int, chance: random.Random) -> None:
@@ -127,8 +127,8 @@ def test_a_file_that_fails_leaves_the_others_and_run_json(tmp_path: Path) -> Non
     ):
         (tmp_path / "best.glb").write_bytes(b"glb")
         raise KeyboardInterrupt
-    found = run_files.load(tmp_path / "run.json")
-    assert found["files"] == {"best.glb": hashlib.sha256(b"glb").hexdigest()}
+    stored = run_files.load(tmp_path / "run.json")
+    assert stored["files"] == {"best.glb": hashlib.sha256(b"glb").hexdigest()}
 
 
 def test_where_there_is_no_room_the_folder_stays_as_it_was(
@@ -163,9 +163,9 @@ def test_two_runs_at_once_do_not_share_a_folder(tmp_path: Path) -> None:
     codes = sorted(code for _, code in ends)
     assert codes[0] == 0 and set(codes) <= {0, 2}
     assert all("folder-in-use" in text or "already-there" in text for text, code in ends if code == 2)
-    found = json.loads((tmp_path / "out" / "run.json").read_text())
+    data = json.loads((tmp_path / "out" / "run.json").read_text())
     glb = (tmp_path / "out" / "best.glb").read_bytes()
-    assert found["files"] == {"best.glb": hashlib.sha256(glb).hexdigest()}
+    assert data["files"] == {"best.glb": hashlib.sha256(glb).hexdigest()}
     assert (
         run("replay", tmp_path / "out" / "run.json", "-o", tmp_path / "again", "--no-picture").exit_code == 0
     )
@@ -173,19 +173,19 @@ def test_two_runs_at_once_do_not_share_a_folder(tmp_path: Path) -> None:
 
 
 def test_a_replay_keeps_a_folder_of_one_run(tmp_path: Path) -> None:
-    one, two = tmp_path / "one", tmp_path / "two"
-    assert run(*GROW, "--runs", "2", "--seed", "1", "-o", one).exit_code == 0
-    assert run(*GROW, "--seed", "2", "-o", two).exit_code == 0
-    best = run_files.load(one / "run.json")["best"]
+    first, second = tmp_path / "one", tmp_path / "two"
+    assert run(*GROW, "--runs", "2", "--seed", "1", "-o", first).exit_code == 0
+    assert run(*GROW, "--seed", "2", "-o", second).exit_code == 0
+    best = run_files.load(first / "run.json")["best"]
     # Another format of the same run joins; another run of the same search takes its place.
-    assert run("replay", one / "run.json", "-o", one, "--format", "obj", "--no-picture").exit_code == 0
-    assert names(one) == {"run.json", "best.glb", "best.obj"}
-    words = ["replay", one / "run.json", "-o", one, "--run", 2 - best, "--format", "ply", "--no-picture"]
+    assert run("replay", first / "run.json", "-o", first, "--format", "obj", "--no-picture").exit_code == 0
+    assert names(first) == {"run.json", "best.glb", "best.obj"}
+    words = ["replay", first / "run.json", "-o", first, "--run", 2 - best, "--format", "ply", "--no-picture"]
     assert run(*words).exit_code == 0
-    assert names(one) == {"run.json", "best.ply"}
-    found = run_files.load(one / "run.json")
-    assert found["shown"] == 1 - best and found["best"] == best and list(found["files"]) == ["best.ply"]
+    assert names(first) == {"run.json", "best.ply"}
+    data = run_files.load(first / "run.json")
+    assert data["shown"] == 1 - best and data["best"] == best and list(data["files"]) == ["best.ply"]
     # Another search does not.
-    refused = run("replay", two / "run.json", "-o", one, "--no-picture")
+    refused = run("replay", second / "run.json", "-o", first, "--no-picture")
     assert isinstance(refused.exception, NiwakiError) and "already exists" in str(refused.exception)
-    assert names(one) == {"run.json", "best.ply"}
+    assert names(first) == {"run.json", "best.ply"}

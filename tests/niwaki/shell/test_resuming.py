@@ -32,24 +32,24 @@ def ended(sign: int, out: Path, *words: str) -> tuple[int, str]:
         while child.poll() is None and not (place.exists() and place.stat().st_mtime_ns > before):
             time.sleep(0.02)
         child.send_signal(sign)
-        said, _ = child.communicate(timeout=120)
-    return child.returncode, said
+        output, _ = child.communicate(timeout=120)
+    return child.returncode, output
 
 
 def runs(folder: Path) -> Any:
-    """What run.json tells of the runs, without times."""
+    """Return the hash and the runs of a run.json, without times."""
     data = json.loads((folder / "run.json").read_text())
     times = ("seconds", "cpu_seconds")
-    return data["hash"], [{key: one[key] for key in one if key not in times} for one in data["runs"]]
+    return data["hash"], [{key: row[key] for key in row if key not in times} for row in data["runs"]]
 
 
 def test_a_search_goes_on_after_ctrl_c_and_a_kill(tmp_path: Path) -> None:
     alone, out = tmp_path / "alone", tmp_path / "out"
     assert run(*GROW, "-o", alone).exit_code == 0
     assert not (alone / resume.NAME).exists()
-    status, said = ended(signal.SIGINT, out, *GROW, "-o", str(out))
+    status, output = ended(signal.SIGINT, out, *GROW, "-o", str(out))
     assert status == 130
-    assert said.splitlines()[-1] == f"interrupted; resume with: niwaki grow --resume {out}"
+    assert output.splitlines()[-1] == f"interrupted; resume with: niwaki grow --resume {out}"
     assert json.loads((out / "run.json").read_text())["interrupted"]
     ended(signal.SIGKILL, out, "grow", "--resume", str(out))
     again = run("grow", "--resume", out)
@@ -61,9 +61,9 @@ def test_a_search_goes_on_after_ctrl_c_and_a_kill(tmp_path: Path) -> None:
 
 def test_what_cannot_go_on_is_refused(tmp_path: Path) -> None:
     def refused(*words: Any) -> str:
-        found = run(*words).exception
-        assert isinstance(found, InputError)
-        return found.code
+        error = run(*words).exception
+        assert isinstance(error, InputError)
+        return error.code
 
     assert refused("grow", "--resume", tmp_path) == "no-checkpoint"
     (tmp_path / resume.NAME).write_text("no checkpoint\n")
@@ -91,10 +91,10 @@ def test_chains_of_the_shell_go_on(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         "@model\ndef line():\n    at = gaussian(0, 1)\n    observe(Gaussian(at, 1.0), 2.0)\n    return at\n"
     )
     words = ["sample", "line.py:line", "--steps", "5000000", "--seed", "3"]
-    status, said = ended(signal.SIGINT, Path("out"), *words, "-o", "out")
-    assert status in (0, 130), said
+    status, output = ended(signal.SIGINT, Path("out"), *words, "-o", "out")
+    assert status in (0, 130), output
     if status == 130:
-        assert said.splitlines()[-1] == "interrupted; resume with: niwaki sample --resume out"
+        assert output.splitlines()[-1] == "interrupted; resume with: niwaki sample --resume out"
         assert run("sample", "--resume", "out").exit_code == 0
     assert run(*words, "-o", "alone").exit_code == 0
     assert runs(Path("out")) == runs(Path("alone"))

@@ -89,7 +89,7 @@ def files() -> dict[str, dict[str, Any]]:
     """The run.json of each."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return {name: json.loads(json.dumps(written(one))) for name, one in searches().items()}
+        return {name: json.loads(json.dumps(written(search))) for name, search in searches().items()}
 
 
 def written(search: nw.Search) -> dict[str, Any]:
@@ -109,8 +109,8 @@ def replay(place: Path) -> None:
 def attempts(count: int, chance: random.Random) -> Iterable[tuple[str, bytes]]:
     for name, data in files().items():
         for _ in range(count):
-            what, text = mutated(data, chance)
-            yield f"{name}, {what}", text
+            change, text = mutated(data, chance)
+            yield f"{name}, {change}", text
 
 
 def test_every_kind_is_replayed(tmp_path: Path) -> None:
@@ -131,7 +131,7 @@ def test_many_run_files_that_were_changed_give_messages(tmp_path: Path) -> None:
 
 
 def wrong() -> dict[str, Callable[[dict[str, Any]], Any]]:
-    """What is done to a run.json, and under which name."""
+    """Yield changes of a run.json with their names."""
 
     def at(*keys: Any, value: Any) -> Callable[[dict[str, Any]], Any]:
         def change(data: dict[str, Any]) -> None:
@@ -163,7 +163,7 @@ def wrong() -> dict[str, Callable[[dict[str, Any]], Any]]:
 
 
 def test_messages_name_the_place(tmp_path: Path, golden: Any) -> None:
-    found, place = [], tmp_path / "run.json"
+    texts, place = [], tmp_path / "run.json"
     text = json.dumps(files()["smc"])
     for name, change in wrong().items():
         data = json.loads(text)
@@ -175,8 +175,8 @@ def test_messages_name_the_place(tmp_path: Path, golden: Any) -> None:
         place.write_text(json.dumps(data))
         with pytest.raises(NiwakiError) as caught:
             replay(place)
-        found.append(f"## {name}\n\n{caught.value}\n".replace(str(place), "run.json"))
-    golden(GOLDEN / "run-files.txt", "\n".join(found))
+        texts.append(f"## {name}\n\n{caught.value}\n".replace(str(place), "run.json"))
+    golden(GOLDEN / "run-files.txt", "\n".join(texts))
 
 
 def test_a_name_that_no_file_can_have_gives_a_message(tmp_path: Path) -> None:
@@ -201,12 +201,12 @@ def test_a_text_of_few_bytes_takes_no_memory(tmp_path: Path) -> None:
 
 def searches_as_json() -> dict[str, Any]:
     """The JSON of each search, its meshes inside."""
-    return {name: json.loads(one.json("inside")) for name, one in searches().items()}
+    return {name: json.loads(search.json("inside")) for name, search in searches().items()}
 
 
 def read_search(place: Path) -> None:
-    found = nw.Search.of_json(place.read_text(encoding="utf-8", errors="replace"))
-    assert len(found.hash) == 64
+    search = nw.Search.of_json(place.read_text(encoding="utf-8", errors="replace"))
+    assert len(search.hash) == 64
 
 
 def test_the_json_of_a_search_that_was_changed_gives_a_message(tmp_path: Path) -> None:
@@ -235,7 +235,7 @@ def test_a_guide_that_was_changed_gives_a_message(tmp_path: Path) -> None:
     header = json.loads(data[8 : 8 + length])
     tries = []
     for _ in range(60):
-        what, text = mutated(header, chance)
+        change, text = mutated(header, chance)
         size = len(text) if chance.random() < 0.7 else chance.choice([0, 2**63, len(text) // 2])
-        tries.append((what, size.to_bytes(8, "little") + text + data[8 + length :]))
+        tries.append((change, size.to_bytes(8, "little") + text + data[8 + length :]))
     assert tracebacks(tries, lambda place: nw.Guide.load(place).show(), tmp_path / "one.guide") == []

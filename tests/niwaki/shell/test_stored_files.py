@@ -52,9 +52,9 @@ def read_batch(folder: Path) -> None:
     """Read all that a batch has, as `niwaki batch export` does."""
     store = batches.Store(folder)
     export.best_of(store, 2)
-    for one in batches.stored(folder):
-        export.numbers(one, choices=True)
-        _ = one.result.info, one.best.scene
+    for outcome in batches.stored(folder):
+        export.numbers(outcome, choices=True)
+        _ = outcome.result.info, outcome.best.scene
 
 
 class Kind:
@@ -82,8 +82,8 @@ class Specs(Kind):
         return (mutated(data, chance) for _ in range(count))
 
     def read(self, place: Path) -> None:
-        for one in self.folder.glob("spec-*"):
-            one.unlink()
+        for spec in self.folder.glob("spec-*"):
+            spec.unlink()
         text = place.read_bytes()
         (self.folder / Spec.name_of(text)).write_bytes(text)
         read_batch(self.folder)
@@ -94,14 +94,14 @@ class Bodies(Kind):
 
     def tries(self, count: int, chance: random.Random) -> Iterable[tuple[str, bytes]]:
         data = self.segment.read_bytes()
-        found = [(key, data[at : at + length]) for key, at, length in records(self.segment)]
+        entries = [(key, data[at : at + length]) for key, at, length in records(self.segment)]
         for _ in range(count):
-            key, body = chance.choice(found)
-            what, text = mutated(json.loads(body), chance)
+            key, body = chance.choice(entries)
+            change, text = mutated(json.loads(body), chance)
             if chance.random() < 0.5:
                 # Runs are texts with a form of their own.
-                what, text = "a text", torn(body, chance)
-            yield what, record(key, text)
+                change, text = "a text", torn(body, chance)
+            yield change, record(key, text)
 
     def read(self, place: Path) -> None:
         self.segment.write_bytes(place.read_bytes())
@@ -137,11 +137,11 @@ class Checkpoints:
             _, _, rest = data.partition(b"\n")
             head, _, parts = rest.partition(b"\n")
             if chance.random() < 0.5:
-                what, head = mutated(json.loads(head), chance)
+                change, head = mutated(json.loads(head), chance)
             else:
-                what, parts = "the parts", torn(parts, chance)
+                change, parts = "the parts", torn(parts, chance)
             rest = head + b"\n" + parts
-            yield what, f"{MAGIC} {FORMAT} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
+            yield change, f"{MAGIC} {FORMAT} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
 
     def read(self, place: Path) -> None:
         Stored.read(place)
@@ -154,8 +154,8 @@ class Resumed(Checkpoints):
     def __init__(self, folder: Path) -> None:
         folder.mkdir()
         self.place, search = folder / resume.NAME, SEARCHES[0]
-        own = {"command": "grow", "model": "pile.py:pile", "file_hash": None, "flags": FLAGS}
-        search.run(checkpoint=nw.Checkpoint(self.place, every=0.0, note=own))
+        note = {"command": "grow", "model": "pile.py:pile", "file_hash": None, "flags": FLAGS}
+        search.run(checkpoint=nw.Checkpoint(self.place, every=0.0, note=note))
         self.files = [(search, self.place.read_bytes())]
 
     def read(self, place: Path) -> None:
@@ -191,21 +191,21 @@ KINDS: dict[str, Callable[[Path], Any]] = {
 
 def torn(data: bytes, chance: random.Random) -> bytes:
     """Bytes, some of which are changed, cut out or doubled."""
-    made = bytearray(data)
+    changed = bytearray(data)
     for _ in range(chance.choice((1, 1, 2, 5))):
-        at = chance.randrange(len(made) + 1)
+        at = chance.randrange(len(changed) + 1)
         match chance.randrange(4):
-            case 0 if made:
-                made[at % len(made)] ^= 1 << chance.randrange(8)
+            case 0 if changed:
+                changed[at % len(changed)] ^= 1 << chance.randrange(8)
             case 1:
-                del made[at : at + chance.choice((1, 4, 40))]
+                del changed[at : at + chance.choice((1, 4, 40))]
             case 2:
-                made[at:at] = made[at : at + chance.choice((1, 4, 40))] * chance.choice((1, 2, 50))
+                changed[at:at] = changed[at : at + chance.choice((1, 4, 40))] * chance.choice((1, 2, 50))
             case _:
-                made[at:at] = chance.choice(
+                changed[at:at] = chance.choice(
                     (b"0", b"-1", b"9" * 30, b"nan", b"\xff", b"\0", b"[", b'"', b"1e999")
                 )
-    return bytes(made)
+    return bytes(changed)
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -251,10 +251,10 @@ STRIDE = 7
 def test_a_folder_of_results_is_whole_after_each_fault_of_the_disk(
     stride: int, former: bool, tmp_path: Path
 ) -> None:
-    wanted: dict[int, bytes] = {}
+    expected: dict[int, bytes] = {}
     for seed in (1, 2):
         grown(tmp_path / str(seed), "--seed", str(seed))
-        wanted[seed] = (tmp_path / str(seed) / "out" / "best.glb").read_bytes()
+        expected[seed] = (tmp_path / str(seed) / "out" / "best.glb").read_bytes()
     (tmp_path / "tried").mkdir()
     before = (lambda folder: grown(folder, "--seed", "2")) if former else (lambda folder: None)
     for trial in trials(tmp_path / "tried", lambda folder: grown(folder, "--force"), before, stride):
@@ -262,18 +262,18 @@ def test_a_folder_of_results_is_whole_after_each_fault_of_the_disk(
         run, best = (trial.folder / "out" / name for name in ("run.json", "best.glb"))
         seed = json.loads(run.read_text())["search"]["seed"] if run.exists() else None
         assert seed is not None or not former, trial
-        assert not best.exists() or best.read_bytes() == wanted[seed or 1], trial
+        assert not best.exists() or best.read_bytes() == expected[seed or 1], trial
         grown(trial.folder, "--force")
-        assert best.read_bytes() == wanted[1] and not list(trial.folder.rglob(".niwaki*")), trial
+        assert best.read_bytes() == expected[1] and not list(trial.folder.rglob(".niwaki*")), trial
 
 
 def test_a_search_goes_on_after_each_fault_of_the_disk(tmp_path: Path) -> None:
     search = SEARCHES[2]
-    wanted = search.run().best.log_score
+    expected = search.run().best.log_score
 
     def run(folder: Path) -> float:
         return search.run(checkpoint=nw.Checkpoint(folder / "own.checkpoint", every=0.0)).best.log_score
 
     for trial in trials(tmp_path, run):
         assert trial.error is None or isinstance(trial.error, FileError), trial
-        assert run(trial.folder) == wanted, trial
+        assert run(trial.folder) == expected, trial

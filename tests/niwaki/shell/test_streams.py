@@ -108,26 +108,26 @@ def run(mode: str, there: Path, folder: Path) -> dict[str, Any]:
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", PROGRAM, mode, words],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(one for one in sys.path if one)},
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(folder for folder in sys.path if folder)},
         capture_output=True,
         timeout=300,
         check=True,
     )
-    found: dict[str, Any] = json.loads(done.stderr[done.stderr.index(b"{") :])
-    for name, (code, said) in found.items():
-        assert "Traceback" not in said, (name, said)
-        assert code is not None, (name, said)
-    return found
+    results: dict[str, Any] = json.loads(done.stderr[done.stderr.index(b"{") :])
+    for name, (code, message) in results.items():
+        assert "Traceback" not in message, (name, message)
+        assert code is not None, (name, message)
+    return results
 
 
 def leaves() -> set[str]:
     """The names of all commands, and of those of a group."""
     group = typer.main.get_group(app)
-    found = set()
+    names = set()
     for name in shell.app.COMMANDS:
         command = group.get_command(None, name)
-        found |= {f"{name} {one}" for one in getattr(command, "commands", {})} or {name}
-    return found
+        names |= {f"{name} {child}" for child in getattr(command, "commands", {})} or {name}
+    return names
 
 
 def test_each_command_is_tried() -> None:
@@ -136,16 +136,16 @@ def test_each_command_is_tried() -> None:
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 def test_a_full_stdout_has_a_message(there: Path, tmp_path: Path) -> None:
-    for name, (code, said) in run("full", there, tmp_path).items():
-        assert code == 2 and "No space left on device" in said, (name, code, said)
+    for name, (code, message) in run("full", there, tmp_path).items():
+        assert code == 2 and "No space left on device" in message, (name, code, message)
     # What is written before anything is said is whole.
     assert json.loads((tmp_path / "out" / "run.json").read_text())["runs"]
     assert not list(tmp_path.rglob(".niwaki*"))
 
 
 def test_a_closed_stdout_is_no_error(there: Path, tmp_path: Path) -> None:
-    for name, (code, said) in run("closed", there, tmp_path).items():
-        assert code == 0, (name, code, said)
+    for name, (code, message) in run("closed", there, tmp_path).items():
+        assert code == 0, (name, code, message)
     assert (tmp_path / "show.png").exists() and (tmp_path / "garden").is_dir()
 
 
@@ -157,9 +157,9 @@ def read_only(tmp_path: Path) -> Path:
 
 
 def test_a_read_only_folder_has_a_message(there: Path, tmp_path: Path) -> None:
-    for name, (code, said) in run("", there, read_only(tmp_path)).items():
-        assert code == (0 if name in QUIET else 2), (name, code, said)
-        assert name in QUIET or "error[file-unwritable]" in said, (name, said)
+    for name, (code, message) in run("", there, read_only(tmp_path)).items():
+        assert code == (0 if name in QUIET else 2), (name, code, message)
+        assert name in QUIET or "error[file-unwritable]" in message, (name, message)
 
 
 def test_the_studio_in_a_read_only_folder_has_a_message(tmp_path: Path) -> None:

@@ -131,7 +131,7 @@ def test_a_run_file_imports_no_module(folder: Path) -> None:
 
 def test_messages(folder: Path, golden: Any) -> None:
     file, saved, _ = grown(folder, CALLS)
-    text, found = file.read_text(), []
+    text, texts = file.read_text(), []
     changed = text.replace("2.0 * x", "3.0 * x")
     for name, source, words in (
         ("nobody allowed it", text, []),
@@ -144,10 +144,10 @@ def test_messages(folder: Path, golden: Any) -> None:
         file.write_text(source)
         refused = run("replay", saved, "-o", "again", *words)
         assert isinstance(refused.exception, NiwakiError), (name, refused.exception)
-        found.append(
+        texts.append(
             f"## {name}\n\n{refused.exception}\n".replace(str(folder.resolve()), "FOLDER").replace(
                 str(folder), "FOLDER"
             )
         )
     # The file has the folder's name in it, and so another hash each time.
-    golden(GOLDEN / "trust.txt", re.sub(r"[0-9a-f]{12}\.\.\.", "HASH...", "\n".join(found)))
+    golden(GOLDEN / "trust.txt", re.sub(r"[0-9a-f]{12}\.\.\.", "HASH...", "\n".join(texts)))

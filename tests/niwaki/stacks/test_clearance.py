@@ -20,7 +20,7 @@ def box(x: float, z: float, wide: float = 0.05, high: float = 0.05) -> Any:
 
 
 def score_of(first: Any, second: Any) -> float:
-    """What two blocks score for their thickness and the gap between them."""
+    """Return the score of two blocks for their thickness and the gap between them."""
 
     @nw.model
     def two() -> float:
@@ -65,8 +65,8 @@ def test_a_corner_beyond_the_opposite_face_is_penalised() -> None:
 
 
 def touches(pairs: list[tuple[int, int]]) -> list[Contact]:
-    nothing = nw.vec(0.0, 0.0, 0.0)
-    return [Contact(one, other, (nothing,) * 4, nothing, nothing, nothing) for one, other in pairs]
+    zero = nw.vec(0.0, 0.0, 0.0)
+    return [Contact(first, second, (zero,) * 4, zero, zero, zero) for first, second in pairs]
 
 
 def test_neighbours_touch_the_same_third_and_not_each_other() -> None:
@@ -80,9 +80,9 @@ def test_neighbours_touch_the_same_third_and_not_each_other() -> None:
 
 
 def test_a_spoke_is_kept_from_the_neighbours_of_what_it_holds() -> None:
-    found = neighbours(nw.run_python(stacks.wheel, seed=1).value.contacts)
+    pairs = neighbours(nw.run_python(stacks.wheel, seed=1).value.contacts)
     # The spoke is 26 to 28; its foot is on block 4 of the inner arch, its head under block 17, of the outer one.
-    assert {(26, 3), (26, 5), (28, 16), (28, 18)} <= set(found)
+    assert {(26, 3), (26, 5), (28, 16), (28, 18)} <= set(pairs)
 
 
 @nw.model

@@ -32,33 +32,36 @@ def structure(model: object = stacks.cut_arch, seed: int = 1) -> Structure:
 
 
 def faults(sheet: Sheet) -> list[str]:
-    """What cannot be cut."""
-    found = []
+    """Return the faults of a sheet that cannot be cut."""
+    texts = []
     width, height = sheet.board
     inside = geometry.box(0, 0, width, height).buffer(-sheet.gap + 1e-6)
     cuts = {piece.number: geometry.Polygon(piece.cut) for piece in sheet.pieces}
     for piece in sheet.pieces:
         if not inside.contains(cuts[piece.number]):
-            found.append(f"{piece.number} leaves the board")
+            texts.append(f"{piece.number} leaves the board")
         left = cuts[piece.number].buffer(-0.5 * sheet.kerf, join_style="mitre")
         if left.symmetric_difference(geometry.Polygon(piece.outline)).area > 1e-6 * left.area:
-            found.append(f"{piece.number} has another size")
-    for one, other in combinations(sheet.pieces, 2):
-        if one.board == other.board and cuts[one.number].distance(cuts[other.number]) < sheet.gap - 1e-6:
-            found.append(f"{one.number} meets {other.number}")
-    return found
+            texts.append(f"{piece.number} has another size")
+    for first, second in combinations(sheet.pieces, 2):
+        if (
+            first.board == second.board
+            and cuts[first.number].distance(cuts[second.number]) < sheet.gap - 1e-6
+        ):
+            texts.append(f"{first.number} meets {second.number}")
+    return texts
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
 @pytest.mark.parametrize("board", [(600.0, 400.0), (200.0, 120.0)], ids=["large", "small"])
 def test_pieces_lie_apart_on_their_boards(model: object, board: tuple[float, float]) -> None:
     for seed in range(5):
-        made = structure(model, seed)
-        sheet = cut_sheet(made, board, kerf=0.3, gap=1.5)
+        tower = structure(model, seed)
+        sheet = cut_sheet(tower, board, kerf=0.3, gap=1.5)
         assert faults(sheet) == []
-        assert [piece.number for piece in sheet.pieces] == list(range(1, len(made) + 1))
+        assert [piece.number for piece in sheet.pieces] == list(range(1, len(tower) + 1))
         areas = [geometry.Polygon(piece.outline).area * sheet.thickness for piece in sheet.pieces]
-        np.testing.assert_allclose(areas, 1e9 * made.solids()[0], rtol=1e-6)
+        np.testing.assert_allclose(areas, 1e9 * tower.solids()[0], rtol=1e-6)
 
 
 def test_a_piece_that_is_pushed_is_found_out() -> None:
@@ -106,15 +109,15 @@ def test_svg_is_in_millimetres() -> None:
 
 
 def test_the_assembly_drawing_numbers_every_piece_that_is_seen() -> None:
-    made = structure()
-    root = ET.fromstring(assembly(made).svg())
+    tower = structure()
+    root = ET.fromstring(assembly(tower).svg())
     space = "{http://www.w3.org/2000/svg}"
-    assert len(root.findall(f"{space}polygon")) == 2 * len(made)
+    assert len(root.findall(f"{space}polygon")) == 2 * len(tower)
     texts = [text.text for text in root.iter(f"{space}text")]
     front = texts[: texts.index("front")]
-    assert sorted(front, key=str) == [str(k) for k in range(1, len(made) + 1)]
+    assert sorted(front, key=str) == [str(k) for k in range(1, len(tower) + 1)]
     # From the right the pieces of an arch hide one another.
-    assert len(texts) - len(front) - 2 < len(made)
+    assert len(texts) - len(front) - 2 < len(tower)
 
 
 def test_the_recipe_of_the_manual_gives_a_tower_that_stands(
@@ -134,12 +137,12 @@ def test_the_recipe_of_the_manual_gives_a_tower_that_stands(
 
 def test_boards_are_saved_one_to_a_file(tmp_path: Path) -> None:
     sheet = cut_sheet(structure(), (160.0, 110.0))
-    found = sheet.save(tmp_path / "arch.dxf")
-    assert [path.name for path in found] == [
+    files = sheet.save(tmp_path / "arch.dxf")
+    assert [path.name for path in files] == [
         "arch.dxf",
         *(f"arch-{k + 1}.dxf" for k in range(1, sheet.boards)),
     ]
-    assert all(path.stat().st_size for path in found)
+    assert all(path.stat().st_size for path in files)
 
 
 @pytest.mark.parametrize(
@@ -160,20 +163,20 @@ def test_pieces_that_cannot_be_cut_are_reported(make: object, words: str) -> Non
 @pytest.mark.parametrize(
     ("library", "make"),
     [
-        ("rectpack", lambda made: cut_sheet(made)),
-        ("shapely.geometry", lambda made: assembly(made)),
-        ("ezdxf", lambda made: cut_sheet(made).dxf()),
-        ("scipy.sparse", lambda made: stacks.balanced(made)),
-        ("mujoco", lambda made: stacks.simulated(made)),
+        ("rectpack", lambda tower: cut_sheet(tower)),
+        ("shapely.geometry", lambda tower: assembly(tower)),
+        ("ezdxf", lambda tower: cut_sheet(tower).dxf()),
+        ("scipy.sparse", lambda tower: stacks.balanced(tower)),
+        ("mujoco", lambda tower: stacks.simulated(tower)),
     ],
     ids=["rectpack", "shapely", "ezdxf", "scipy", "mujoco"],
 )
 def test_a_missing_library_is_named_by_its_extra(
     library: str, make: Callable[[Structure], object], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made = structure()
+    tower = structure()
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(
         nw.NiwakiError, match=r"needs the extra `stacks`[\s\S]*pip install 'niwaki\[stacks\]'"
     ):
-        make(made)
+        make(tower)

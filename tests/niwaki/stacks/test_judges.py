@@ -47,25 +47,25 @@ def tilted(slope: float, turn: float = 0.0) -> tuple[float, float, float]:
 
 def test_a_plain_tower_stands_with_the_known_margin() -> None:
     tower = pile(cubes(6))
-    found = balanced(tower)
-    assert found.holds
+    balance = balanced(tower)
+    assert balance.holds
     # It tips when its slope is half a side over half its height.
-    assert found.margin == pytest.approx(1 / 6, abs=1e-6)
+    assert balance.margin == pytest.approx(1 / 6, abs=1e-6)
     assert simulated(tower).stands
 
 
 @pytest.mark.parametrize(("shift", "stands"), [(0.023, True), (0.027, False)], ids=["inside", "beyond"])
 def test_an_overhang_falls_when_its_middle_is_beyond_the_edge(shift: float, stands: bool) -> None:
     tower = pile(cubes(2, shift))
-    found = balanced(tower)
-    assert found.holds == stands
+    balance = balanced(tower)
+    assert balance.holds == stands
     assert simulated(tower).stands == stands
     if stands:
-        assert found.margin == pytest.approx((0.025 - shift) / 0.025, abs=1e-6)
+        assert balance.margin == pytest.approx((0.025 - shift) / 0.025, abs=1e-6)
     else:
         # What is left over: a torque of 2 mm times the weight that no other residual may exceed, and a tenth of that.
-        assert 0.01 < found.residual < 0.04
-        assert found.margin == 0.0
+        assert 0.01 < balance.residual < 0.04
+        assert balance.margin == 0.0
 
 
 @pytest.mark.parametrize(("slope", "stands"), [(0.47, True), (0.53, False)], ids=["below", "above"])
@@ -106,9 +106,9 @@ def test_a_wedge_slides_from_between_two_blocks_where_friction_is_too_small() ->
         frame[0] = -np.abs(frame[0][2]) / frame[0][2] * frame[0]
         points = [lower[4], lower[7], lower[6], lower[5]]
         foot = [low[0], low[3], low[2], low[1]]
-        made = plain([lower, upper], [(0, -1, foot, FRAME), (1, 0, points, frame)], 0.5)
-        assert balanced(made).holds == stands, slope
-        assert simulated(made).stands == stands, slope
+        pair = plain([lower, upper], [(0, -1, foot, FRAME), (1, 0, points, frame)], 0.5)
+        assert balanced(pair).holds == stands, slope
+        assert simulated(pair).stands == stands, slope
 
 
 def test_every_step_of_a_construction_is_judged() -> None:
@@ -122,14 +122,16 @@ def test_every_step_of_a_construction_is_judged() -> None:
 
 
 def test_each_contact_of_a_tower_carries_the_blocks_above_it() -> None:
-    found = carried(pile(cubes(4, shift=0.01)))
+    forces = carried(pile(cubes(4, shift=0.01)))
     # The second body of each contact is the one below, or the ground.
-    assert found.forces == pytest.approx(np.array([[0, 0, -4], [0, 0, -3], [0, 0, -2], [0, 0, -1]]), abs=1e-9)
+    assert forces.forces == pytest.approx(
+        np.array([[0, 0, -4], [0, 0, -3], [0, 0, -2], [0, 0, -1]]), abs=1e-9
+    )
     # The top block's weight acts below its middle.
-    assert found.points[3, :2] == pytest.approx([0.01, 0.0], abs=1e-9)
-    assert found.points[0, :2] == pytest.approx([0.0025, 0.0], abs=1e-9)
-    assert found.weights == pytest.approx(np.array([[0, 0, -1]] * 4))
-    assert found.loose == ()
+    assert forces.points[3, :2] == pytest.approx([0.01, 0.0], abs=1e-9)
+    assert forces.points[0, :2] == pytest.approx([0.0025, 0.0], abs=1e-9)
+    assert forces.weights == pytest.approx(np.array([[0, 0, -1]] * 4))
+    assert forces.loose == ()
 
 
 def test_on_a_slope_friction_carries_its_share() -> None:

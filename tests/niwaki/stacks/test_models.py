@@ -57,8 +57,8 @@ def nominal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(densities, "draw", draw)
 
 
-def corners_of(made: Any) -> Any:
-    return np.array([[list(point) for point in block] for block in made.blocks])
+def corners_of(structure: Any) -> Any:
+    return np.array([[list(point) for point in block] for block in structure.blocks])
 
 
 @EVERY
@@ -90,10 +90,10 @@ def test_the_engine_agrees_with_plain_python(model: AnyModel) -> None:
 def test_arches_at_their_middles_have_the_known_size(
     nominal: None, model: AnyModel, top: float, volume: float, blocks: int, touches: int
 ) -> None:
-    made = Structure.of(nw.run_python(model, seed=1))
-    assert (len(made), len(made.touches)) == (blocks, touches)
-    assert 1e3 * made.corners[:, :, 2].max() == pytest.approx(top, abs=0.006)
-    assert 1e6 * made.solids()[0].sum() == pytest.approx(volume, abs=0.006)
+    structure = Structure.of(nw.run_python(model, seed=1))
+    assert (len(structure), len(structure.touches)) == (blocks, touches)
+    assert 1e3 * structure.corners[:, :, 2].max() == pytest.approx(top, abs=0.006)
+    assert 1e6 * structure.solids()[0].sum() == pytest.approx(volume, abs=0.006)
 
 
 TOWERS = (stacks.stack, stacks.every_step, stacks.cut_lean, stacks.tilt_stack)
@@ -101,9 +101,9 @@ TOWERS = (stacks.stack, stacks.every_step, stacks.cut_lean, stacks.tilt_stack)
 
 @pytest.mark.parametrize("model", TOWERS, ids=lambda model: model.name)
 def test_volume_and_centre_are_those_of_the_convex_hull(model: AnyModel) -> None:
-    made = Structure.of(nw.run_python(model, seed=4))
-    for number, points in enumerate(made.corners):
-        volume, centre = made.solid(number)
+    structure = Structure.of(nw.run_python(model, seed=4))
+    for number, points in enumerate(structure.corners):
+        volume, centre = structure.solid(number)
         in_language = volume_and_centre(tuple(nw.vec(*p) for p in points.tolist()))
         hull = ConvexHull(points)
         assert in_language[0] == pytest.approx(volume, rel=1e-9)
@@ -112,8 +112,11 @@ def test_volume_and_centre_are_those_of_the_convex_hull(model: AnyModel) -> None
 
 
 def test_the_mean_of_the_corners_is_another_point() -> None:
-    made = Structure.of(nw.run_python(stacks.stack, seed=4))
-    off = [np.linalg.norm(made.solid(k)[1] - points.mean(axis=0)) for k, points in enumerate(made.corners)]
+    structure = Structure.of(nw.run_python(stacks.stack, seed=4))
+    off = [
+        np.linalg.norm(structure.solid(k)[1] - points.mean(axis=0))
+        for k, points in enumerate(structure.corners)
+    ]
     assert max(off) > 1e-3
 
 
@@ -168,8 +171,8 @@ def test_tangents_are_uniform_over_the_disc(cone: bool, uniform: bool) -> None:
     def forces() -> Any:
         return [force_at(touch, 0.5, cone) for _ in range(4000)]
 
-    found = np.array([list(force) for force in nw.run_python(forces, seed=5).value])
-    inside = found[:, :2] / (0.5 * found[:, 2:])
+    values = np.array([list(force) for force in nw.run_python(forces, seed=5).value])
+    inside = values[:, :2] / (0.5 * values[:, 2:])
     squares = (inside**2).sum(axis=1)
     # Area grows with the square of the radius; a square reaches beyond the disc.
     assert (stats.kstest(squares, "uniform").pvalue > 1e-4) == uniform
@@ -188,8 +191,8 @@ def test_a_contact_is_the_overlap_of_two_rectangles() -> None:
         return contact(0, square, 1, UNIT)
 
     touch = nw.run_python(touching, seed=1).value
-    found = [tuple(point) for point in touch.points]
-    assert found == [(0.25, 0.5, 0.0), (1.0, 0.5, 0.0), (1.0, 1.0, 0.0), (0.25, 1.0, 0.0)]
+    corners_of_overlap = [tuple(point) for point in touch.points]
+    assert corners_of_overlap == [(0.25, 0.5, 0.0), (1.0, 0.5, 0.0), (1.0, 1.0, 0.0), (0.25, 1.0, 0.0)]
 
 
 def test_blocks_that_slide_apart_are_impossible_and_named() -> None:
@@ -212,10 +215,10 @@ def test_blocks_that_slide_apart_are_impossible_and_named() -> None:
 def test_contradictory_requests_are_named_by_the_residuals() -> None:
     # Blocks have at most 64 times the least volume: five steps of 40 cannot be.
     choices = nw.run_python(stacks.top_heavy, seed=1, ratio=40.0).choices
-    found = nw.residuals(stacks.top_heavy, choices=choices, ratio=40.0)
-    growths = [one for one in found if "grow_by" in one.address]
+    factors = nw.residuals(stacks.top_heavy, choices=choices, ratio=40.0)
+    growths = [row for row in factors if "grow_by" in row.address]
     assert len(growths) == 5
-    assert min(one.widths for one in growths) > 100
+    assert min(row.widths for row in growths) > 100
 
 
 @pytest.mark.parametrize("model", [stacks.stack, stacks.arch, stacks.tilt_arch], ids=lambda model: model.name)

@@ -1,7 +1,7 @@
-"""Where chains start: choices of a structure that balances within the tolerance, found by minimisation.
+"""Starts of chains: choices of a structure that balances within the tolerance, found by minimisation.
 
-From a draw of the prior the equilibrium factors are many thousand standard deviations away. The tolerance starts wide
-and narrows by tens, and at each the log density is maximised (L-BFGS, through SciPy).
+At a draw of the prior the equilibrium factors are many thousand standard deviations away. So the tolerance starts wide
+and narrows in steps of ten, and each step maximises the log density (L-BFGS, through SciPy).
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from niwaki.search import run
 from niwaki.stacks.judges import need
 from niwaki.stacks.structure import Floats
 
-#: The schedule of tolerances, as multiples of the last.
+#: The schedule of tolerances, as multiples of the last one.
 WIDER = (300.0, 30.0, 3.0, 1.0)
 
 #: Tolerances of a polish, as multiples of the model's.
 FINER = (0.3, 0.1, 1.0 / 30.0)
 
-#: Draws of the prior that may be impossible (a contact that vanishes) before giving up.
+#: Most draws of the prior that may be impossible because a contact vanishes.
 TRIES = 1000
 
-#: Spread of the first coordinates about the middles of their ranges.
+#: Standard deviation of the first coordinates around the middles of their ranges.
 SPREAD = 0.3
 
 STEPS = 800
@@ -44,7 +44,7 @@ def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> 
     model
         A model of stacks.
     seed
-        Decides where the search begins.
+        Seed of the first coordinates.
     width
         The model's tolerance.
     arguments
@@ -53,9 +53,9 @@ def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> 
     Returns
     -------
     LogDensity
-        Of the model at this tolerance; `values` gives its choices.
+        The log density of the model at this tolerance; its `values` converts coordinates to choices.
     array of shape (dim,)
-        The coordinates found. They are a start, not a draw.
+        The coordinates. They are a start, not a draw.
     """
     random = np.random.default_rng(seed)
     x: Floats | None = None
@@ -72,14 +72,14 @@ def start(model: Model[..., Any], seed: int, width: float, **arguments: Any) -> 
 def polished(
     model: Model[..., Any], choices: dict[str, Any], width: float, **arguments: Any
 ) -> dict[str, Any]:
-    """Move a structure to where it balances more exactly, by minimisation: no longer a draw.
+    """Make the balance of a structure more exact, by minimisation. The result is not a draw of the model.
 
     Parameters
     ----------
     model
         A model of stacks.
     choices
-        Of a draw.
+        Choices of a draw.
     width
         The model's tolerance; balance is required within a thirtieth of it.
     arguments
@@ -88,7 +88,7 @@ def polished(
     Returns
     -------
     dict of str to values
-        The choices of the structure that was found.
+        The choices of the new structure.
     """
     for finer in FINER:
         density = log_density(run(model, choices=choices, width=finer * width, **arguments).best)
@@ -97,7 +97,7 @@ def polished(
 
 
 def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensity:
-    """The log density around the first draw of the prior that is possible."""
+    """Return the log density around the first possible draw of the prior."""
     for number in range(TRIES):
         try:
             return log_density(run(model, seed=seed + number, **arguments).best)
@@ -108,7 +108,7 @@ def density_of(model: Model[..., Any], seed: int, **arguments: Any) -> LogDensit
 
 
 def height(density: LogDensity, x: Floats) -> tuple[float, Floats]:
-    """The log density and its gradient; minus infinity, and nothing, where a contact vanishes."""
+    """Return the log density and its gradient; minus infinity and zeros if a contact vanishes."""
     try:
         return density.value_and_gradient(x)
     except ModelFault as fault:
@@ -118,7 +118,7 @@ def height(density: LogDensity, x: Floats) -> tuple[float, Floats]:
 
 
 def _highest(density: LogDensity, x: Floats) -> Floats:
-    """The local maximum to which an ascent from `x` leads."""
+    """Return the local maximum that an ascent from `x` reaches."""
     minimize = need("scipy.optimize").minimize
     settings: dict[str, Any] = {"jac": True, "method": "L-BFGS-B", "options": {"maxiter": STEPS}}
     highest: Floats = minimize(_downhill, x, args=(density,), **settings).x
@@ -126,6 +126,6 @@ def _highest(density: LogDensity, x: Floats) -> Floats:
 
 
 def _downhill(x: Floats, density: LogDensity) -> tuple[float, Floats]:
-    """Minus the log density and its gradient; a wall where the run is impossible."""
+    """Return minus the log density and its gradient; a high constant if the run is impossible."""
     value, gradient = height(density, x)
     return (-value, -gradient) if np.isfinite(value) else (WALL, np.zeros_like(x))

@@ -1,4 +1,4 @@
-"""What a training keeps to go on after it was killed: what its rounds gave; traces and network of the last round."""
+"""The checkpoint of a training: the results of its rounds, and traces and network of the last round."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from niwaki.search.checkpoint import reading
 from niwaki.search.keeper import Keeper, Stage
 
 
-class Memory:
-    """The checkpoint of a training; one without a keeper remembers nothing.
+class TrainingCheckpoint:
+    """The checkpoint of a training; without a keeper it stores nothing.
 
     Parameters
     ----------
     keeper
-        What keeps the file.
+        The keeper of the file.
     """
 
     def __init__(self, keeper: Keeper | None) -> None:
@@ -28,19 +28,19 @@ class Memory:
         self._texts: dict[int, list[str | None]] = {}
 
     def done(self, number: int) -> tuple[Guide | None, Round] | None:
-        """The guide of a round that is done, and the round; the guide that was given has the number -1."""
+        """Return the guide of a complete round, and the round; the guide of `start` has the number -1."""
         data = None if self.keeper is None else self.keeper.get(f"{number}/done")
         if self.keeper is None or data is None:
             return None
         with reading(self.keeper.path):
             tables = {
-                name: [tuple(one) for one in data["round"][name]] for name in ("losses", "bounds", "lost")
+                name: [tuple(row) for row in data["round"][name]] for name in ("losses", "bounds", "lost")
             }
             now = Round(**data["round"] | tables)
             return None if data["guide"] is None else Guide(base64.b85decode(data["guide"])), now
 
-    def leave(self, number: int, guide: Guide | None, now: Round) -> None:
-        """Keep what a round gave, in place of what it needed to go on."""
+    def store(self, number: int, guide: Guide | None, now: Round) -> None:
+        """Store the result of a round, in place of the data that it needed to resume."""
         if self.keeper is None:
             return
         self.keeper.drop(f"{number}/")
@@ -49,14 +49,14 @@ class Memory:
         self.keeper.write_if_due()
 
     def traces(self, number: int) -> Sequence[str | None]:
-        """The runs of the searches of a round that are done, as data; None for those that gave no trace."""
+        """Return the runs of a round's finished searches, as data; None for a search without a trace."""
         if self.keeper is not None and number not in self._texts:
             with reading(self.keeper.path):
                 self._texts[number] = fitted(self.keeper.get(f"{number}/traces") or [], list[str | None])
         return tuple(self._texts.get(number, ()))
 
     def add(self, number: int, run: _engine.Run | None) -> None:
-        """Keep what one more search gave."""
+        """Add the result of another search."""
         if self.keeper is None:
             return
         self._texts.setdefault(number, []).append(None if run is None else run.data())
@@ -70,10 +70,10 @@ class Memory:
             self.keeper.put(f"{number}/traces", self._texts.get(number, []))
 
     def stage(self, number: int) -> Stage | None:
-        """The training of a round's network."""
+        """Return the stage of the training of a round's network."""
         return None if self.keeper is None else self.keeper.stage(f"{number}/network")
 
     def finish(self, interrupted: bool) -> None:
-        """The training has ended."""
+        """Note that the training has ended."""
         if self.keeper is not None:
             self.keeper.finish(interrupted)

@@ -1,4 +1,4 @@
-"""Looking at an installation: nothing here needs a part of the package that may be broken."""
+"""Inspection of an installation; the module imports no part of the package that may be broken."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from niwaki.checkup.report import Checkup, Extra, Trial
 from niwaki.errors.extras import EXTRAS, install
 from niwaki.errors.memory import UNKNOWN, free_memory
 
-#: What the core needs and tells its version.
+#: The packages that the core needs.
 CORE = ("numpy", "pillow", "trimesh", "mapbox_earcut", "msgspec", "typer", "rich", "lazy-loader")
-#: A requirement of the package's metadata: the package, its least version, and what it is for.
+#: A requirement in the package's metadata: the name of a package, its least version, and the extra.
 _REQUIREMENT = re.compile(r"""([\w.-]+)>=([\w.]+)[^;]*; extra == ["']([\w-]+)["']""")
 
 
 def doctor() -> Checkup:
-    """Look at this installation: versions, what works, the machine, and the extras.
+    """Inspect this installation: versions, the core, the machine, and the extras.
 
     Returns
     -------
     Checkup
-        `print` it for the report of `niwaki doctor`.
+        The report; `print` shows it as `niwaki doctor` does.
     """
     versions = {
         "Niwaki": _version("niwaki") or "not installed: run from a folder",
@@ -37,7 +37,7 @@ def doctor() -> Checkup:
         "Python": f"{platform.python_version()}, {platform.system()} {platform.machine()}",
         **{name: _version(name) or "not installed" for name in CORE},
     }
-    core = [_tried("the engine loads", lambda: import_module("niwaki._engine"))]
+    core = [_try("the engine loads", lambda: import_module("niwaki._engine"))]
     free = free_memory()
     machine: dict[str, Any] = {
         "processors": os.cpu_count() or 1,
@@ -46,29 +46,29 @@ def doctor() -> Checkup:
     if not core[0].error:
         engine = import_module("niwaki._engine")
         versions["engine"] = f"{engine.__version__}, SHA-256 {_hash(engine)}"
-        core.append(_tried("the engine knows the machine", lambda: machine.update(_of_engine(engine))))
+        core.append(_try("the engine knows the machine", lambda: machine.update(_of_engine(engine))))
         core += _trials(_version("niwaki"))
     return Checkup(versions, tuple(core), machine, tuple(map(_extra, EXTRAS)))
 
 
 def _trials(package: str | None) -> list[Trial]:
-    """Small searches; their module imports all that a search needs."""
-    loaded = _tried("its parts load", lambda: import_module("niwaki.checkup.trials"))
+    """Run small searches; their module imports everything that a search needs."""
+    loaded = _try("the modules of a search load", lambda: import_module("niwaki.checkup.trials"))
     if loaded.error:
         return [loaded]
     trials = import_module("niwaki.checkup.trials")
-    found = [
+    results = [
         loaded,
-        _tried("a search gives the exact answer", trials.exact),
-        _tried("a scene grows into a target; its picture and its mesh are written", trials.grown),
+        _try("a search gives the exact answer", trials.exact),
+        _try("a scene grows into a target; its picture and its mesh are written", trials.growth),
     ]
     if package is not None:
-        one = "package and engine are of one version"
-        found.append(_tried(one, lambda: trials.one_version(package)))
-    return found
+        name = "package and engine have the same version"
+        results.append(_try(name, lambda: trials.same_version(package)))
+    return results
 
 
-def _tried(name: str, trial: Callable[[], object]) -> Trial:
+def _try(name: str, trial: Callable[[], object]) -> Trial:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -84,15 +84,15 @@ def _of_engine(engine: Any) -> dict[str, Any]:
 
 
 def _extra(name: str) -> Extra:
-    """An extra by the package's metadata: what it needs and what of it is not there."""
+    """Return an extra by the package's metadata, with its missing packages."""
     needed = [match for text in _requirements() if (match := _REQUIREMENT.match(text)) and match[3] == name]
     missing = []
     for package, least, _ in (match.groups() for match in needed):
-        found = _version(package)
-        if found is None:
+        installed = _version(package)
+        if installed is None:
             missing.append(package)
-        elif _numbers(found) < _numbers(least):
-            missing.append(f"{package}>={least}, not {found}")
+        elif _numbers(installed) < _numbers(least):
+            missing.append(f"{package}>={least}, not {installed}")
     if not needed:
         missing.append("the package itself, installed")
     return Extra(name, EXTRAS[name], tuple(missing), install(name))
@@ -113,7 +113,7 @@ def _version(package: str) -> str | None:
 
 
 def _numbers(version: str) -> tuple[int, ...]:
-    """The numbers at the start of a version, without zeros at the end."""
+    """Return the numbers at the start of a version, without zeros at the end."""
     start = re.match(r"\d+(?:\.\d+)*", version)
     numbers = [int(part) for part in start[0].split(".")] if start else []
     while numbers and numbers[-1] == 0:
@@ -122,5 +122,5 @@ def _numbers(version: str) -> tuple[int, ...]:
 
 
 def _hash(engine: ModuleType) -> str:
-    """The start of the SHA-256 of its file."""
+    """Return the first digits of the SHA-256 of the engine's file."""
     return hashlib.sha256(Path(engine.__file__ or "").read_bytes()).hexdigest()[:16]

@@ -1,7 +1,7 @@
-"""What holds a structure up: a force for each contact, and what is left over of each block.
+"""Forces that hold a structure up: a force for each contact, and the unbalanced rest of each block.
 
-Where there is balance many sets of forces hold it (an arch can press itself together): the one with the least total is
-taken, by a linear program. Where there is none, as few blocks as possible are left with a force.
+Many sets of forces can balance a structure (an arch can press itself together). A linear program finds the set with the
+least total. Without balance it finds forces that leave a rest on as few blocks as possible.
 """
 
 from __future__ import annotations
@@ -13,24 +13,24 @@ import numpy as np
 from niwaki.stacks.judges import BALANCE, loads_of, need, program, solved
 from niwaki.stacks.structure import Floats, Structure
 
-#: What a force costs beside what is left over: little, so that balance comes first.
+#: The cost of a force relative to an unbalanced rest; it is small, so that balance comes first.
 PRICE = 1e-3
 
 
 @dataclass(frozen=True)
 class Carried:
-    """Forces that hold a structure, for the first direction of gravity that it names.
+    """Forces that hold a structure, for its first direction of gravity.
 
     Attributes
     ----------
     points : array of shape (contacts, 3)
-        Where each contact's force acts, metres: the middle of its corners, each by what it carries.
+        The points at which forces act, in metres: means of the contacts' corners, weighted by their loads.
     forces : array of shape (contacts, 3)
-        On the contact's second body, in mean weights; the first body gets the opposite.
+        Forces on the second body of each contact, in mean weights; the first body gets the opposite force.
     weights : array of shape (blocks, 3)
-        Of each block, mean weights.
+        The weight of each block, in mean weights.
     left : array of shape (blocks,)
-        The largest force or torque that nothing holds, in mean weights and mean weights times the cube root of the mean
+        The largest unbalanced force or torque, in mean weights and mean weights times the cube root of the mean
         volume.
     """
 
@@ -41,7 +41,7 @@ class Carried:
 
     @property
     def loose(self) -> tuple[int, ...]:
-        """The numbers of the blocks that nothing holds."""
+        """The numbers of the blocks without balance."""
         return tuple(int(number) for number in np.flatnonzero(self.left > BALANCE))
 
 
@@ -61,7 +61,7 @@ def carried(structure: Structure) -> Carried:
     each = sparse.identity(rows, format="csc")
     cost = np.concatenate([np.full(columns, PRICE), np.ones(2 * rows)])
     every = sparse.hstack([rays, each, -each]).tocsc()
-    # The simplex method ends at a corner, where forces that are not needed are exactly none.
+    # The simplex method ends at a corner of the program, where unnecessary forces are exactly 0.
     sizes = solved(optimize.linprog(cost, A_eq=every, b_eq=-loads, method="highs-ds")).x[:columns]
     left = np.abs(rays @ sizes + loads).reshape(len(structure), 6).max(axis=1)
     points, forces = [], []

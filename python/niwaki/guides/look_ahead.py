@@ -1,4 +1,4 @@
-"""Teaching a guide to look ahead: what a run that is paused will still gain (dissertation 7.2.3)."""
+"""Training of a guide's look-ahead: the future gain of a paused run (dissertation 7.2.3)."""
 
 from __future__ import annotations
 
@@ -37,49 +37,48 @@ def train_look_ahead(
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Guide:
-    """Teach a guide how much the score of a paused run will still rise, for `smc(look_ahead=...)`.
+    """Train a guide to predict how much the score of a paused run will still rise, for `smc(look_ahead=...)`.
 
-    Searches by the guide take the targets in turn. In each a few paused particles are kept, and a short search that
-    goes on from each shows what was still to be gained. A line through what the guide's network sees at the next
-    choices, and the score so far, is fitted to it by ridge regression. Ctrl-C ends the searches and learns from those
-    that are done.
+    Searches with the guide take the targets in turn. Each search keeps a few paused particles, and a short search from
+    each of these particles shows the gain that was still to come. Ridge regression fits a linear function to these
+    gains; its inputs are the inputs of the guide's network at the next choices, and the score so far. Ctrl-C ends the
+    searches, and the training uses those that are done.
 
     Parameters
     ----------
     guide
-        A guide of the model, whose network is the shared one.
+        A guide of the model with the shared network.
     model, targets, score, args, held_out
-        As for `niwaki.train_guide`; the targets that are held out decide the strength of the ridge.
+        See `niwaki.train_guide`. The held-out targets select the strength of the ridge.
     method
-        How the searches, and those that go on, are made: without a proposal of its own, by ratio weights. Its power and
-        its moves do not count.
+        The method of all searches: ratio weights, without a proposal. Its power and its moves are ignored.
     searches
-        How many searches.
+        Number of searches.
     states
-        How many paused particles of each are kept.
+        Number of paused particles that each search keeps.
     particles
-        How many particles go on from each of them.
+        Number of particles that continue from each paused particle.
     looks
-        Whether the line sees what the network sees; False for one in the score so far alone, which costs nothing in a
-        search.
+        Whether the function has the inputs of the network. With False it has only the score so far, and takes no time
+        in a search.
     seed
-        Decides everything; fresh when left out.
+        Seed of the training. Default: a new seed.
     threads
-        How many to use; the result does not depend on it.
+        Number of threads; the result does not depend on it.
     progress
-        Called with the searches done and wanted.
+        A function that gets the number of searches so far, and of all searches.
 
     Returns
     -------
     Guide
-        The same guide, which can look ahead. Its report's "look_ahead" has the numbers of paused particles ("rises":
-        learned from, and held out), what the line misses of both and what a constant would ("error", "deviation": root
-        mean squares, nats), how many of the searches that go on "died", and how many searches "failed" by a fault.
+        The guide with a look-ahead. Its report's "look_ahead" has the numbers of paused particles for training and held
+        out ("rises"); the root mean square error of the function and of a constant, in nats ("error", "deviation");
+        the number of continued searches that "died"; and the number of searches that "failed" with a fault.
 
     Raises
     ------
     InputError
-        The guide is of another model or has the dissertation's network; too few particles paused.
+        The guide belongs to another model or has the dissertation's network; too few particles paused.
 
     Examples
     --------
@@ -88,7 +87,7 @@ def train_look_ahead(
     >>> from niwaki.guides import shipped, train_look_ahead
     >>> from niwaki.targets import drawings
     >>> pictures = [drawings.drawing(name) for name in drawings.names("scribbles", "training")]
-    >>> score, place = lambda one: one.score(WINDOW), lambda one: one.place(WINDOW)
+    >>> score, place = lambda drawing: drawing.score(WINDOW), lambda drawing: drawing.place(WINDOW)
     >>> guide = train_look_ahead(shipped(vines), vines, pictures[:9], score, place, searches=18, seed=1)
     >>> guide.report["look_ahead"]["rises"]
     [56, 16]
@@ -99,27 +98,31 @@ def train_look_ahead(
     if not isinstance(guide, Guide):
         raise bad("guide", guide, "a guide", '`niwaki.train_guide(...)` or `Guide.load("vines.guide")`')
     if guide.form.get("image") is not None:
-        raise bad("guide", guide, "a guide with the shared network", "one that was trained with `Training()`")
+        raise bad(
+            "guide", guide, "a guide with the shared network", "a guide of a training with `Training()`"
+        )
     for name, value in (("searches", searches), ("states", states), ("particles", particles)):
         at_least_one(name, value)
     check_room("searches", searches, SEARCH, "search")
     if not isinstance(method, Smc) or method.weights != "ratio" or method.proposal is not None:
         expected = "particles by ratio weights, without a proposal"
         raise bad("method", method, expected, '`smc(10, resampling="tempered")`')
-    everything = list(targets)
-    judged = everything[::EVERY] if held_out is None else list(held_out)
-    learned = [one for i, one in enumerate(everything) if i % EVERY] if held_out is None else everything
-    if not learned:
+    all_targets = list(targets)
+    judging = all_targets[::EVERY] if held_out is None else list(held_out)
+    training = (
+        [target for i, target in enumerate(all_targets) if i % EVERY] if held_out is None else all_targets
+    )
+    if not training:
         raise bad("targets", targets, "at least two targets", "drawings or meshes to grow into")
-    own = with_guide(method, guide)
+    guided_method = with_guide(method, guide)
 
     def task(target: Any) -> _engine.Task:
-        given = () if args is None else tuple(args(target))
-        return Search(model, given, score=score(target), method=own, seed=seed).task
+        arguments = () if args is None else tuple(args(target))
+        return Search(model, arguments, score=score(target), method=guided_method, seed=seed).task
 
-    def watch(done: int, wanted: int, *_: Any) -> None:
-        if progress is not None and wanted:
-            progress(done, wanted)
+    def watch(done: int, total: int, *_: Any) -> None:
+        if progress is not None and total:
+            progress(done, total)
 
     plan = {
         "searches": searches,
@@ -130,12 +133,12 @@ def train_look_ahead(
         "seed": seed,
     }
     with translated(model.name, f"seed={seed}"):
-        engine, told = _engine.rehearse(
-            [task(one) for one in learned],
-            [task(one) for one in judged],
+        engine, report = _engine.rehearse(
+            [task(target) for target in training],
+            [task(target) for target in judging],
             guide._engine,
             json.dumps(plan),
             check_threads(threads) or cpu_count() or 1,
             watch,
         )
-    return Guide(engine.data()).reported({**guide.report, "look_ahead": {"seed": seed, **told}})
+    return Guide(engine.data()).reported({**guide.report, "look_ahead": {"seed": seed, **report}})

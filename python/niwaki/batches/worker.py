@@ -1,7 +1,7 @@
-"""What a worker does with a chunk of searches, in whatever process and on whatever machine it runs.
+"""The work of a worker on a chunk of searches, in any process on any machine.
 
-A chunk names the engine and the bits for which it was made. A worker with others refuses it, because its results could
-be others. Nothing of ours is raised across processes: errors come back as data.
+A chunk names its engine and the bits of its machine. A worker with another engine or other bits refuses the chunk,
+because its results could differ. Errors of Niwaki are not raised across processes: they come back as data.
 """
 
 from __future__ import annotations
@@ -26,35 +26,35 @@ from niwaki.inputs.modules import run_files
 from niwaki.search import Search
 from niwaki.search.request import engine_hash
 
-#: Errors that say something about the machine, and nothing about the search.
+#: Errors of the machine, which tell nothing about the search.
 OF_MACHINE = ("memory-full", "no-room", "untrusted-function")
 
-#: So many cases are kept ready in a worker.
+#: Number of compiled cases in the cache of a worker.
 READY = 32
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """Searches that one worker does, one after the other.
+    """Searches for one worker, which runs them one after the other.
 
     Attributes
     ----------
     engine, bits
-        Of the batch; see `Spec`.
+        Engine and bits of the batch; see `Spec`.
     searches
         The cases as JSON, by number.
-    items
-        Number of a case, and a seed, for each search.
+    jobs
+        The number of a case, and a seed, for each search.
     trust, folders, files
-        Modules whose host functions may be called, where they are looked for, and those that are files, by name.
+        Modules whose host functions may be called, the folders of these modules, and the files of modules by name.
     suspected
-        How often a pool broke while it was under way.
+        How often a pool broke while the chunk was under way.
     """
 
     engine: str
     bits: str
     searches: Mapping[int, str]
-    items: Sequence[tuple[int, int]]
+    jobs: Sequence[tuple[int, int]]
     trust: tuple[str, ...] = ()
     folders: tuple[str, ...] = ()
     suspected: int = 0
@@ -62,22 +62,22 @@ class Chunk:
 
 
 @dataclass
-class Done:
-    """What a worker gives back.
+class ChunkResult:
+    """The answer of a worker to a chunk.
 
     Attributes
     ----------
     bodies
-        Bytes of results, in the order of the chunk; fewer than it has items where there was trouble.
+        Bytes of results, in the order of the chunk; after trouble fewer than the chunk has jobs.
     notes
-        For the log, one for each of these.
+        A note for the log for each result.
     seconds, cpu_seconds
-        Of the searches alone.
+        Wall-clock and processor seconds of the searches alone.
     trouble, trace
-        What stopped it at the next item, which says nothing about that search: an error of the machine, or of ours; in
-        one line, and with the lines of Python that led there.
+        An error of the machine or of Niwaki that stopped the worker at the next job, in one line and with the
+        traceback. It tells nothing about the search.
     refused
-        Why it did nothing.
+        The reason why the worker refused the chunk.
     """
 
     bodies: list[bytes] = field(default_factory=list)
@@ -89,26 +89,26 @@ class Done:
     refused: str = ""
 
 
-def work(chunk: Chunk) -> Done:
-    """Do the searches of a chunk."""
-    done = Done(refused=_unequal(chunk))
+def work(chunk: Chunk) -> ChunkResult:
+    """Run the searches of a chunk."""
+    done = ChunkResult(refused=_mismatch(chunk))
     if done.refused:
         return done
     for folder in chunk.folders:
         if folder not in sys.path:
             sys.path.append(folder)
-    for case, seed in chunk.items:
+    for case, seed in chunk.jobs:
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             run_files(chunk.files)
-            body, said = _searched(chunk.searches[case], chunk.trust, seed)
+            body, note = _search(chunk.searches[case], chunk.trust, seed)
         except (Exception, KeyboardInterrupt) as error:
             done.trouble = f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"
             done.trace = traceback.format_exc(limit=-5)
             break
         spent = time.perf_counter() - wall, time.process_time() - cpu
         done.bodies.append(body)
-        done.notes.append({**said, "seconds": round(spent[0], 6), "cpu_seconds": round(spent[1], 6)})
+        done.notes.append({**note, "seconds": round(spent[0], 6), "cpu_seconds": round(spent[1], 6)})
         done.seconds += spent[0]
         done.cpu_seconds += spent[1]
     for note in done.notes:
@@ -116,9 +116,9 @@ def work(chunk: Chunk) -> Done:
     return done
 
 
-def _searched(text: str, trust: tuple[str, ...], seed: int) -> tuple[bytes, dict[str, Any]]:
-    """One search: the bytes of its result, and what only its log should have."""
-    said: dict[str, Any] = {}
+def _search(text: str, trust: tuple[str, ...], seed: int) -> tuple[bytes, dict[str, Any]]:
+    """Run one search; return the bytes of its result and its note for the log."""
+    note: dict[str, Any] = {}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
@@ -128,15 +128,15 @@ def _searched(text: str, trust: tuple[str, ...], seed: int) -> tuple[bytes, dict
         except NiwakiError as error:
             if error.code in OF_MACHINE:
                 raise
-            body, said = fault_of(error), {"error": str(error)}
+            body, note = fault_of(error), {"error": str(error)}
     if caught:
-        said["warnings"] = [str(one.message) for one in caught]
-    return body, said
+        note["warnings"] = [str(warning.message) for warning in caught]
+    return body, note
 
 
 @lru_cache(READY)
 def _ready(text: str, trust: tuple[str, ...]) -> Search:
-    """A case, compiled."""
+    """Return a compiled case."""
     return Search.of_json(text, trust)
 
 
@@ -145,15 +145,15 @@ def _host() -> str:
     return socket.gethostname()
 
 
-def _unequal(chunk: Chunk) -> str:
-    """What makes this worker unfit for a chunk; empty where nothing does."""
+def _mismatch(chunk: Chunk) -> str:
+    """Describe the difference between this worker and the chunk's engine and bits; empty if there is none."""
     if engine_hash() != chunk.engine:
         return f"`{_host()}` has another engine of Niwaki"
     if _engine.fingerprint() != chunk.bits:
-        return f"`{_host()}` computes other bits with the same engine: its processor or its C library differ"
+        return f"`{_host()}` computes other bits with the same engine: its processor or C library differs"
     return ""
 
 
 def line(key: bytes, note: Mapping[str, Any], attempt: int) -> str:
-    """A line of the log."""
+    """Return a line of the log."""
     return json.dumps({"key": key.hex(), "attempt": attempt, **note})

@@ -44,5 +44,5 @@ def test_a_draw_of_the_prior_does_not() -> None:
 
 
 def test_the_same_seed_starts_at_the_same_place() -> None:
-    (_, one), (_, other) = (start(stacks.cut_stack, seed=3, width=0.1) for _ in range(2))
-    np.testing.assert_array_equal(one, other)
+    (_, first), (_, second) = (start(stacks.cut_stack, seed=3, width=0.1) for _ in range(2))
+    np.testing.assert_array_equal(first, second)
