@@ -124,7 +124,7 @@ def with_origin_at_0(data: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply"])
-def test_plain_files_of_a_far_scene_are_warned_of(tmp_path: Path, suffix: str) -> None:
+def test_plain_files_of_a_far_scene_give_a_warning(tmp_path: Path, suffix: str) -> None:
     with pytest.warns(FarSceneWarning, match="3.9e[+]06 times as far .* .glb has an offset"):
         boxes(0.3, MAP)[0].export(tmp_path / f"boxes.{suffix}")
     with warnings.catch_warnings():
@@ -192,7 +192,7 @@ def pixels(resvg_py: Any, text: str) -> Any:
     return np.asarray(drawn.convert("L").resize((300, 300)))
 
 
-def test_a_page_whose_units_are_no_pixels_has_a_size() -> None:
+def test_a_very_small_or_large_page_has_a_size() -> None:
     resvg_py = pytest.importorskip("resvg_py", reason="resvg draws the pages")
     for size in (1e-6, 0.2, 1.0, 1000.0, 1e6):
         drawn = Image.open(io.BytesIO(bytes(resvg_py.svg_to_bytes(svg_string=svg(discs(size, HERE)[0])))))
