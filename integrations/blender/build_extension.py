@@ -1,9 +1,9 @@
-"""Build the extension for Blender: a zip with its sources and the wheels that it needs.
+"""Build the Blender extension: a zip with its sources and the wheels that it needs.
 
     python integrations/blender/build_extension.py --wheel dist/niwaki-0.1.0-cp311-abi3-linux_x86_64.whl --out dist
 
 The wheels are those of requirements/core.txt, at its versions and hashes, without NumPy, which Blender has. Blender
-before 5.1 has Python 3.11, later ones 3.13; a zip is for one of them and one platform.
+before 5.1 has Python 3.11, later versions have 3.13. A zip is for one Python and one platform.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ HERE = Path(__file__).resolve().parent
 SOURCES = HERE / "niwaki_blender"
 LOCK = HERE.parent.parent / "requirements" / "core.txt"
 
-#: Packages that the worker imports, beside NumPy.
+#: Packages that the worker imports, except NumPy.
 NEEDED = ("lazy-loader", "mapbox-earcut", "msgspec", "packaging", "pillow", "trimesh", "typing-extensions")
-#: Blender's first version with each Python, and the first that has another.
+#: The first version of Blender with each Python, and the first version with another Python.
 BLENDERS = {"3.11": ("4.2.0", "5.1.0"), "3.13": ("5.1.0", None)}
-#: Blender's names of platforms, and which wheels serve them.
+#: Blender's names of platforms, with the tags of their wheels.
 PLATFORMS = {
     "linux-x64": ("manylinux_2_28_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64"),
     "macos-arm64": ("macosx_11_0_arm64", "macosx_10_13_universal2"),
@@ -34,9 +34,9 @@ PLATFORMS = {
 
 
 def requirements(lock: str) -> str:
-    """What is needed of a lock, with its hashes."""
+    """Select the needed entries of a lock file, with their hashes."""
     entries = re.split(r"\n(?=\S)", lock)
-    return "\n".join(one for one in entries if re.split(r"[=\s]", one)[0] in NEEDED)
+    return "\n".join(entry for entry in entries if re.split(r"[=\s]", entry)[0] in NEEDED)
 
 
 def fetch(folder: Path, python: str, platform: str) -> None:
@@ -62,13 +62,13 @@ def fetch(folder: Path, python: str, platform: str) -> None:
             "-d",
             str(folder),
         ]
-        for one in PLATFORMS[platform]:
-            command += ["--platform", one]
+        for tag in PLATFORMS[platform]:
+            command += ["--platform", tag]
         subprocess.run([*command, "-r", str(listed)], check=True)
 
 
 def manifest(version: str, python: str, platform: str, wheels: list[str]) -> str:
-    """The manifest of a zip."""
+    """Write the manifest of a zip."""
     text = (SOURCES / "blender_manifest.toml").read_text()
     first, last = BLENDERS[python]
     text = re.sub(r'^version = ".*"$', f'version = "{version}"', text, flags=re.M)
@@ -82,14 +82,14 @@ def manifest(version: str, python: str, platform: str, wheels: list[str]) -> str
 
 
 def build(wheel: Path, out: Path, python: str, platform: str) -> Path:
-    """Build a zip; the same sources and wheels give the same bytes."""
+    """Build a zip; equal sources and wheels give equal bytes."""
     version = wheel.name.split("-")[1]
     first = BLENDERS[python][0].rpartition(".")[0]
     with tempfile.TemporaryDirectory() as temporary:
         fetch(Path(temporary), python, platform)
-        wheels = {one.name: one.read_bytes() for one in [wheel, *Path(temporary).glob("*.whl")]}
+        wheels = {path.name: path.read_bytes() for path in [wheel, *Path(temporary).glob("*.whl")]}
     files = {f"wheels/{name}": data for name, data in wheels.items()}
-    files |= {one.name: one.read_bytes() for one in SOURCES.glob("*.py")}
+    files |= {path.name: path.read_bytes() for path in SOURCES.glob("*.py")}
     files["blender_manifest.toml"] = manifest(version, python, platform, sorted(wheels)).encode()
     out.mkdir(parents=True, exist_ok=True)
     place = out / f"niwaki-{version}-blender{first}-{platform}.zip"
@@ -104,11 +104,14 @@ def build(wheel: Path, out: Path, python: str, platform: str) -> Path:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description="Build the extension for Blender.")
-    parser.add_argument("--wheel", type=Path, required=True, help="of Niwaki")
+    parser.add_argument("--wheel", type=Path, required=True, help="the wheel of Niwaki")
     parser.add_argument("--out", type=Path, default=Path("dist"), help="the folder of the zip")
     parser.add_argument(
-        "--python", choices=BLENDERS, default="3.11", help="Blender's: 3.11, or 3.13 from 5.1 on"
+        "--python",
+        choices=BLENDERS,
+        default="3.11",
+        help="Blender's Python: 3.11, or 3.13 from Blender 5.1 on",
     )
     parser.add_argument("--platform", choices=PLATFORMS, default="linux-x64")
-    given = parser.parse_args()
-    print(build(given.wheel, given.out, given.python, given.platform))
+    arguments = parser.parse_args()
+    print(build(arguments.wheel, arguments.out, arguments.python, arguments.platform))

@@ -51,7 +51,7 @@ def test_sliders_move_during_a_search_and_the_newest_values_win(open_page, serve
     until(page, "window.__studio.view.searching")
     for count in (3, 5, 7):
         page.get_by_role("slider", name="results").fill(str(count))
-    page.get_by_role("slider", name="Difference of results").fill("0.5")
+    page.get_by_role("slider", name="Variety").fill("0.5")
     assert page.locator("aside input:disabled, aside select:disabled").count() == 0
     until(page, "window.__studio.view.settings.count == 7 && window.__studio.view.settings.strength == 0.5")
     assert page.evaluate("window.__studio.view.searching !== null")
@@ -165,7 +165,7 @@ def test_undo_ten_deep_and_redo_give_the_same_states(open_page, served):
     do(lambda: page.locator(".card .star").nth(1).click())
     do(lambda: page.locator("[role=option]").nth(2).click())
     do(lambda: page.get_by_role("slider", name="results").fill("5"))
-    do(lambda: page.get_by_role("slider", name="Difference of results").fill("0.75"))
+    do(lambda: page.get_by_role("slider", name="Variety").fill("0.75"))
     until(page, "window.__studio.described?.key.number == 2")
     do(lambda: page.locator(".choice .icon-button").first.click())
     do(lambda: page.locator(".choice .icon-button").nth(1).click())

@@ -151,7 +151,7 @@ def test_the_difference_to_a_drawn_silhouette_lies_over_the_view(open_page, serv
 def test_starred_results_stand_side_by_side_seen_by_one_camera(open_page, served):
     page = open_page(served)
     choose(page, "spaceship", 3)
-    page.get_by_role("slider", name="Difference of results").fill("1")
+    page.get_by_role("slider", name="Variety").fill("1")
     until(page, "window.__studio.view.settings.strength == 1")
     grow(page)
     at_rest(page)

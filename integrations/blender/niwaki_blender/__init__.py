@@ -1,26 +1,26 @@
 """Niwaki in Blender: grow models into meshes of the scene.
 
-Without Blender (tests import these):
+Modules without `bpy`, which tests import:
 
-- `axes`       Blender's coordinates and those of a scene
-- `asking`     what is asked, as values that a worker process is sent
-- `growing`    a search in a worker process, watched from a thread
-- `grid`       places for several results
-- `naming`     which model files may be run
+- `axes`         coordinates of Blender and of scenes
+- `order`        the goals of a search as values for a worker process
+- `growth`       a search in a worker process, watched by a thread
+- `grid`         places for several results
+- `permissions`  model files that may be run
 
-With Blender:
+Modules with `bpy`:
 
-- `reading`    objects, cameras, lights and images of the scene as arrays
-- `placing`    results as collections of objects
-- `keeping`    the search of a collection, in the .blend
-- `settings`   what the panel asks, stored with the scene
-- `operators`  grow, re-roll, again, hold, cancel, trust
-- `panel`      the panel in the sidebar
+- `conversion`   objects, cameras, lights and images of the scene as arrays
+- `placement`    results as collections of objects
+- `storage`      the search of a collection, in the .blend
+- `settings`     the settings of the panel, stored with the scene
+- `operators`    grow, re-roll, again, hold, cancel, open, trust
+- `panel`        the panel in the sidebar
 """
 
 
 def register() -> None:
-    """Called by Blender when the extension is enabled."""
+    """Register the extension; Blender calls this to enable it."""
     # Only Blender has `bpy`.
     from . import operators, panel, settings
 
@@ -30,7 +30,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Called by Blender when the extension is disabled."""
+    """Unregister the extension; Blender calls this to disable it."""
     from . import operators, panel, settings
 
     panel.unregister()

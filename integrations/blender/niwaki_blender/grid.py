@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import ceil, sqrt
 
-#: The distance of two results, in their longest side.
+#: The distance between results, as a factor of the longest side.
 APART = 1.25
 
 
 def places(sizes: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Where results stand, (x, y) of Blender: rows along x, the next row behind.
+    """Compute the places of results, (x, y) of Blender: rows along x, the next row behind.
 
     Parameters
     ----------

@@ -5,11 +5,11 @@ from typing import Any
 
 import bpy
 
-from . import growing, keeping, naming, operators
+from . import growth, operators, permissions, storage
 
 
 class NIWAKI_PT_panel(bpy.types.Panel):
-    """What is asked, the search that is going on, and the active result."""
+    """The panel: settings, the running search, and the active result."""
 
     bl_idname = "NIWAKI_PT_panel"
     bl_label = "Niwaki"
@@ -18,7 +18,7 @@ class NIWAKI_PT_panel(bpy.types.Panel):
     bl_category = "Niwaki"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw it."""
+        """Draw the panel."""
         layout, settings = self.layout, context.scene.niwaki_settings
         layout.use_property_split = True
         self._model(layout, settings)
@@ -34,13 +34,13 @@ class NIWAKI_PT_panel(bpy.types.Panel):
         column = layout.column()
         for name in ("count", "effort", "seed"):
             column.prop(settings, name)
-        found = operators.running()
-        if found is None:
+        search = operators.running()
+        if search is None:
             layout.operator("niwaki.grow", icon="OUTLINER_OB_FORCE_FIELD").count = 0
-            layout.operator("niwaki.grow", text="Ten Different Ones", icon="GRID").count = 10
+            layout.operator("niwaki.grow", text="Ten Different Results", icon="GRID").count = 10
         else:
-            self._progress(layout, found)
-        result = keeping.result_of(context.object)
+            self._progress(layout, search)
+        result = storage.result_of(context.object)
         if result is not None:
             self._result(layout, result)
 
@@ -53,12 +53,12 @@ class NIWAKI_PT_panel(bpy.types.Panel):
             layout.prop(settings, "model")
         else:
             layout.prop(settings, "function")
-            if not naming.named(file):
+            if not permissions.is_allowed(file):
                 _trust(layout, file)
         layout.prop(settings, "arguments")
 
-    def _progress(self, layout: Any, found: growing.Growing) -> None:
-        now = found.progress
+    def _progress(self, layout: Any, search: growth.Growth) -> None:
+        now = search.progress
         text = "Starting" if now is None else f"{now.seconds:.0f} s, round {now.done}"
         if now is not None and now.best is not None:
             text += f", score {now.best:.1f}"
@@ -72,17 +72,17 @@ class NIWAKI_PT_panel(bpy.types.Panel):
         if "niwaki_covered" in result:
             numbers.append(f"{result['niwaki_covered']:.0%} covered, {result['niwaki_outside']:.0%} outside")
         box.label(text=", ".join(numbers))
-        box.label(text=f"{len(keeping.held(result))} parts are held")
+        box.label(text=f"Held parts: {len(storage.held(result))}")
         row = box.row(align=True)
         for name in ("hold", "reroll", "again"):
             row.operator(f"niwaki.{name}")
-        run = keeping.run_of(result)
-        if run is not None and keeping.FILE in run and not naming.named(Path(run[keeping.FILE])):
-            _trust(box, Path(run[keeping.FILE]), run[keeping.FILE_HASH])
+        run = storage.run_of(result)
+        if run is not None and storage.FILE in run and not permissions.is_allowed(Path(run[storage.FILE])):
+            _trust(box, Path(run[storage.FILE]), run[storage.FILE_HASH])
 
 
 def _trust(layout: Any, file: Path, sha256: str = "") -> None:
-    """A button that agrees to a file with these bytes; with those that it has, where there is no hash."""
+    """Draw the button that trusts a file with this hash; without a hash, the file's present bytes."""
     button = layout.operator("niwaki.trust", text=f"Trust {file.name}", icon="QUESTION")
     button.filepath, button.sha256 = str(file), sha256
 
@@ -93,5 +93,5 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove it."""
+    """Remove the panel."""
     bpy.utils.unregister_class(NIWAKI_PT_panel)

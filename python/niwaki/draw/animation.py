@@ -1,7 +1,7 @@
-"""Moving pictures: a scene growing part by part, or any sequence of its states, as GIF or animated PNG.
+"""Moving pictures: a scene that grows part by part, or any sequence of scenes, as GIF or animated PNG.
 
-Camera, floor and colours are those of the whole for every frame, so that only new parts change the picture. GIF has 256
-colours: all frames share one palette, and a fixed pattern of dots (Bayer 1973) hides its steps without flickering.
+Every frame has the camera, floor and colours of the whole scene, so that only new parts change the picture. GIF has 256
+colours: all frames share a palette, and a fixed pattern of dots (Bayer 1973) hides its steps without flicker.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from niwaki.errors.settings import count
 
 FORMATS = (".gif", ".apng")
 
-#: The last frame stays for this long, seconds.
+#: Duration of the last frame, seconds.
 HOLD = 1.5
 
-#: Bayer's 4 x 4 pattern, from -0.5 to 0.5, and the height of its dots in steps of 8-bit colour.
+#: Bayer's 4 x 4 pattern, from -0.5 to 0.5, and its amplitude in steps of 8-bit colour.
 PATTERN = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]]) / 15.0 - 0.5
 DOTS = 10.0
 
@@ -42,20 +42,20 @@ def growth(
     frames: int = 48,
     **settings: Any,
 ) -> Path:
-    """Write a scene growing, part by part.
+    """Write an animation of a scene that grows part by part.
 
     Parameters
     ----------
     scene
-        The whole.
+        The whole scene.
     path
-        Ends in .gif or .apng.
+        The file; its name ends in .gif or .apng.
     target
-        Drawn as a ghost in every frame, when given.
+        The target to draw as a ghost in every frame.
     parts
-        The scene's parts in the order of appearing; that of their addresses when left out.
+        The scene's parts in the order of their appearance; in the order of their addresses when left out.
     frames
-        Most frames; several parts appear in one where there are more parts.
+        The largest number of frames; with more parts than frames, several parts appear in a frame.
     settings
         As for `animate`.
     """
@@ -79,37 +79,37 @@ def animate(
     like: Assembly | None = None,
     **settings: Any,
 ) -> Path:
-    """Write a sequence of scenes as one moving picture, such as the states of a chain.
+    """Write a sequence of scenes as a moving picture, for example the states of a chain.
 
     Parameters
     ----------
     states
         The scenes, first to last; some may be empty.
     path
-        Ends in .gif or .apng.
+        The file; its name ends in .gif or .apng.
     target
-        Drawn as a ghost in every frame, when given.
+        The target to draw as a ghost in every frame.
     seconds
-        From the first frame to the last, which then stays for `HOLD` seconds more.
+        Time from the first frame to the last, which stays for `HOLD` more seconds.
     size
         Width and height in pixels.
     samples
-        Rays for each pixel.
+        The number of rays for each pixel.
     like
-        A scene whose framing, floor and palette every frame takes; all states together when left out.
+        The scene whose framing, floor and palette every frame has; all states together when left out.
     settings
-        As for `niwaki.draw.picture.picture`, except `backdrop="clear"` for GIF, which has no half transparency.
+        As for `niwaki.draw.picture.picture`, except `backdrop="clear"` for GIF, which has no partial transparency.
 
     Returns
     -------
     pathlib.Path
-        The file, written completely or not at all.
+        The file. It is written completely or not at all.
     """
     place = Path(path)
     suffix = place.suffix.lower()
     if suffix not in FORMATS:
-        found = place.suffix or "no suffix"
-        raise FileError("file-format", place, suffix=found, done="animated", formats=", ".join(FORMATS))
+        ending = place.suffix or "no suffix"
+        raise FileError("file-format", place, suffix=ending, done="animated", formats=", ".join(FORMATS))
     if not 0.0 < seconds <= 3600.0:
         raise FileError("setting", name="seconds", found=seconds, expected="a number above 0, at most 3600")
     if suffix == ".gif" and settings.get("backdrop") == "clear":
@@ -120,25 +120,27 @@ def animate(
     if len(whole) == 0:
         raise FileError("scene-empty", place, verb="animate")
     check_size(size, len(states))
-    drawn = [picture(state, target, size=size, samples=samples, like=whole, **settings) for state in states]
-    # Both formats count time in hundredths of a second or coarser; browsers slow down what is faster than 0.02 s.
-    step = max(20, 10 * round(100.0 * seconds / len(drawn)))
-    times = [step] * (len(drawn) - 1) + [step + round(1000 * HOLD)]
-    return write_whole(place, _gif(drawn, times) if suffix == ".gif" else _apng(drawn, times))
+    pictures = [
+        picture(state, target, size=size, samples=samples, like=whole, **settings) for state in states
+    ]
+    # Both formats count time in hundredths of a second; browsers slow down frames shorter than 0.02 s.
+    step = max(20, 10 * round(100.0 * seconds / len(pictures)))
+    times = [step] * (len(pictures) - 1) + [step + round(1000 * HOLD)]
+    return write_whole(place, _gif(pictures, times) if suffix == ".gif" else _apng(pictures, times))
 
 
 def _gif(images: Sequence[Image.Image], times: list[int]) -> bytes:
-    """All frames in one palette of 256 colours."""
-    solid = [_dotted(image) for image in images]
+    """Encode all frames with a palette of 256 colours."""
+    solid = [_dither(image) for image in images]
     palette = _palette(solid).quantize(256, Image.Quantize.MEDIANCUT)
     plain = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in solid]
-    return _saved(plain, times, "GIF", optimize=False, disposal=1)
+    return _encode(plain, times, "GIF", optimize=False, disposal=1)
 
 
 def _palette(images: Sequence[Image.Image]) -> Image.Image:
-    """The colours of the first, middle and last image, each as often as the square root of its count.
+    """Sample the colours of the first, middle and last image, each by the square root of its count.
 
-    Otherwise a wide backdrop would use the whole palette, and the colour of a small part would be lost.
+    Otherwise a wide backdrop would use the whole palette, and the colours of small parts would be lost.
     """
     shown = [images[k] for k in sorted({0, len(images) // 2, len(images) - 1})]
     pixels = np.concatenate([np.asarray(image).reshape(-1, 3) for image in shown])
@@ -150,18 +152,18 @@ def _palette(images: Sequence[Image.Image]) -> Image.Image:
 
 
 def _apng(images: Sequence[Image.Image], times: list[int]) -> bytes:
-    return _saved(images, times, "PNG")
+    return _encode(images, times, "PNG")
 
 
-def _saved(images: Sequence[Image.Image], times: list[int], kind: str, **options: Any) -> bytes:
+def _encode(images: Sequence[Image.Image], times: list[int], kind: str, **options: Any) -> bytes:
     out = io.BytesIO()
-    first, *others = images
-    first.save(out, kind, save_all=True, append_images=others, duration=times, loop=0, **options)
+    first, *rest = images
+    first.save(out, kind, save_all=True, append_images=rest, duration=times, loop=0, **options)
     return out.getvalue()
 
 
-def _dotted(image: Image.Image) -> Image.Image:
-    """The image with the fixed pattern of dots added, so that 256 colours show no bands."""
+def _dither(image: Image.Image) -> Image.Image:
+    """Add the fixed pattern of dots to an image, so that 256 colours show no bands."""
     pixels: NDArray[np.float64] = np.asarray(image.convert("RGB"), dtype=np.float64)
     height, width, _ = pixels.shape
     dots = np.tile(PATTERN, (-(-height // 4), -(-width // 4)))[:height, :width, None] * DOTS
@@ -169,14 +171,14 @@ def _dotted(image: Image.Image) -> Image.Image:
 
 
 def _together(states: Sequence[Assembly]) -> Assembly:
-    """One scene with the parts of all states, to frame by; a part that stays the same is taken once."""
-    found: dict[tuple[str, int], Part] = {}
+    """Collect the parts of all states in a scene, for the framing; unchanged parts appear once."""
+    parts: dict[tuple[str, int], Part] = {}
     for state in states:
         for part in state:
-            found.setdefault((part.address, _shapes(part)), part)
-    return Assembly(found.values())
+            parts.setdefault((part.address, _shapes(part)), part)
+    return Assembly(parts.values())
 
 
 def _shapes(part: Part) -> int:
-    """A number that distinguishes a part's shapes from others at its address."""
+    """Hash a part's shapes, to distinguish them from other shapes at its address."""
     return hash(tuple(shape.vertices().tobytes() for shape in part.shapes))

@@ -1,7 +1,6 @@
-"""The parts that a model emitted, each named by the address of its `emit`.
+"""Assemblies: the parts that a model emitted, each named by the address of its `emit`.
 
-An assembly is a multiset; its parts are kept in the order of their addresses, so that two runs which emitted the same
-parts in different order give the same files.
+An assembly is a multiset, sorted by address, so that two runs with equal parts in different order give equal files.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ from niwaki._engine import Shape
 
 
 class Volume(Protocol):
-    """What a scene should fill, as a picture needs it: a mesh that is drawn as a ghost."""
+    """A target as a picture needs it: a mesh that is drawn as a ghost."""
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]
 
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """Low and high corner, (2, 3)."""
+        """Low and high corner of the mesh, (2, 3)."""
         ...
 
 
@@ -37,9 +36,9 @@ class Part:
     Attributes
     ----------
     address : str
-        Where the model emitted them, readable.
+        The readable address of the `emit`.
     shapes : tuple of Shape
-        In the order of the call.
+        The shapes, in the order of the call.
     """
 
     address: str
@@ -47,12 +46,12 @@ class Part:
 
 
 class Assembly:
-    """Parts in the order of their addresses: what a scene is, for those who draw and write it.
+    """Parts in the order of their addresses: a scene as drawing and writing need it.
 
     Parameters
     ----------
     parts
-        Pairs of an address and its shapes.
+        Parts, or pairs of an address and its shapes.
 
     Attributes
     ----------
@@ -86,17 +85,17 @@ class Assembly:
 
     @property
     def size(self) -> NDArray[np.float64]:
-        """Extent along x, y and z, (3,)."""
+        """Extent of the scene along x, y and z, (3,)."""
         low, high = self.bounds
         return np.asarray(high - low)
 
     def merged(self, fine: bool = True) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """All shapes as one mesh, without joining them.
+        """Collect all shapes in a single mesh, without joining them.
 
         Parameters
         ----------
         fine
-            The mesh of pictures; otherwise the light one that scores see.
+            True for the mesh of pictures, False for the light mesh of scores.
 
         Returns
         -------

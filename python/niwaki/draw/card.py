@@ -1,4 +1,4 @@
-"""A picture and its numbers, as a notebook shows them: a piece of HTML that asks for nothing from elsewhere."""
+"""Cards for notebooks: a picture and its numbers as a piece of HTML without external resources."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-#: The settings of a picture that is drawn in about a tenth of a second.
+#: Settings of a picture that takes about a tenth of a second.
 QUICK: dict[str, Any] = {"size": (480, 360), "samples": 4}
 
 LEFT = 'style="text-align:left"'
@@ -15,14 +15,14 @@ STYLE = "display:flex;gap:1.5em;flex-wrap:wrap;align-items:center"
 
 
 def card(title: str, rows: Mapping[str, object], png: bytes | None = None) -> str:
-    """A title, a table of two columns and a picture.
+    """Write a title, a table of two columns and a picture as HTML.
 
     Parameters
     ----------
     title
-        One line above the table.
+        The line above the table.
     rows
-        Names and their values; one without a value is left out.
+        Values by name; None is left out.
     png
         The picture as the bytes of a PNG file.
     """

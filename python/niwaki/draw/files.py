@@ -1,10 +1,10 @@
-"""A scene as a file for another tool; the suffix decides the format.
+"""A scene as a file for other programs; the suffix determines the format.
 
-.glb         a node for each part, materials, shared meshes: Blender, game engines, the web   glb.py
-.obj, .ply   plain meshes with colours                                                        mesh_files.py
-.stl, .3mf   one watertight solid in millimetres, z up, for printing                          solid.py, print_files.py
-.gif, .apng  the scene growing, part by part                                                  animation.py
-.svg         a scene of flat shapes: a group with a readable id for each part                 flat/svg.py
+    .glb         a node for each part, materials, shared meshes: Blender, games, the web  glb.py
+    .obj, .ply   plain meshes with colours                                                mesh_files.py
+    .stl, .3mf   a watertight solid in millimetres, z up, for printing                    solid.py, print_files.py
+    .gif, .apng  an animation of the growth, part by part                                 animation.py
+    .svg         a scene of flat shapes: a group with a readable id for each part         flat/svg.py
 
 A file is written completely or not at all.
 """
@@ -48,16 +48,16 @@ def export(
     Parameters
     ----------
     scene
-        What to write.
+        The scene.
     path
-        Where to.
+        The file.
     scale
         For .stl and .3mf: millimetres for each scene unit; 1000 when left out, because scenes are in metres.
     fuse
-        For .stl and .3mf: how far each shape is swollen before joining, scene units; when left out enough for shapes
-        that touch to hang together, and too little to see.
+        For .stl and .3mf: the distance by which each shape expands before the union, scene units. The default is enough
+        to connect shapes that touch, and too small to see.
     about
-        What the scene came from; .glb has it among its extras.
+        The origin of the scene, for the extras of a .glb file.
     settings
         For .svg: `style`, `window` and `margin`, as for a picture of flat shapes.
 
@@ -69,7 +69,7 @@ def export(
     Raises
     ------
     FileError
-        Another ending, an empty scene, a part that is not a solid (.stl, .3mf), or a place that cannot be written to.
+        The suffix is unknown, the scene is empty, a part is not a solid (.stl, .3mf), or the file cannot be written.
 
     Warns
     -----
@@ -80,11 +80,13 @@ def export(
     suffix = check_format(place)
     for name, number in (("scale", scale), ("fuse", fuse)):
         if number is not None and suffix not in SOLIDS:
-            expected = f"left out: it is for {' and '.join(SOLIDS)}, and {suffix} keeps the scene as it is"
+            expected = (
+                f"left out: it is for {' and '.join(SOLIDS)}, and a {suffix} file has the scene unchanged"
+            )
             raise FileError("setting", place, name=name, found=number, expected=expected)
     if settings and suffix not in DRAWINGS:
-        name, found = next(iter(settings.items()))
-        raise FileError("setting", place, name=name, found=found, expected="left out: it is for .svg")
+        name, value = next(iter(settings.items()))
+        raise FileError("setting", place, name=name, found=value, expected="left out: it is for .svg")
     if len(scene) == 0:
         raise FileError("scene-empty", place, verb="write")
     if suffix in DRAWINGS:
@@ -103,9 +105,9 @@ def export(
 
 
 def check_format(place: Path) -> str:
-    """The end of a file's name, in lower case, when it is one that can be written."""
+    """Return the suffix of a file in lower case, if it is a known format."""
     suffix = place.suffix.lower()
     if suffix not in FORMATS:
-        found = place.suffix or "no suffix"
-        raise FileError("file-format", place, suffix=found, done="written", formats=", ".join(FORMATS))
+        ending = place.suffix or "no suffix"
+        raise FileError("file-format", place, suffix=ending, done="written", formats=", ".join(FORMATS))
     return suffix

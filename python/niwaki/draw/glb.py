@@ -1,13 +1,13 @@
 """A scene as a GLB file: nodes in the hierarchy of the model's calls; equal parts share a mesh.
 
-Written here rather than by a library, so that the same scene gives the same bytes (glTF 2.0, section 4 for the
-container, 3.6 for buffers, 3.5.3 for nodes). The node of a part carries its address as an extra, and each choice of the
-run is an extra of the node of its call. Parts of equal geometry (`niwaki.draw.instances`) share its buffers; where
-their paints are equal too they share the whole mesh, so that a modelling program opens them as linked copies.
+Niwaki writes the file itself rather than by a library, so that equal scenes give equal bytes (glTF 2.0, section 4 for
+the container, 3.6 for buffers, 3.5.3 for nodes). The node of a part has its address as an extra, and each choice of the
+run is an extra of the node of its call. Parts of equal geometry (`niwaki.draw.instances`) share buffers. Parts with
+equal paints as well share the whole mesh, so that a modelling program opens them as linked copies.
 
-Lengths are metres, y is up, as glTF requires. A part's node has the part's own frame (`niwaki.draw.parts.Pivot`): its
-first shape's. The node of a call stands where its first part stands, with the scene's axes. A scene far from the origin
-(`niwaki.draw.far`) is below one node more, `origin`, which has the offset.
+Lengths are metres and y is up, as glTF requires. The node of a part has the frame of its first shape
+(`niwaki.draw.parts.Pivot`). The node of a call is at the place of its first part, with the scene's axes. A scene far
+from the origin (`niwaki.draw.far`) is below an additional node, `origin`, with the offset.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ from niwaki.draw.instances import Geometry, Instance, instances, quaternion
 from niwaki.draw.palette import Paint
 from niwaki.draw.parts import part_meshes
 
-# glTF's names for numbers.
+# Constants of glTF.
 FLOAT, UNSIGNED_INT, ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, TRIANGLES = 5126, 5125, 34962, 34963, 4
 
 
 class _Buffer:
-    """Bytes with their descriptions."""
+    """The binary data of a file, with views and accessors."""
 
     def __init__(self) -> None:
         self.data = bytearray()
@@ -47,7 +47,7 @@ class _Buffer:
         data = array.tobytes()
         view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), "target": target}
         self.views.append(view)
-        self.data.extend(data)  # all components have four bytes, so offsets stay aligned
+        self.data.extend(data)  # every component has four bytes, so offsets stay aligned
         entry = {
             "bufferView": len(self.views) - 1,
             "componentType": component,
@@ -62,7 +62,7 @@ class _Buffer:
 
 @dataclass(frozen=True)
 class About:
-    """What a scene came from, for the extras of a file.
+    """The origin of a scene, for the extras of a file: its model and choices.
 
     Attributes
     ----------
@@ -77,41 +77,41 @@ class About:
 
 
 def glb(scene: Assembly, about: About | None = None) -> bytes:
-    """Return the scene as the bytes of a GLB file; equal scenes with equal choices give equal bytes."""
+    """Write the scene as the bytes of a GLB file; equal scenes with equal choices give equal bytes."""
     parts = part_meshes(scene)
     geometries, placed = instances(parts)
     buffer = _Buffer()
-    stored = [_stored(geometry, buffer) for geometry in geometries]
+    primitives_of = [_store(geometry, buffer) for geometry in geometries]
     materials: dict[Paint, int] = {}
     meshes: dict[tuple[int, tuple[Paint, ...]], int] = {}
-    written: list[dict[str, Any]] = []
+    mesh_entries: list[dict[str, Any]] = []
     nodes = []
     for part, instance in zip(parts, placed, strict=True):
-        worn = tuple(piece.paint for piece in part.pieces)
-        if (instance.mesh, worn) not in meshes:
-            meshes[instance.mesh, worn] = len(written)
+        paints = tuple(piece.paint for piece in part.pieces)
+        if (instance.mesh, paints) not in meshes:
+            meshes[instance.mesh, paints] = len(mesh_entries)
             primitives = [
                 {**shared, "material": materials.setdefault(paint, len(materials)), "mode": TRIANGLES}
-                for shared, paint in zip(stored[instance.mesh], worn, strict=True)
+                for shared, paint in zip(primitives_of[instance.mesh], paints, strict=True)
             ]
-            written.append({"name": "", "primitives": primitives})
-        nodes.append(_node(part.address, meshes[instance.mesh, worn], instance))
-    noted = [] if about is None else [(address, plain(value)) for address, value in about.choices.items()]
-    roots, others = hierarchy(nodes, noted)
+            mesh_entries.append({"name": "", "primitives": primitives})
+        nodes.append(_node(part.address, meshes[instance.mesh, paints], instance))
+    choices = [] if about is None else [(address, plain(value)) for address, value in about.choices.items()]
+    roots, unplaced = hierarchy(nodes, choices)
     if is_far(scene.bounds):
         roots = [_below_origin(nodes, roots, scene)]
-    listed = [{"address": address, "value": value} for address, value in others]
+    listed = [{"address": address, "value": value} for address, value in unplaced]
     extras = {} if about is None else {"extras": {"niwaki": {"model": about.model, "choices": listed}}}
     for node in nodes[: len(parts)]:
-        written[node["mesh"]]["name"] = written[node["mesh"]]["name"] or node["name"]
-    names = materials_named(materials)
+        mesh_entries[node["mesh"]]["name"] = mesh_entries[node["mesh"]]["name"] or node["name"]
+    names = material_names(materials)
     return _container(
         {
             "asset": {"version": "2.0", "generator": "niwaki"},
             "scene": 0,
             "scenes": [{"nodes": roots, **extras}],
             "nodes": nodes,
-            "meshes": written,
+            "meshes": mesh_entries,
             "materials": [_material(paint, name) for paint, name in zip(materials, names, strict=True)],
             "accessors": buffer.accessors,
             "bufferViews": buffer.views,
@@ -121,9 +121,9 @@ def glb(scene: Assembly, about: About | None = None) -> bytes:
     )
 
 
-def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
-    """Put a geometry into the buffer; for each piece what its primitives refer to."""
-    found = []
+def _store(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
+    """Add a geometry to the buffer; return attributes and indices for each piece."""
+    primitives = []
     for piece in geometry.part.pieces:
         local, normals = geometry.local(piece.vertices), geometry.local_directions(piece.normals)
         attributes = {
@@ -132,8 +132,8 @@ def _stored(geometry: Geometry, buffer: _Buffer) -> list[dict[str, Any]]:
         }
         corners = piece.faces.astype("<u4").reshape(-1)
         indices = buffer.add(corners, "SCALAR", UNSIGNED_INT, ELEMENT_ARRAY_BUFFER)
-        found.append({"attributes": attributes, "indices": indices})
-    return found
+        primitives.append({"attributes": attributes, "indices": indices})
+    return primitives
 
 
 def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
@@ -147,8 +147,8 @@ def _node(address: str, mesh: int, instance: Instance) -> dict[str, Any]:
 
 
 def _below_origin(nodes: list[dict[str, Any]], roots: list[int], scene: Assembly) -> int:
-    """Move the topmost nodes below one that has the offset of the scene; its number."""
-    # A number of 32 bits, so that programs which keep no more of it lose nothing.
+    """Move the topmost nodes below a new node with the offset of the scene; return its number."""
+    # The offset has 32 bits, so that programs with such numbers lose no digits.
     offset = scene.bounds.mean(axis=0).astype(np.float32).astype(np.float64)
     for root in roots:
         nodes[root]["translation"] = (nodes[root]["translation"] - offset).tolist()
@@ -156,8 +156,8 @@ def _below_origin(nodes: list[dict[str, Any]], roots: list[int], scene: Assembly
     return len(nodes) - 1
 
 
-def materials_named(materials: Iterable[Paint]) -> list[str]:
-    """Names of materials, each once: the second "bark" is "bark 2"."""
+def material_names(materials: Iterable[Paint]) -> list[str]:
+    """Make unique names of materials: the second "bark" becomes "bark 2"."""
     counts: Counter[str] = Counter()
     names = []
     for paint in materials:
@@ -179,13 +179,13 @@ def _material(paint: Paint, name: str) -> dict[str, Any]:
 
 
 def _linear(c: float) -> float:
-    """From sRGB, as colours are written, to linear, as glTF wants them."""
+    """Convert sRGB, the space of colours in Niwaki, to linear colour, the space of glTF."""
     c = min(max(c, 0.0), 1.0)
     return c / 12.92 if c <= 0.04045 else float(((c + 0.055) / 1.055) ** 2.4)
 
 
 def _container(document: dict[str, Any], data: bytes) -> bytes:
-    """The two chunks of a GLB file."""
+    """Write the two chunks of a GLB file."""
     text = json.dumps(document, separators=(",", ":"), ensure_ascii=True).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data

@@ -1,12 +1,12 @@
-"""The nodes of a file in the hierarchy of the model's calls.
+"""The hierarchy of nodes in a file: the calls of the model.
 
-A component of an address (a call, an iteration of a loop) is a node that holds the nodes below it. The last component
-names the part; an `emit` without a name is called after its call. A node that would hold one node only is that node,
-its name written before with a dot, and so are the components below the depth `DEEPEST`, where readers that call
-themselves could fail. So no name has a slash.
+A component of an address (a call, an iteration of a loop) is a node that contains the nodes below it. The last
+component names the part; an `emit` without a name gets the name of its call. A node with a single child is merged with
+the child, and their names are joined by a dot. Components below the depth `DEEPEST` are merged in the same way, because
+recursive readers could fail there. No name has a slash.
 
-A node that holds others stands where the first of them stands, and turning it turns them about that place. A choice is
-an extra of the node of its call; of a call that emits nothing, of the nearest call around it that has a node.
+A node with children is at the place of its first child, and a rotation turns all children about this place. A choice is
+an extra of the node of its call. If the call emits nothing, the nearest outer call with a node has the extra.
 """
 
 from __future__ import annotations
@@ -16,38 +16,39 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-#: Most levels of nodes: Blender shows them all, and readers that call themselves survive.
+#: The most levels of nodes: Blender shows all of them, and recursive readers can read them.
 DEEPEST = 32
 
-#: An address and a value, as JSON has it.
-Noted = tuple[str, Any]
+#: A choice: its address and its value in JSON.
+Choice = tuple[str, Any]
 
 
 @dataclass
 class _Call:
-    """What is below a component: other components, numbers of parts with their names, and its own choices."""
+    """A call: inner calls, names and numbers of parts, and choices."""
 
     below: dict[str, _Call] = field(default_factory=dict)
     parts: list[tuple[str, int]] = field(default_factory=list)
-    choices: list[Noted] = field(default_factory=list)
+    choices: list[Choice] = field(default_factory=list)
 
 
-def hierarchy(nodes: list[dict[str, Any]], choices: Iterable[Noted] = ()) -> tuple[list[int], list[Noted]]:
-    """Name the nodes of parts by their addresses and append the nodes that hold them.
+def hierarchy(nodes: list[dict[str, Any]], choices: Iterable[Choice] = ()) -> tuple[list[int], list[Choice]]:
+    """Name the nodes of parts by their addresses, and append the nodes of calls.
 
     Parameters
     ----------
     nodes
-        With the address among their extras, and their translation in the scene, which becomes that in the node around.
+        Nodes of parts, with the address among their extras. Their translation in the scene becomes relative to the
+        parent node.
     choices
-        They become extras, too.
+        Choices, which become extras.
 
     Returns
     -------
     topmost : list of int
-        The numbers of the nodes that no other one holds.
+        The numbers of the nodes without a parent.
     choices : list
-        Those of calls that have no node, and are in none that has one.
+        Choices of calls that have no node and no outer call with a node.
     """
     root = _Call()
     for number, node in enumerate(nodes):
@@ -63,7 +64,7 @@ def hierarchy(nodes: list[dict[str, Any]], choices: Iterable[Noted] = ()) -> tup
                 break
             call = call.below[part]
         call.choices.append((address, value))
-    topmost = _placed(root, "", nodes)
+    topmost = _place(root, "", nodes)
     places = [node["translation"] for node in nodes]
     for node, place in zip(nodes, places, strict=True):
         for child in node.get("children", ()):
@@ -75,25 +76,27 @@ def _levels(path: list[str]) -> list[str]:
     return [*path[:DEEPEST], *([".".join(path[DEEPEST:])] if path[DEEPEST:] else [])]
 
 
-def _placed(call: _Call, name: str, nodes: list[dict[str, Any]]) -> list[int]:
-    """The nodes of what is in a call; `name` is its own."""
-    found = []
-    for own, number in call.parts:
-        nodes[number]["name"] = own or name or "emit"
-        found.append(number)
+def _place(call: _Call, name: str, nodes: list[dict[str, Any]]) -> list[int]:
+    """Append the nodes of a call with this name; return the numbers of its direct children."""
+    children = []
+    for part_name, number in call.parts:
+        nodes[number]["name"] = part_name or name or "emit"
+        children.append(number)
     for component, inner in call.below.items():
-        held = _placed(inner, component, nodes)
-        if len(held) == 1:
-            only = nodes[held[0]]
+        inside = _place(inner, component, nodes)
+        if len(inside) == 1:
+            only = nodes[inside[0]]
             if only["name"] != component:
                 only["name"] = f"{component}.{only['name']}"
-            found.append(held[0])
+            children.append(inside[0])
         else:
-            nodes.append({"name": component, "translation": nodes[held[0]]["translation"], "children": held})
-            found.append(len(nodes) - 1)
+            nodes.append(
+                {"name": component, "translation": nodes[inside[0]]["translation"], "children": inside}
+            )
+            children.append(len(nodes) - 1)
         if inner.choices:
-            extras = nodes[found[-1]].setdefault("extras", {})
-            noted = [{"address": address, "value": value} for address, value in inner.choices]
-            # The outer call has chosen before.
-            extras["choices"] = noted + extras.get("choices", [])
-    return found
+            extras = nodes[children[-1]].setdefault("extras", {})
+            choices = [{"address": address, "value": value} for address, value in inner.choices]
+            # Choices of the outer call come first.
+            extras["choices"] = choices + extras.get("choices", [])
+    return children

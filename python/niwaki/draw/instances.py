@@ -1,16 +1,16 @@
-"""Which parts are one mesh in several places.
+"""Instances: meshes that several parts share.
 
-Two parts are equal when one scale, a rotation and a translation take the vertices of one onto those of the other,
-number by number, within `TOLERANCE` of the part's extent (about what a 32-bit float keeps). So:
+Two parts are equal if a scale, a rotation and a translation move the vertices of the first onto those of the second,
+number by number. The tolerance is `TOLERANCE` of the part's extent, about the precision of a 32-bit float. So:
 
-1. parts with other triangles, or with the same ones in other pieces, are different;
-2. parts with other inner measures (singular values of the centred vertices, as shares of the farthest vertex's
+1. parts with different triangles, or with equal triangles in different pieces, are different;
+2. parts with different inner measures (singular values of the centred vertices, as shares of the farthest vertex's
    distance) are different;
-3. the scale is the ratio of those distances, and the best rotation is Kabsch's (1976, through the singular value
+3. the scale is the ratio of these distances, and the best rotation is Kabsch's (1976, by the singular value
    decomposition); its largest residual decides.
 
-Mirror images are different. So are solids that agree as sets of points but number their vertices differently, such as a
-box of size (1, 2, 1) and one of size (2, 1, 1): they are written twice, which costs bytes and nothing else.
+Mirror images are different. Solids with equal points but different vertex numbers are different, too, for example boxes
+of size (1, 2, 1) and (2, 1, 1). They are written twice, which only costs bytes.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from niwaki.draw.parts import PartMesh
 
-#: Largest distance between vertices that count as one, as a share of the part's extent.
+#: The largest distance between equal vertices, as a share of the part's extent.
 TOLERANCE = 1e-6
 
 Quaternion = tuple[float, float, float, float]
@@ -38,9 +38,9 @@ class Instance:
     Attributes
     ----------
     mesh : int
-        Number of the geometry it shares.
+        The number of the shared geometry.
     scale
-        Factor on the geometry's own coordinates, first.
+        The factor of the geometry's own coordinates; it applies first.
     rotation : (3, 3) float64
         From the geometry's own directions to the scene's.
     translation : (3,) float64
@@ -60,19 +60,19 @@ class Geometry:
     Attributes
     ----------
     part
-        The first part that has it; its frame is that of the geometry's own coordinates.
+        The first part with this geometry; its frame defines the geometry's own coordinates.
     """
 
     part: PartMesh
 
     def local(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Points of the scene in the geometry's own coordinates, (n, 3)."""
+        """Convert points of the scene to the geometry's own coordinates, (n, 3)."""
         return self.local_directions(points - self.part.pivot.origin)
 
     def local_directions(self, directions: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Directions of the scene in the geometry's own coordinates, (n, 3)."""
-        found: NDArray[np.float64] = directions @ self.part.pivot.axes
-        return found
+        """Convert directions of the scene to the geometry's own coordinates, (n, 3)."""
+        local: NDArray[np.float64] = directions @ self.part.pivot.axes
+        return local
 
 
 @dataclass
@@ -84,7 +84,7 @@ class _Bucket:
 
 
 def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]]:
-    """The different geometries of some parts, and an instance with its place for each part."""
+    """Return the different geometries of parts, and an instance with its place for each part."""
     geometries: list[Geometry] = []
     clouds: list[NDArray[np.float64]] = []
     placed: list[Instance] = []
@@ -93,37 +93,37 @@ def instances(parts: Sequence[PartMesh]) -> tuple[list[Geometry], list[Instance]
         cloud = np.concatenate([piece.vertices for piece in part.pieces])
         measure = _measure(cloud)
         bucket = buckets.setdefault(_triangles(part), _Bucket())
-        number, found = -1, None
+        number, motion = -1, None
         if bucket.numbers:
             apart = np.abs(np.array(bucket.measures) - measure).max(axis=1)
             for k in np.nonzero(apart <= TOLERANCE)[0]:
                 number = bucket.numbers[k]
-                found = similar(clouds[number], cloud)
-                if found is not None:
+                motion = similar(clouds[number], cloud)
+                if motion is not None:
                     break
-        if found is None:
+        if motion is None:
             number = len(geometries)
             geometries.append(Geometry(part))
             clouds.append(cloud)
             bucket.numbers.append(number)
             bucket.measures.append(measure)
-            found = 1.0, np.eye(3), np.zeros(3)
-        scale, rotation, shift = found
-        own = geometries[number].part.pivot
-        placed.append(Instance(number, scale, rotation @ own.axes, shift + scale * rotation @ own.origin))
+            motion = 1.0, np.eye(3), np.zeros(3)
+        scale, rotation, shift = motion
+        pivot = geometries[number].part.pivot
+        placed.append(Instance(number, scale, rotation @ pivot.axes, shift + scale * rotation @ pivot.origin))
     return geometries, placed
 
 
 def similar(
     first: NDArray[Any], second: NDArray[Any]
 ) -> tuple[float, NDArray[np.float64], NDArray[np.float64]] | None:
-    """The scale, rotation and translation that take `first` to `second`, both (n, 3); None where there are none."""
+    """Find the scale, rotation and translation that move `first` to `second`, both (n, 3); None if there are none."""
     here, there = first.mean(axis=0), second.mean(axis=0)
     scale = _reach(second - there) / max(_reach(first - here), np.finfo(float).tiny)
     if abs(scale - 1.0) <= TOLERANCE:
         scale = 1.0
     left, _, right = np.linalg.svd((second - there).T @ (first - here))
-    # A reflection has determinant -1: turn the least important axis, so that what comes out is a rotation.
+    # A reflection has determinant -1: the least important axis is reversed, so that the result is a rotation.
     turn = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(left @ right)))])
     rotation = left @ turn @ right
     shift = there - scale * rotation @ here
@@ -132,7 +132,7 @@ def similar(
 
 
 def quaternion(rotation: NDArray[np.float64]) -> Quaternion:
-    """A rotation as a unit quaternion (x, y, z, w), w not negative (Shepperd 1978: the largest component first)."""
+    """Convert a rotation to a unit quaternion (x, y, z, w), w not negative (Shepperd 1978: largest component first)."""
     m = rotation
     trace = m[0, 0] + m[1, 1] + m[2, 2]
     k = int(np.argmax([m[0, 0], m[1, 1], m[2, 2], trace]))
@@ -151,7 +151,7 @@ def quaternion(rotation: NDArray[np.float64]) -> Quaternion:
 
 
 def _triangles(part: PartMesh) -> bytes:
-    """A digest of a part's triangles, piece by piece."""
+    """Hash a part's triangles, piece by piece."""
     digest = hashlib.sha256()
     for piece in part.pieces:
         digest.update(f"{len(piece.vertices)} {len(piece.faces)};".encode())
@@ -160,14 +160,14 @@ def _triangles(part: PartMesh) -> bytes:
 
 
 def _measure(cloud: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What no motion and no scale changes: spread along the principal axes, as shares of the reach, (3,)."""
+    """Measure the spread along the principal axes, as shares of the reach, (3,); motions and scales keep it."""
     centred = cloud - cloud.mean(axis=0)
     spread = np.linalg.svd(centred, compute_uv=False) / np.sqrt(len(cloud))
     return np.array([*spread, *np.zeros(3 - len(spread))]) / max(_reach(centred), np.finfo(float).tiny)
 
 
 def _reach(centred: NDArray[np.float64]) -> float:
-    """The distance of the farthest vertex from the middle."""
+    """Return the distance of the farthest vertex from the middle."""
     return float(np.linalg.norm(centred, axis=1).max())
 
 

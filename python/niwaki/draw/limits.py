@@ -1,4 +1,4 @@
-"""Sizes of pictures, held against what there is before any pixel is made."""
+"""Limits of pictures: sizes and memory, checked before drawing."""
 
 from __future__ import annotations
 
@@ -10,28 +10,28 @@ from niwaki.errors.settings import count, usual_threads
 #: Largest width, height, number of samples and of frames.
 LARGEST = 16_384
 
-#: Bytes of a pixel of a picture: as it is drawn, as it is kept, and as it is written.
+#: Bytes of a pixel of a picture, for drawing, storing and writing.
 PIXEL = 12
 
-#: Bytes that the ray caster takes for a pixel that shows something, and for a triangle; with what Python keeps.
-#: Measured as the growth of the memory of a process by pictures that are full, of 1 and of 4000 shapes, and rounded up.
+#: Bytes that the ray caster needs for a pixel that shows a shape, and for a triangle, including Python's objects.
+#: Measured by the memory growth of a process with full pictures of 1 and of 4000 shapes, and rounded up.
 TRACED, TRIANGLE = 480, 320
 
-#: Bytes of the address space that a thread of the engine reserves: its stack, and a segment of the allocator.
+#: Bytes of address space that a thread of the engine reserves: its stack, and a segment of the allocator.
 THREAD = 36 * 2**20
 
 
 def check_size(size: tuple[int, int], pictures: int = 1, fine: int = 1) -> None:
-    """Refuse a size in pixels that is none, or that does not fit.
+    """Check that a size is valid and fits into memory.
 
     Parameters
     ----------
     size
         Width and height.
     pictures
-        So many are kept at once.
+        The number of pictures that are in memory at the same time.
     fine
-        A picture is drawn so many times wider and higher, and then made smaller.
+        The factor of oversampling: a picture is drawn wider and higher by it, then reduced.
     """
     for name, number in zip(("width", "height"), size, strict=True):
         count(name, number, most=LARGEST)
@@ -41,14 +41,14 @@ def check_size(size: tuple[int, int], pictures: int = 1, fine: int = 1) -> None:
 
 
 def check_rays(size: tuple[int, int], triangles: int) -> None:
-    """Refuse a picture by rays that does not fit into memory; the engine would end the process.
+    """Check that a ray-cast picture fits into memory; otherwise the engine would end the process.
 
     Parameters
     ----------
     size
         Width and height in pixels.
     triangles
-        Of all meshes that are drawn.
+        Number of triangles of all meshes.
     """
     pixels = size[0] * size[1]
     threads = (usual_threads() or os.cpu_count() or 1) * THREAD if limit_of_process() < UNKNOWN else 0

@@ -1,8 +1,8 @@
-"""A scene as the plain files of meshes: OBJ (text, an object for each part) and PLY (binary, one mesh).
+"""Plain mesh files: OBJ (text, an object for each part) and PLY (binary, a single mesh).
 
-Both keep scene units with y up, smooth normals and colours at the vertices (in OBJ by the common extension of the `v`
-line that Blender, MeshLab and trimesh read). Nothing is joined: parts that overlap, overlap. Coordinates have 32 bits,
-or nine digits; those of a scene far from the origin (`niwaki.draw.far`) have 64 bits, or all digits.
+Both have scene units with y up, smooth normals, and colours at the vertices (in OBJ by the common extension of the `v`
+line that Blender, MeshLab and trimesh read). Parts are not joined, so overlapping parts stay as they are. Coordinates
+have 32 bits, or nine digits; in a scene far from the origin (`niwaki.draw.far`) they have 64 bits, or all digits.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from niwaki.draw.parts import part_meshes
 
 
 def obj(scene: Assembly) -> bytes:
-    """The bytes of an OBJ file; equal scenes give equal bytes."""
+    """Write an OBJ file; equal scenes give equal bytes."""
     out = io.StringIO()
     out.write("# niwaki: scene units, y up\n")
     digits = 17 if is_far(scene.bounds) else 9
     start = 1
     for part in part_meshes(scene):
-        # A name ends at the first space in some readers.
+        # For some readers a name ends at the first space.
         out.write(f"o {'_'.join(part.address.split())}\n")
         for piece in part.pieces:
             red, green, blue = piece.paint.color
@@ -40,7 +40,7 @@ def obj(scene: Assembly) -> bytes:
 
 
 def ply(scene: Assembly) -> bytes:
-    """The bytes of a binary PLY file; equal scenes give equal bytes."""
+    """Write a binary PLY file; equal scenes give equal bytes."""
     pieces = [piece for part in part_meshes(scene) for piece in part.pieces]
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
     real, name = ("<f8", "double") if is_far(scene.bounds) else ("<f4", "float")

@@ -1,9 +1,9 @@
-"""The numbers of an SVG page: with enough digits for its size, and small wherever the scene is.
+"""The numbers of an SVG page: enough digits for its size, and small values wherever the scene is.
 
-Programs that show SVG keep numbers of 32 bits. A page far from the origin (`niwaki.draw.far`) would lose too many
-digits. It begins at 0 instead, and the attribute `data-origin` of the file says which point of the scene its upper left
-corner is. Where nothing says how large a page is shown, many take a pixel for each unit; a page of less than a pixel,
-or of more than any picture has, gets a size.
+Programs that show SVG use numbers of 32 bits. A page far from the origin (`niwaki.draw.far`) would lose too many
+digits. Such a page begins at 0, and the attribute `data-origin` of the file has the scene point of its upper left
+corner. Many programs show a pixel for each unit if a page has no size. So a page gets a size if this would be less than
+a pixel or larger than any picture.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from niwaki.draw.far import is_far
 from niwaki.draw.limits import LARGEST
 
-#: Digits that the longer side of a page has at least, and decimals of any number.
+#: The least digits of the longer side of a page, and the least decimals of a number.
 DIGITS, DECIMALS = 6, 3
 
 #: Pixels of the longer side of a page that gets a size.
@@ -25,7 +25,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Page:
-    """The part of the plane that a file shows.
+    """A page: the part of the plane that a file shows.
 
     Attributes
     ----------
@@ -38,12 +38,12 @@ class Page:
 
     @property
     def width(self) -> float:
-        """Scene units."""
+        """Width in scene units."""
         return self.high[0] - self.low[0]
 
     @property
     def height(self) -> float:
-        """Scene units."""
+        """Height in scene units."""
         return self.high[1] - self.low[1]
 
     @property
@@ -53,25 +53,25 @@ class Page:
 
     @property
     def decimals(self) -> int:
-        """Decimals of each number."""
+        """The number of decimals of each number."""
         return max(DECIMALS, math.ceil(DIGITS - math.log10(self.longer))) if self.longer > 0.0 else DECIMALS
 
     @property
     def origin(self) -> Point:
-        """The point of the scene that is 0, 0 of the page."""
+        """The point of the scene at (0, 0) of the page."""
         return (self.low[0], self.high[1]) if is_far((self.low, self.high)) else (0.0, 0.0)
 
     def at(self, point: Point) -> Point:
-        """A point of the scene on the page, whose y points down."""
+        """Convert a point of the scene to the page, whose y axis points down."""
         (x, y), (left, top) = point, self.origin
         return x - left, top - y
 
     def number(self, length: float) -> str:
-        """A length as text."""
+        """Write a length."""
         return f"{length:.{self.decimals}f}"
 
     def corners(self, points: list[Point]) -> str:
-        """Points of the scene as SVG writes them: `x,y x,y`."""
+        """Write points of the scene in SVG's form: `x,y x,y`."""
         return " ".join(f"{self.number(x)},{self.number(y)}" for x, y in map(self.at, points))
 
     @property

@@ -1,9 +1,9 @@
-"""Colours for parts whose shapes have no colours.
+"""Colours for shapes without colours of their own.
 
-Two palettes: *machine* (warm greys, graphite for round shapes, a burnt orange accent) and *garden* (bark for
-limbs, pine greens for the rest), taken when a scene holds a limb without a colour of its own. A shape with a colour is
-smooth in both. Each part's tone varies a little with its address and with nothing else, so that a part keeps its colour
-when others change.
+There are two palettes: *machine* (warm greys, graphite for round shapes, a burnt orange accent) and *garden* (bark for
+limbs, pine greens for the rest). A scene with a limb that has no colour of its own uses *garden*. A shape with a colour
+is smooth in both palettes. The tone of a part varies only with its address, so that a part keeps its colour when others
+change.
 """
 
 from __future__ import annotations
@@ -24,30 +24,30 @@ ACCENTS: tuple[Color, ...] = ((0.80, 0.37, 0.20), (0.84, 0.45, 0.24))
 BARKS: tuple[Color, ...] = ((0.44, 0.35, 0.29),)
 PINES: tuple[Color, ...] = ((0.36, 0.47, 0.28), (0.32, 0.43, 0.28), (0.41, 0.50, 0.30))
 
-#: The roughness of chalk, and what lacquer takes from it.
+#: The roughness of chalk, and the difference to that of lacquer.
 DULL, LACQUER = 0.9, 0.55
 
 
 @dataclass(frozen=True)
 class Paint:
-    """How a part looks.
+    """The look of a part.
 
     Attributes
     ----------
     name
-        Of the material in files.
+        The name of the material in files.
     color
-        sRGB in [0, 1].
+        The colour, sRGB in [0, 1].
     gloss
         From 0 (chalk) to 1 (lacquer).
     rough
-        From 0 (smooth) to 1 (foliage); in pictures only.
+        From 0 (smooth) to 1 (foliage); for pictures only.
     pitch
-        Size of the bumps of a rough surface, scene units.
+        The size of the bumps of a rough surface, scene units.
     metalness
-        From 0 to 1 (metal), as glTF has it.
+        From 0 to 1 (metal), as in glTF.
     given_roughness
-        That of the model, where it says one.
+        The roughness that the model sets, or None.
     """
 
     name: str
@@ -60,11 +60,11 @@ class Paint:
 
     @property
     def roughness(self) -> float:
-        """From 0 (a mirror) to 1 (chalk), as glTF has it."""
+        """Roughness from 0 (a mirror) to 1 (chalk), as in glTF."""
         return DULL - LACQUER * self.gloss if self.given_roughness is None else self.given_roughness
 
     def finished(self, metalness: float | None, roughness: float | None) -> Paint:
-        """The paint with what a model says of its surface."""
+        """Return the paint with the metalness and roughness that the model sets."""
         if roughness is not None:
             gloss = min(max((DULL - roughness) / LACQUER, 0.0), 1.0)
             return replace(self, gloss=gloss, metalness=metalness or 0.0, given_roughness=roughness)
@@ -72,7 +72,7 @@ class Paint:
 
 
 def paints(scene: Assembly, like: Assembly | None = None) -> list[list[Paint]]:
-    """Choose the paint of each shape of each part, in order; by the kinds and the size of `like` where it is given."""
+    """Choose the paint of each shape of each part, in order; `like`, if given, determines palette and size."""
     whole = scene if like is None else like
     garden = any(
         shape.tone == "bark" and shape.color is None for part in whole.parts for shape in part.shapes
@@ -105,12 +105,12 @@ def _paint(part: Part, shape: Shape, garden: bool, extent: float) -> Paint:
 
 
 def named(color: Color) -> str:
-    """A colour's name, as the web writes it."""
+    """Write a colour as `#rrggbb`."""
     return "#" + "".join(f"{round(255 * min(max(part, 0.0), 1.0)):02x}" for part in color)
 
 
 def _vary(colors: tuple[Color, ...], dice: int, by: float, turn: float) -> Color:
-    """One of `colors`, made lighter or darker by up to `by` and turned in hue by up to `turn`."""
+    """Pick one of `colors` and vary it: lightness by up to `by`, hue by up to `turn`."""
     hue, light, saturation = colorsys.rgb_to_hls(*colors[(dice >> 3) % len(colors)])
     light += ((dice >> 8) % 256 / 127.5 - 1.0) * by
     hue += ((dice >> 16) % 256 / 127.5 - 1.0) * turn

@@ -1,7 +1,7 @@
-"""The parts of a scene as meshes to write: for each part, one mesh for each of its paints.
+"""Meshes of the parts of a scene: for each part, a mesh for each of its paints.
 
-Tones that the palette varies from part to part are brought together here (to steps of `TONE_STEP`, too small
-to see), so that a file has a few dozen materials and not one for each part; colours that a model names stay exact.
+The palette varies tones from part to part. Here they are rounded to steps of `TONE_STEP`, too small to see, so that a
+file has a few dozen materials rather than one for each part. Colours that a model sets stay exact.
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from niwaki.draw.assembly import Assembly
 from niwaki.draw.finite import floats
 from niwaki.draw.palette import Paint, paints
 
-#: Steps of a tone of the palette, sRGB in [0, 1].
+#: The step of rounded tones, sRGB in [0, 1].
 TONE_STEP = 1 / 32
 
 
 class Pivot(NamedTuple):
-    """The frame of a shape in the scene: where it is, and the axes about which a person would turn it.
+    """The frame of a shape in the scene: its origin and its natural axes of rotation.
 
     Attributes
     ----------
     origin : (3,) float64
-        Scene units.
+        The origin, scene units.
     axes : (3, 3) float64
         Unit directions x, y and z as columns, right-handed.
     """
@@ -44,9 +44,9 @@ class Piece:
     Attributes
     ----------
     paint
-        How it looks.
+        The look.
     vertices, normals : (n, 3) float64
-        Scene units; unit length.
+        Points in scene units; vectors of unit length.
     faces : (m, 3) uint32
         Counter-clockwise seen from outside.
     """
@@ -59,7 +59,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class PartMesh:
-    """A part's address, its pieces, and its own frame, which is that of its first shape."""
+    """The mesh of a part: its address, its pieces, and the frame of its first shape."""
 
     address: str
     pieces: tuple[Piece, ...]
@@ -67,11 +67,11 @@ class PartMesh:
 
 
 def part_meshes(scene: Assembly) -> list[PartMesh]:
-    """The fine meshes of every part that has a shape, in the order of the addresses."""
+    """Return the fine meshes of all parts with shapes, in the order of the addresses."""
     groups: dict[tuple[int, Paint], list[Shape]] = {}
     for number, (part, part_paints) in enumerate(zip(scene.parts, paints(scene), strict=True)):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
-            shown = paint if shape.color is not None else _stepped(paint)
+            shown = paint if shape.color is not None else _round_tone(paint)
             groups.setdefault((number, shown), []).append(shape)
     out: dict[int, PartMesh] = {}
     meshes = _engine.meshes(list(groups.values()))
@@ -85,6 +85,6 @@ def part_meshes(scene: Assembly) -> list[PartMesh]:
     return list(out.values())
 
 
-def _stepped(paint: Paint) -> Paint:
+def _round_tone(paint: Paint) -> Paint:
     red, green, blue = (round(round(c / TONE_STEP) * TONE_STEP, 6) for c in paint.color)
     return replace(paint, color=(red, green, blue))

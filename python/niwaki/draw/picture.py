@@ -1,7 +1,7 @@
-"""A scene as a picture, its target as a ghost of tinted glass around it.
+"""Pictures of scenes, with the target as a ghost of tinted glass.
 
-Drawn by the engine's own ray caster: a soft sun, sky light, a floor that catches the shadow. The same scene
-gives the same pixels on any number of threads. A scene of flat shapes is a drawing instead: see `flat`.
+The engine's ray caster draws a soft sun, sky light, and a floor with the shadow. Equal scenes give equal pixels on any
+number of threads. A scene of flat shapes becomes a drawing: see `flat`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Backdrop = Literal["studio", "white", "slate", "clear"]
 Rgb = tuple[float, float, float]
 Camera = tuple[Rgb, Rgb, Rgb, float]
 
-#: Upper and lower colour of each backdrop, sRGB; None is transparent.
+#: The upper and lower colour of each backdrop, sRGB; None for a transparent backdrop.
 BACKDROPS: dict[str, tuple[Rgb, Rgb] | None] = {
     "studio": ((0.965, 0.96, 0.95), (0.885, 0.878, 0.865)),
     "white": ((1.0, 1.0, 1.0), (1.0, 1.0, 1.0)),
@@ -60,18 +60,18 @@ def picture(
     window: Window | None = None,
     under: NDArray[np.bool_] | None = None,
 ) -> Image.Image:
-    """Draws a scene.
+    """Draw a scene.
 
     Parameters
     ----------
     scene
-        What to draw.
+        The scene.
     target
-        Drawn as a ghost, when given; it counts for the framing.
+        The target to draw as a ghost; the framing includes it.
     size
         Width and height in pixels.
     samples
-        Rays for each pixel where the picture changes, a quarter elsewhere; 4 for a draft, 16 for a page, 64 for print.
+        Rays for each pixel at edges, and a quarter of it elsewhere: 4 for a draft, 16 for a page, 64 for print.
     azimuth, elevation
         The direction of the camera, degrees: 0, 0 looks from +z; azimuth 90 from +x; elevation 90 from above.
     fov
@@ -79,23 +79,23 @@ def picture(
     margin
         Empty border as a share of the picture.
     camera
-        Eye, target, up and vertical field of view; replaces the five above.
+        Eye, target, up and vertical field of view; replaces `azimuth`, `elevation`, `fov` and `margin`.
     backdrop
         "studio", "white", "slate" or "clear" (transparent, with the shadow in the alpha channel).
     lift
-        How far the scene floats above the floor, as a share of its height.
+        The height of the scene above the floor, as a share of the scene's height.
     frame
-        Another scene whose framing to take, so that pictures of several can be compared.
+        Another scene that determines the framing, so that pictures can be compared.
     like
-        Another scene whose framing, floor and palette to take, so that pictures of its states agree; this one may
-        then be empty.
+        Another scene that determines framing, floor and palette, so that pictures of its states agree; `scene` may then
+        be empty.
     style, window, under
-        Of a scene of flat shapes, which is drawn as `niwaki.draw.flat.drawing.drawing` does unless a `camera` is given.
+        Settings of `niwaki.draw.flat.drawing.drawing`, which draws scenes of flat shapes unless `camera` is given.
 
     Returns
     -------
     PIL.Image.Image
-        RGBA.
+        The picture, RGBA.
     """
     if backdrop not in get_args(Backdrop):
         raise FileError("setting", name="backdrop", found=backdrop, expected=", ".join(get_args(Backdrop)))
@@ -159,7 +159,7 @@ def picture(
 
 
 def surfaces(scene: Assembly, like: Assembly | None = None) -> _engine.Surfaces:
-    """Make the surfaces of all shapes with their paint, as the engine's `render` takes them."""
+    """Make the surfaces of all shapes with their paints, for the engine's `render`."""
     return _engine.Surfaces(
         [
             (shape, paint.color, (paint.gloss, paint.metalness, paint.rough, paint.pitch))
@@ -170,19 +170,19 @@ def surfaces(scene: Assembly, like: Assembly | None = None) -> _engine.Surfaces:
 
 
 def png(image: Image.Image) -> bytes:
-    """Return the image as the bytes of a PNG file."""
+    """Write an image as the bytes of a PNG file."""
     out = io.BytesIO()
     image.save(out, "PNG")
     return out.getvalue()
 
 
 def save(scene: Assembly, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
-    """Draws a scene into a file; `settings` are those of `picture`."""
+    """Draw a scene into an image file; `settings` are those of `picture`."""
     return save_image(lambda: picture(scene, target, **settings), path)
 
 
 def save_image(draw: Any, path: str | PathLike[str]) -> Path:
-    """Write the image that `draw()` returns, completely or not at all; its name is checked before drawing."""
+    """Write the image that `draw()` returns, completely or not at all; the name is checked before drawing."""
     place = check_image(path)
     image: Image.Image = draw()
     out = io.BytesIO()
@@ -192,12 +192,12 @@ def save_image(draw: Any, path: str | PathLike[str]) -> Path:
 
 
 def check_image(path: str | PathLike[str]) -> Path:
-    """Refuse a place where no picture can be written: its suffix, or its folder.
+    """Check that a picture can be written: the suffix and the folder.
 
     Raises
     ------
     FileError
-        The suffix is that of no picture, or there is no such folder.
+        The suffix is not that of a picture, or the folder does not exist.
     """
     place = Path(path)
     if place.suffix.lower() not in IMAGE_FORMATS:
@@ -212,11 +212,11 @@ def check_image(path: str | PathLike[str]) -> Path:
 
 
 def preview(scene: Assembly) -> bytes:
-    """Return a small picture of a scene as the bytes of a PNG file, for notebooks; one clear pixel of an empty one."""
+    """Draw a small PNG picture of a scene, for notebooks; an empty scene gives one transparent pixel."""
     return png(picture(scene, size=(800, 600)) if len(scene) else Image.new("RGBA", (1, 1)))
 
 
 def _ghost(target: Volume) -> _engine.Surfaces:
-    """Make the target's surface, with normals that are smooth where it is smooth."""
+    """Make the target's surface; its normals are smooth where it is smooth."""
     shape = _engine.shape("mesh", target.vertices, target.faces)
     return _engine.Surfaces([(shape, (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 0.0))])

@@ -1,7 +1,7 @@
-"""A scene from above, as an architect draws it: SVG for a page, pixels for a screen.
+"""Plans: a scene from above, as an architect draws it, as SVG for a page or pixels for a screen.
 
-Each shape is drawn as the convex outline of what lies under it, lower ones first. The plan has x to the right and -z
-upwards: shapes nearer to the viewer of a scene are further down on the page.
+Each shape is drawn as its convex outline, lower shapes first. The plan has x to the right and -z upwards: shapes nearer
+to the viewer of the scene are lower on the page.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Patch:
     fill
         sRGB in [0, 1].
     height
-        Of its highest point, scene units: higher patches lie on top.
+        The height of the highest point, scene units; higher patches lie on top.
     """
 
     corners: list[Point]
@@ -50,7 +50,7 @@ class Patch:
 
 
 def patches(scene: Assembly, outline: Sequence[VecLike] = ()) -> list[Patch]:
-    """What a plan shows, from the floor upwards.
+    """List the patches of a plan, from the floor upwards.
 
     Parameters
     ----------
@@ -59,21 +59,21 @@ def patches(scene: Assembly, outline: Sequence[VecLike] = ()) -> list[Patch]:
     outline
         The floor, a polygon in the plan's coordinates; none when left out.
     """
-    made: list[Patch] = []
+    drawn: list[Patch] = []
     for part, part_paints in zip(scene.parts, paints(scene), strict=True):
         for shape, paint in zip(part.shapes, part_paints, strict=True):
             vertices = shape.vertices()
             points = [(float(x), -float(z)) for x, _, z in vertices]
             finite(vertices, part.address)
-            made.append(Patch(_hull(points), paint.color, float(vertices[:, 1].max())))
-    made.sort(key=lambda patch: patch.height)
+            drawn.append(Patch(_hull(points), paint.color, float(vertices[:, 1].max())))
+    drawn.sort(key=lambda patch: patch.height)
     if outline:
         corners = [(_vec(corner).x, _vec(corner).y) for corner in outline]
         finite(corners, "the floor")
-        made.insert(0, Patch(corners, FLOOR, 0.0))
-    if not made:
+        drawn.insert(0, Patch(corners, FLOOR, 0.0))
+    if not drawn:
         raise FileError("scene-empty", verb="draw")
-    return made
+    return drawn
 
 
 def plan(
@@ -97,7 +97,7 @@ def plan(
     margin
         Empty border as a share of the width.
     scale_bar
-        Length of the bar in the corner, scene units; none for None.
+        Length of the scale bar in the corner, scene units; None for no bar.
     """
     if not isinstance(width, int) or not 16 <= width <= 16_384:
         raise FileError("setting", name="width", found=width, expected="a whole number from 16 to 16384")
@@ -126,7 +126,7 @@ def plan(
 
 
 def plan_svg(scene: Assembly, outline: Sequence[VecLike] = (), *, margin: float = 0.04) -> str:
-    """Write a scene from above as SVG; one unit of the page is one of the scene (see `niwaki.draw.page`).
+    """Write a scene from above as SVG; a unit of the page is a scene unit (see `niwaki.draw.page`).
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def plan_svg(scene: Assembly, outline: Sequence[VecLike] = (), *, margin: float 
 
 
 def save(path: str | PathLike[str], scene: Assembly, outline: Sequence[VecLike] = ()) -> Path:
-    """Write a plan into a file, SVG or PNG by the end of its name.
+    """Write a plan into a file, SVG or PNG by its suffix.
 
     Parameters
     ----------
@@ -167,18 +167,18 @@ def save(path: str | PathLike[str], scene: Assembly, outline: Sequence[VecLike] 
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """The convex hull, counter-clockwise (Andrew's monotone chain)."""
+    """Compute the convex hull, counter-clockwise (Andrew's monotone chain)."""
     ordered = sorted(set(points))
     if len(ordered) < 3:
         return [*ordered, *ordered[::-1]]
 
     def chain(line: Sequence[Point]) -> list[Point]:
-        kept: list[Point] = []
+        corners: list[Point] = []
         for p in line:
-            while len(kept) > 1 and _turn(kept[-2], kept[-1], p) <= 0.0:
-                kept.pop()
-            kept.append(p)
-        return kept[:-1]
+            while len(corners) > 1 and _turn(corners[-2], corners[-1], p) <= 0.0:
+                corners.pop()
+            corners.append(p)
+        return corners[:-1]
 
     return chain(ordered) + chain(ordered[::-1])
 

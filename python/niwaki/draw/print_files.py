@@ -1,8 +1,7 @@
-"""A solid as the files that slicers open: STL and 3MF, in millimetres with z up.
+"""Files for slicers: a solid as STL and 3MF, in millimetres with z up.
 
-STL keeps triangles and nothing else (binary: 80 bytes of header, a count, 50 bytes for each triangle). 3MF keeps the
-unit, a name, and vertices that triangles share, so a slicer need not guess (3MF core specification 1.3, chapters 2 to
-4).
+STL has only triangles (binary: 80 bytes of header, a count, 50 bytes for each triangle). 3MF also has the unit, a name,
+and shared vertices, so a slicer need not guess (3MF core specification 1.3, chapters 2 to 4).
 """
 
 from __future__ import annotations
@@ -51,7 +50,7 @@ MODEL = """<?xml version="1.0" encoding="UTF-8"?>
 
 
 def stl(solid: Solid) -> bytes:
-    """The bytes of a binary STL file; equal solids give equal bytes."""
+    """Write a binary STL file; equal solids give equal bytes."""
     corners = solid.vertices[solid.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).astype(np.float64)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -59,13 +58,13 @@ def stl(solid: Solid) -> bytes:
     rows = np.zeros(len(corners), record)
     rows["normal"] = normals / np.where(lengths > 0.0, lengths, 1.0)
     rows["corners"] = corners
-    # The header must not begin with "solid", which is how the text form begins.
+    # The header must not begin with "solid", the first word of the text form.
     header = b"binary STL by niwaki, millimetres, z up".ljust(80)
     return header + np.uint32(len(rows)).tobytes() + rows.tobytes()
 
 
 def threemf(solid: Solid, name: str) -> bytes:
-    """The bytes of a 3MF file; equal solids give equal bytes."""
+    """Write a 3MF file; equal solids give equal bytes."""
     title = escape(name, quote=False).replace('"', "&quot;")
     vertices = "\n".join(
         f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in solid.vertices.tolist()

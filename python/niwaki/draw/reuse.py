@@ -1,9 +1,9 @@
-"""What a proposal makes each strategy do, as a picture: dissertation figure 3.1, for any model.
+"""Pictures of the work of each strategy for a proposal: dissertation figure 3.1, for any model.
 
-Each panel shows the calls of one run, the calls of a call below it, in the order of the program. A call is orange
-where it was run from its start, blue where it was resumed (from the choice, or from a call that returned),
-hatched grey where it was skipped, green where it was created, red where it was removed, and white where it was not
-touched. The ring marks the call that holds the changed choice.
+Each panel shows the calls of a run in the order of the program, with inner calls below their callers. The colour of a
+call tells its fate: orange for run from the start, blue for resumed (from the choice, or from a call that returned),
+grey for skipped, green for created, red for removed, white for not touched. A ring marks the call of the changed
+choice.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ WORDS = {
     "untouched": "not touched",
 }
 WIDTH, MARGIN, PANEL, HEAD = 960, 24, 150, 24
-#: Most levels that are drawn; of deeper ones, those around the choice.
+#: The most levels that are drawn; a deeper picture shows the levels around the choice.
 LEVELS = 48
 
 
@@ -63,26 +63,26 @@ class _Mark:
 
 
 def value_text(value: Any) -> str:
-    """A value in few characters."""
+    """Write a value in few characters."""
     if isinstance(value, tuple):
         return f"({', '.join(value_text(part) for part in value)})"
     return f"{value:.4g}" if isinstance(value, float) else repr(value)
 
 
 def outcome(steps: Sequence[tuple[str, int]], count: int) -> list[str]:
-    """What happened to each activation: the strongest word of its steps."""
+    """Return the fate of each activation: the strongest word of its steps."""
     rank = {word: place for place, word in enumerate(COLORS)}
-    found = ["untouched"] * count
-    for what, at in steps:
-        if rank[what] > rank[found[at]]:
-            found[at] = what
-    return found
+    fates = ["untouched"] * count
+    for word, at in steps:
+        if rank[word] > rank[fates[at]]:
+            fates[at] = word
+    return fates
 
 
 def counts(steps: Sequence[tuple[str, int]], count: int) -> dict[str, int]:
-    """How many activations each thing happened to."""
-    happened = outcome(steps, count)
-    return {word: happened.count(word) for word in WORDS}
+    """Count the activations of each fate."""
+    fates = outcome(steps, count)
+    return {word: fates.count(word) for word in WORDS}
 
 
 def draw(explained: dict[str, Any], path: str | PathLike[str]) -> Path:
@@ -134,7 +134,7 @@ def _marks(explained: dict[str, Any]) -> tuple[list[_Mark], int]:
 
 
 def _spans(calls: Sequence[Any]) -> list[tuple[float, float]]:
-    """The stretch of each activation, in calls that call nothing."""
+    """Compute the horizontal span of each activation; a call without inner calls has width 1."""
     children: list[list[int]] = [[] for _ in calls]
     for number, call in enumerate(calls):
         if call[3] is not None and call[3] != number:
@@ -155,7 +155,7 @@ def _spans(calls: Sequence[Any]) -> list[tuple[float, float]]:
 def _panel(
     calls: Sequence[Any],
     spans: Sequence[tuple[float, float]],
-    happened: Sequence[str],
+    fates: Sequence[str],
     home: int,
     y: float,
     top: int,
@@ -165,19 +165,19 @@ def _panel(
     down = (PANEL - 4) / (bottom - top + 1)
     boxes: list[_Mark] = []
     rings: list[_Mark] = []
-    for number, (call, (start, width), what) in enumerate(zip(calls, spans, happened, strict=True)):
+    for number, (call, (start, width), fate) in enumerate(zip(calls, spans, fates, strict=True)):
         if not top <= call[2] <= bottom:
             continue
         x, wide = MARGIN + start * across, width * across
         place = y + HEAD - 4 + (call[2] - top) * down
-        if wide < 0.4 and what == "untouched":
+        if wide < 0.4 and fate == "untouched":
             continue
         line = "#999999" if min(wide, down) > 4 else None
-        boxes.append(_Mark("box", x, place, max(wide, 0.8), max(down, 0.8), COLORS[what], line))
+        boxes.append(_Mark("box", x, place, max(wide, 0.8), max(down, 0.8), COLORS[fate], line))
         if down >= 11 and wide > 7 * min(len(call[0]), 6):
             most = int(wide / 6.2) - 1
             text = call[0] if len(call[0]) <= most else call[0][: max(most - 2, 1)] + ".."
-            dark = what in ("untouched", "skipped", "invoked")
+            dark = fate in ("untouched", "skipped", "invoked")
             boxes.append(
                 _Mark(
                     "text",

@@ -1,4 +1,4 @@
-"""A scene: the parts that a model emitted, with pictures and files of them."""
+"""Scenes: the parts that a model emitted, with pictures and files."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 
 class Scene(Assembly):
-    """Parts in the order of their addresses.
+    """A scene: parts in the order of their addresses.
 
     Parameters
     ----------
     parts
-        Pairs of an address and its shapes.
+        Parts, or pairs of an address and its shapes.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Scene(Assembly):
         return draw.files.export(self, path, scale=scale, fuse=fuse, **settings)
 
     def animate(self, path: str | PathLike[str], target: Volume | None = None, **settings: Any) -> Path:
-        """Write the scene growing part by part, as .gif or .apng; see `niwaki.draw.animation.growth`."""
+        """Write an animation of the growth, part by part, as .gif or .apng; see `niwaki.draw.animation.growth`."""
         return draw.animation.growth(self, path, target, **settings)
 
     def _repr_png_(self) -> bytes:

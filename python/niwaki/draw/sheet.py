@@ -1,6 +1,6 @@
-"""Several pictures on one page, each with a small caption, to compare results.
+"""Sheets: several pictures on one page, each with a small caption, to compare results.
 
-All scenes are framed alike, so that a larger one looks larger.
+All pictures have the same framing, so that a larger scene looks larger.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ def sheet(
     ghost: bool = True,
     **settings: Any,
 ) -> Image.Image:
-    """Draws scenes side by side.
+    """Draw scenes side by side.
 
     Parameters
     ----------
     scenes
-        What to draw, in reading order.
+        The scenes, in reading order.
     captions
-        A line of text for each; none when left out.
+        A line of text for each scene; no captions when left out.
     target
-        Drawn as a ghost in each picture, unless `ghost` is false: then it only frames.
+        The target to draw as a ghost in each picture; if `ghost` is false, it only affects the framing.
     columns
-        Pictures in a row; as square a page as possible when left out.
+        The number of pictures in a row; when left out, the page is as square as possible.
     size
         Width and height of each picture in pixels.
     settings
@@ -74,10 +74,10 @@ def sheet(
     page = Image.new("RGBA", (across * (width + gap) - gap, down * (height + strip + gap) - gap), line)
     pen = ImageDraw.Draw(page)
     font = ImageFont.load_default(letters)
-    everything = _together(scenes, target)
+    whole = _together(scenes, target)
     for k, scene in enumerate(scenes):
         x, y = (k % across) * (width + gap), (k // across) * (height + strip + gap)
-        image = picture(scene, target if ghost else None, size=size, frame=everything, **settings)
+        image = picture(scene, target if ghost else None, size=size, frame=whole, **settings)
         page.paste(Image.new("RGBA", (width, height + strip), paper), (x, y))
         page.paste(image, (x, y))
         if captions:
@@ -88,12 +88,12 @@ def sheet(
 
 
 def save(path: str | PathLike[str], scenes: Sequence[Assembly], *arguments: Any, **settings: Any) -> Path:
-    """Draws a sheet into an image file; arguments and settings as for `sheet`."""
+    """Draw a sheet into an image file; arguments and settings as for `sheet`."""
     return save_image(lambda: sheet(scenes, *arguments, **settings), path)
 
 
 def _columns(count: int) -> int:
-    """Find the fewest columns that are at least as many as the rows."""
+    """Find the smallest number of columns that is at least the number of rows."""
     across = 1
     while across * across < count:
         across += 1
@@ -101,7 +101,7 @@ def _columns(count: int) -> int:
 
 
 def _together(scenes: Sequence[Assembly], target: Volume | None) -> Assembly:
-    """One scene with all parts, to frame by."""
+    """Collect all parts in a scene, for the framing."""
     parts = [(f"{k}", [shape for part in scene for shape in part.shapes]) for k, scene in enumerate(scenes)]
     if target is not None:
         parts.append(("target", [_engine.shape("mesh", target.vertices, target.faces)]))
@@ -109,7 +109,7 @@ def _together(scenes: Sequence[Assembly], target: Volume | None) -> Assembly:
 
 
 def _fit(text: str, font: Any, width: float) -> str:
-    """Return the text, shortened with dots until it fits."""
+    """Shorten a text with dots until it fits."""
     if font.getlength(text) <= width:
         return text
     while text and font.getlength(text + "...") > width:

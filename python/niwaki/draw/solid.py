@@ -1,9 +1,9 @@
-"""A scene as one watertight solid, for printing: the union of its shapes, through manifold3d (extra `print`).
+"""A scene as a watertight solid for printing: the union of its shapes, by manifold3d (extra `print`).
 
-Every shape is checked first; the error about a mesh with holes or inside out names the address of its part. Parts that
-must not intersect only touch, and parts that only touch fall apart when printed. So every shape is expanded along its
-normals by `FUSE` of the scene's longest side before the union: far less than a printer resolves. Printers take
-millimetres and have z up, so the solid is scaled, turned and moved to where all coordinates are positive.
+Every shape is checked first; the error about a mesh that has holes or is inside out names the address of the part.
+Parts that must not intersect only touch, and a print of such parts falls apart. So every shape is expanded along its
+normals by `FUSE` of the scene's longest side before the union, far less than a printer resolves. Printers use
+millimetres and have z up, so the solid is scaled, turned, and moved to positive coordinates.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from niwaki.errors import FileError
 from niwaki.errors.extras import optional
 from niwaki.errors.warned import warn
 
-#: Details of the union below this share of its longest side are removed: slivers that a float cannot represent.
+#: Details of the union below this share of its longest side are removed: slivers below the precision of a float.
 SMALLEST = 1e-6
 
-#: How far each shape is expanded, as a share of the scene's longest side; 0.002 mm for a print of 100 mm.
+#: The expansion of each shape, as a share of the scene's longest side; 0.002 mm for a print of 100 mm.
 FUSE = 2e-5
 
 #: Millimetres in a scene unit by default: scenes are in metres.
@@ -33,7 +33,7 @@ METRE = 1000.0
 
 
 class PrintWarning(UserWarning):
-    """A solid can be printed, but perhaps not as its author meant."""
+    """A solid that can be printed, but perhaps not as its author intends."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +43,13 @@ class Solid:
     Attributes
     ----------
     vertices : (n, 3) float32
-        Millimetres, z up, not negative.
+        Points in millimetres, z up, not negative.
     faces : (m, 3) int64
-        Counter-clockwise seen from outside; each edge lies between exactly two.
+        Triangles, counter-clockwise seen from outside; each edge lies between exactly two triangles.
     volume : float
-        Cubic millimetres.
+        The volume in cubic millimetres.
     pieces : int
-        How many bodies that do not hang together.
+        The number of separate bodies.
     """
 
     vertices: NDArray[np.float32]
@@ -64,11 +64,11 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
     Parameters
     ----------
     scene
-        What to join.
+        The scene.
     scale
         Millimetres for each scene unit; 1000 when left out, because scenes are in metres.
     fuse
-        How far each shape is expanded, scene units, so that shapes closer than twice this hang together; when left out
+        The expansion of each shape, scene units; shapes closer than twice this distance are connected. The default is
         `FUSE` of the longest side, enough for shapes that touch.
 
     Raises
@@ -79,13 +79,13 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
     Warns
     -----
     PrintWarning
-        The result is in several pieces.
+        The solid is in several pieces.
     """
     if not 0.0 < scale < float("inf"):
         raise FileError("setting", name="scale", found=scale, expected="a finite number above 0")
     longest = float(scene.size.max())
     for part in scene.parts:
-        # Parts are moved to where all coordinates are positive, so the extent counts, too.
+        # The solid is moved to positive coordinates, so the extent matters, too.
         corners = np.array([shape.aabb() for shape in part.shapes], dtype=np.float64)
         with np.errstate(over="ignore"):
             floats(scale * corners, part.address, f"its coordinates at a scale of {scale:g}")
@@ -96,7 +96,7 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
     tools = kernel()
     solids = _solids(scene, tools, FUSE * longest if fuse is None else fuse)
     joined = tools.Manifold.batch_boolean(solids, tools.OpType.Add)
-    # (x, y, z) to (x, -z, y): what is up on the screen is up on the printer's bed.
+    # (x, y, z) becomes (x, -z, y): the scene's y axis is up on the printer's bed.
     turned = joined.transform([[scale, 0, 0, 0], [0, 0, -scale, 0], [0, scale, 0, 0]])
     low, high = np.reshape(turned.bounding_box(), (2, 3))
     placed = turned.translate(-low).simplify(SMALLEST * float((high - low).max()))
@@ -106,7 +106,7 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
     pieces = _pieces(vertices, faces)
     if pieces > 1:
         warn(
-            f"the solid is in {pieces} pieces that do not touch, and a printer prints each of them alone; "
+            f"the solid is in {pieces} pieces that do not touch, and a printer prints each piece alone; "
             "a larger `fuse` closes gaps",
             PrintWarning,
         )
@@ -115,25 +115,25 @@ def union(scene: Assembly, scale: float = METRE, fuse: float | None = None) -> S
 
 
 def kernel() -> Any:
-    """The library that joins solids.
+    """Import the library that joins solids.
 
     Raises
     ------
     FileError
-        It is not installed.
+        The library is not installed.
     """
     return optional("manifold3d", "joining parts to a solid", "print")
 
 
-def _solids(scene: Assembly, tools: Any, swell: float) -> list[Any]:
-    """Each shape as a solid of manifold3d; those that are not closed are reported together."""
-    found, bad = [], []
-    # The solid is moved anyway, and the library's tolerance grows with the distance from the origin.
+def _solids(scene: Assembly, tools: Any, distance: float) -> list[Any]:
+    """Convert each shape to a solid of manifold3d; report all shapes that are not closed together."""
+    solids, bad = [], []
+    # Shapes are moved to the origin, because the library's tolerance grows with the distance from it.
     origin = scene.bounds[0] if is_far(scene.bounds) else np.zeros(3)
     for part in scene.parts:
         meshes = _engine.meshes([[shape] for shape in part.shapes])
         for number, (vertices, triangles, normals, _) in enumerate(meshes):
-            vertices, faces = _swollen(vertices - origin, triangles, normals, swell)
+            vertices, faces = _expand(vertices - origin, triangles, normals, distance)
             solid = tools.Manifold(tools.Mesh64(vertices, faces.astype(np.uint64)))
             reason = ""
             if (count := _open_edges(faces)) or solid.status() != tools.Error.NoError:
@@ -143,17 +143,20 @@ def _solids(scene: Assembly, tools: Any, swell: float) -> list[Any]:
             if reason:
                 name = part.address if len(part.shapes) == 1 else f"{part.address}, shape {number + 1}"
                 bad.append(f"{name} ({reason})")
-            found.append(solid)
+            solids.append(solid)
     if bad:
         listed = "; ".join(bad[:4]) + (f"; and {len(bad) - 4} more" if len(bad) > 4 else "")
-        raise FileError("not-a-solid", count=len(bad), total=len(found), listed=listed)
-    return found
+        raise FileError("not-a-solid", count=len(bad), total=len(solids), listed=listed)
+    return solids
 
 
-def _swollen(
-    vertices: NDArray[Any], faces: NDArray[Any], normals: NDArray[Any], swell: float
+def _expand(
+    vertices: NDArray[Any], faces: NDArray[Any], normals: NDArray[Any], distance: float
 ) -> tuple[NDArray[Any], NDArray[Any]]:
-    """A fine mesh with the vertices at one place made one (it has several where normals differ), moved outwards."""
+    """Merge vertices of a fine mesh that are at the same place, and move them outwards.
+
+    A fine mesh has several vertices at a place where normals differ.
+    """
     places, index = np.unique(vertices, axis=0, return_inverse=True)
     index = index.reshape(-1)
     outwards = np.zeros_like(places)
@@ -161,14 +164,15 @@ def _swollen(
     lengths = np.linalg.norm(outwards, axis=1, keepdims=True)
     corners = index[faces]
     a, b, c = corners.T
-    kept = corners[(a != b) & (b != c) & (c != a)]
-    return places + swell * outwards / np.where(lengths > 0.0, lengths, 1.0), kept
+    triangles = corners[(a != b) & (b != c) & (c != a)]
+    return places + distance * outwards / np.where(lengths > 0.0, lengths, 1.0), triangles
 
 
 def _pieces(vertices: NDArray[Any], faces: NDArray[Any]) -> int:
-    """How many bodies a closed surface bounds; the walls of a hollow, which face inwards, are no body.
+    """Count the bodies of a closed surface; the walls of a hollow, which face inwards, do not count.
 
-    Each vertex takes the smallest number among its neighbours', and that number's own, until nothing changes.
+    Each vertex repeatedly takes the smallest label of its neighbours, and the label of that label, until no label
+    changes.
     """
     label = np.arange(len(vertices))
     while True:
@@ -184,7 +188,7 @@ def _pieces(vertices: NDArray[Any], faces: NDArray[Any]) -> int:
 
 
 def _open_edges(faces: NDArray[Any]) -> int:
-    """Edges without a neighbour in the opposite direction."""
+    """Count edges without an opposite edge."""
     a, b = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).T
     base = int(faces.max()) + 1
     return int(np.setxor1d(a * base + b, b * base + a).size // 2)

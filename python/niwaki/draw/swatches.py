@@ -1,4 +1,4 @@
-"""Palettes of colours: as rows of swatches in columns with titles; or as ribbons, one column for each palette."""
+"""Pictures of palettes: rows of swatches in columns with titles, or ribbons with a column for each palette."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ PAPER, INK = (250, 249, 246), (84, 82, 78)
 def swatches(
     columns: Mapping[str, Sequence[Sequence[VecLike]]], *, swatch: int = 64, gap: int = 28
 ) -> Image.Image:
-    """Draw palettes.
+    """Draw palettes as swatches, in columns.
 
     Parameters
     ----------
     columns
-        Palettes by the title of their column. A palette is a list of colours, a colour three sRGB parts in [0, 1];
-        what lies outside is drawn as the nearest that a screen can show.
+        Palettes by the title of their column. A palette is a list of colours; a colour is three sRGB parts in [0, 1].
+        Parts outside this range are clipped.
     swatch
-        Width of a swatch in pixels; it is a little taller.
+        Width of a swatch in pixels; the height is a little larger.
     gap
         Pixels between palettes.
     """
@@ -58,7 +58,7 @@ def swatches(
 def ribbons(
     rows: Mapping[str, Sequence[Sequence[VecLike]]], *, column: int = 3, tall: int = 120, gap: int = 18
 ) -> Image.Image:
-    """Draw sequences of palettes, each as a ribbon under its title: a palette is a column, its colours are bands.
+    """Draw each sequence of palettes as a ribbon under its title; a palette is a column, its colours are bands.
 
     Parameters
     ----------

@@ -27,6 +27,8 @@ from niwaki.methods import FutureOrder, Smc, at_least_one, smc
 from niwaki.search import Search
 from niwaki.search.checks import check_seed, check_threads, fresh
 
+#: The largest number of an order that is tried; the engine refuses larger ones.
+LARGEST = 50.0
 #: Numbers of an order, beside the numbers of its functions.
 FEATURES = ("depth", "turns", "waited", "stay")
 #: The share of a round's orders to which the next normals are fitted.

@@ -1,4 +1,4 @@
-"""Blender as a module is only in an environment of its own (`make test-blender`)."""
+"""Collection rules: tests with `bpy` run only in a separate environment (`make test-blender`)."""
 
 from importlib.util import find_spec
 

@@ -1,10 +1,9 @@
-"""Claim: the built extension installs into an empty Blender; its operators grow into a mesh, keep away from others,
-place results as collections with named parts, keep what is held in a re-roll, and do a loaded search again with the
-same bits.
+"""Claim: the built extension installs into an empty Blender. Its operators grow into a mesh, avoid obstacles, place
+results as collections with named parts, keep held parts in a re-roll, and repeat a loaded search with the same bits.
 
-`make test-blender` runs this on the Python that has `bpy`, where Niwaki is only in the extension's zip (NIWAKI_ZIP),
-and Blender's own folder is an empty one (BLENDER_USER_RESOURCES).
-Panels, timers and what a mouse does are not tested here: `bpy` has no window.
+`make test-blender` runs this file on the Python that has `bpy`. There Niwaki is only in the extension's zip
+(NIWAKI_ZIP), and Blender's own folder is empty (BLENDER_USER_RESOURCES). Mouse actions are not tested: `bpy` has no
+window.
 """
 
 from __future__ import annotations
@@ -27,14 +26,14 @@ HOME = os.environ["BLENDER_USER_RESOURCES"]
 ZIP = Path(os.environ["NIWAKI_ZIP"]).resolve()
 PICTURES = os.environ.get("NIWAKI_PICTURES")
 
-#: Leaves a mark when it is run; its host function keeps the model in its file.
+#: A model file that leaves a mark when it is run; its host function keeps the model in its file.
 MODEL = Path(__file__).with_name("marked_tower.txt").read_text()
 
 
 @pytest.fixture(scope="session", autouse=True)
 def installed() -> None:
-    """The extension, as a user installs it."""
-    # A module that `bpy` brings.
+    """Install the extension as a user does."""
+    # `bpy` provides this module.
     import addon_utils
 
     addon_utils.enable("bl_pkg")
@@ -51,9 +50,9 @@ def installed() -> None:
 
 @pytest.fixture(autouse=True)
 def scene() -> bpy.types.Scene:
-    """An empty scene with a quick search."""
+    """An empty scene with a short search."""
     bpy.ops.wm.read_homefile(use_empty=True)
-    inside().naming.forget()
+    inside().permissions.forget()
     bpy.context.scene.niwaki_settings.effort = 0.2
     return bpy.context.scene
 
@@ -61,62 +60,62 @@ def scene() -> bpy.types.Scene:
 def inside() -> Any:
     """The extension's modules."""
     from bl_ext.user_default import niwaki as extension
-    from bl_ext.user_default.niwaki import growing, keeping, naming, operators, placing, reading
+    from bl_ext.user_default.niwaki import conversion, growth, operators, permissions, placement, storage
 
-    del growing, keeping, naming, operators, placing, reading
+    del conversion, growth, operators, permissions, placement, storage
     return extension
 
 
 def block(name: str, at: tuple[float, ...], size: tuple[float, ...]) -> bpy.types.Object:
-    """A box of the scene, with a scale and a modifier-free mesh."""
+    """Add a scaled box without modifiers to the scene."""
     bpy.ops.mesh.primitive_cube_add(size=1.0, location=at)
-    thing = bpy.context.object
-    thing.name, thing.scale = name, size
+    cube = bpy.context.object
+    cube.name, cube.scale = name, size
     bpy.context.view_layer.update()
-    return thing
+    return cube
 
 
 def results() -> list[bpy.types.Collection]:
-    return [one for one in bpy.data.collections if "niwaki_number" in one]
+    return [collection for collection in bpy.data.collections if "niwaki_number" in collection]
 
 
 def parts(result: bpy.types.Collection) -> dict[str, bpy.types.Object]:
-    return {thing["address"]: thing for thing in result.objects if "address" in thing}
+    return {obj["address"]: obj for obj in result.objects if "address" in obj}
 
 
-def points(thing: bpy.types.Object) -> np.ndarray:
-    """The vertices of an object in the world."""
-    found = np.empty(3 * len(thing.data.vertices), dtype=np.float32)
-    thing.data.vertices.foreach_get("co", found)
-    matrix = np.array(thing.matrix_world)
-    return found.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
+def points(obj: bpy.types.Object) -> np.ndarray:
+    """Read the vertices of an object in world space."""
+    vertices = np.empty(3 * len(obj.data.vertices), dtype=np.float32)
+    obj.data.vertices.foreach_get("co", vertices)
+    matrix = np.array(obj.matrix_world)
+    return vertices.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def cloud(result: bpy.types.Collection) -> np.ndarray:
-    return np.concatenate([points(thing) for thing in parts(result).values()])
+    return np.concatenate([points(part) for part in parts(result).values()])
 
 
 def bits(result: bpy.types.Collection) -> dict[str, bytes]:
-    """The vertices of each part, and what is kept of the result."""
-    kept = "".join(f"{key}={result[key]!r};" for key in sorted(result.keys()))
-    return {address: points(thing).tobytes() for address, thing in parts(result).items()} | {
-        "": kept.encode()
+    """Collect the vertices of each part, and the stored properties of the result."""
+    properties = "".join(f"{key}={result[key]!r};" for key in sorted(result.keys()))
+    return {address: points(part).tobytes() for address, part in parts(result).items()} | {
+        "": properties.encode()
     }
 
 
-def activate(thing: bpy.types.Object) -> None:
+def activate(obj: bpy.types.Object) -> None:
     bpy.ops.object.select_all(action="DESELECT")
-    thing.select_set(True)
-    bpy.context.view_layer.objects.active = thing
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
 
 
 def test_blender_finds_no_fault_in_the_manifest() -> None:
     tool = Path(bpy.utils.system_resource("SCRIPTS")) / "addons_core/bl_pkg/cli/blender_ext.py"
-    found = subprocess.run([sys.executable, tool, "validate", ZIP], capture_output=True, text=True)
-    assert found.returncode == 0, found.stdout + found.stderr
+    done = subprocess.run([sys.executable, tool, "validate", ZIP], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_a_ship_fills_a_mesh_and_keeps_away_from_another(scene: bpy.types.Scene) -> None:
+def test_a_ship_fills_a_mesh_and_avoids_another(scene: bpy.types.Scene) -> None:
     settings = scene.niwaki_settings
     settings.target = block("hull", (3, 0, 5), (4, 14, 3))
     wall = block("wall", (4.5, 0, 5), (0.5, 3, 3))
@@ -127,7 +126,7 @@ def test_a_ship_fills_a_mesh_and_keeps_away_from_another(scene: bpy.types.Scene)
     (result,) = results()
     assert result["niwaki_covered"] > 0.4 and result["niwaki_outside"] < 0.4
     low, high = cloud(result).min(axis=0), cloud(result).max(axis=0)
-    # It fills a mesh that stands away from the origin, along Blender's axes.
+    # The mesh is away from the origin, and the ship lies along Blender's axes.
     assert 2 < (low + high)[0] / 2 < 4 and 4 < (low + high)[2] / 2 < 6
     assert (high - low).argmax() == 1
     near = np.abs(cloud(result) - np.array(wall.location)) <= np.array(wall.scale) / 2 + 1e-4
@@ -144,79 +143,77 @@ def test_results_are_collections_with_named_parts(scene: bpy.types.Scene) -> Non
     choices = json.loads(result["niwaki_choices"])
     stored = json.loads(run["niwaki_run"])
     assert choices and stored["search"]["seed"] == 7
-    found = parts(result)
-    assert len(found) > 3
-    for address, thing in found.items():
-        assert thing.type == "MESH" and all(slot.material.node_tree for slot in thing.material_slots)
-        assert address.split("/")[0] in {parent.name.split(".")[0] for parent in ancestors(thing)}
+    members = parts(result)
+    assert len(members) > 3
+    for address, part in members.items():
+        assert part.type == "MESH" and all(slot.material.node_tree for slot in part.material_slots)
+        assert address.split("/")[0] in {parent.name.split(".")[0] for parent in ancestors(part)}
     # Each choice of a call is a property of its object.
-    noted = [dict(one) for thing in result.objects for one in thing.get("choices", [])]
-    assert noted and all(choices[one["address"]] == pytest.approx(one["value"]) for one in noted)
+    rows = [dict(row) for obj in result.objects for row in obj.get("choices", [])]
+    assert rows and all(choices[row["address"]] == pytest.approx(row["value"]) for row in rows)
     assert "niwaki" not in scene
 
 
-def ancestors(thing: bpy.types.Object) -> list[bpy.types.Object]:
-    return [thing, *(ancestors(thing.parent) if thing.parent else [])]
+def ancestors(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    return [obj, *(ancestors(obj.parent) if obj.parent else [])]
 
 
-def test_different_ones_stand_in_a_grid(scene: bpy.types.Scene) -> None:
+def test_different_results_stand_in_a_grid(scene: bpy.types.Scene) -> None:
     assert bpy.ops.niwaki.grow(count=3) == {"FINISHED"}
-    boxes = [(cloud(one).min(axis=0), cloud(one).max(axis=0)) for one in results()]
+    boxes = [(cloud(result).min(axis=0), cloud(result).max(axis=0)) for result in results()]
     assert len(boxes) == 3
     for number, (low, high) in enumerate(boxes):
         for other_low, other_high in boxes[:number]:
             assert (high < other_low).any() or (other_high < low).any()
-    assert len({one["niwaki_choices"] for one in results()}) == 3
+    assert len({result["niwaki_choices"] for result in results()}) == 3
     # Materials are shared.
-    names = [one.name for one in bpy.data.materials]
+    names = [material.name for material in bpy.data.materials]
     assert not any(name.endswith(".001") for name in names), names
 
 
-def test_a_reroll_keeps_the_part_that_is_held(scene: bpy.types.Scene) -> None:
+def test_a_reroll_keeps_a_held_part(scene: bpy.types.Scene) -> None:
     scene.niwaki_settings.seed = 7
     bpy.ops.niwaki.grow()
     (old,) = results()
     before = parts(old)
     activate(before["while[0]/emit"])
-    # Its mesh is being edited.
+    # The part's mesh is in edit mode.
     bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.niwaki.hold() == {"FINISHED"}
     assert bpy.ops.niwaki.reroll(seed=11) == {"FINISHED"}
-    new = next(one for one in results() if one != old)
+    new = next(result for result in results() if result != old)
     after = parts(new)
     assert (points(after["while[0]/emit"]) == points(before["while[0]/emit"])).all()
     assert bits(new) != bits(old) and new["niwaki_seed"] == "11"
     assert old.hide_viewport and not new.hide_viewport and after["while[0]/emit"]["niwaki_held"]
-    # What is freed may change again.
+    # A freed part may change again.
     activate(after["while[0]/emit"])
     bpy.ops.niwaki.hold()
     assert "niwaki_held" not in after["while[0]/emit"]
 
 
-def test_a_loaded_search_is_done_again_with_the_same_bits(scene: bpy.types.Scene, tmp_path: Path) -> None:
+def test_a_loaded_search_repeats_with_the_same_bits(scene: bpy.types.Scene, tmp_path: Path) -> None:
     settings = scene.niwaki_settings
     settings.target = block("hull", (0, 0, 2), (3, 9, 3))
     settings.use_floor, settings.floor = True, 0.0
     bpy.ops.niwaki.grow(count=2)
-    first = [bits(one) for one in results()]
+    first = [bits(result) for result in results()]
     place = str(tmp_path / "ships.blend")
     bpy.ops.wm.save_as_mainfile(filepath=place)
     bpy.ops.wm.read_homefile(use_empty=True)
     assert not results()
     bpy.ops.wm.open_mainfile(filepath=place)
     loaded = results()
-    assert [bits(one) for one in loaded] == first
-    # What it needs is in its search.
+    assert [bits(result) for result in loaded] == first
+    # The stored search does not need the target object.
     bpy.data.objects.remove(bpy.data.objects["hull"])
     activate(next(iter(parts(loaded[0]).values())))
     assert bpy.ops.niwaki.again() == {"FINISHED"}
-    again = [one for one in results() if one not in loaded]
-    assert [bits(one) for one in again] == first
+    again = [result for result in results() if result not in loaded]
+    assert [bits(result) for result in again] == first
 
 
-def test_opening_runs_nothing_and_a_file_is_run_where_it_is_agreed_to(
-    scene: bpy.types.Scene, tmp_path: Path
-) -> None:
+def test_opening_runs_no_code_and_a_file_runs_after_consent(scene: bpy.types.Scene, tmp_path: Path) -> None:
     file, mark, place = tmp_path / "towers.py", tmp_path / "mark", str(tmp_path / "tower.blend")
     file.write_text(MODEL.format(mark=str(mark)))
     settings = scene.niwaki_settings
@@ -228,50 +225,50 @@ def test_opening_runs_nothing_and_a_file_is_run_where_it_is_agreed_to(
     assert result.name == "tower 1 #0" and list(parts(result)) == ["tower"]
     bpy.ops.wm.save_as_mainfile(filepath=place)
     mark.unlink()
-    inside().naming.forget()
+    inside().permissions.forget()
     bpy.ops.wm.open_mainfile(filepath=place)
     (result,) = results()
     first = bits(result)
     activate(parts(result)["tower"])
-    for refused in (bpy.ops.niwaki.grow, bpy.ops.niwaki.again, bpy.ops.niwaki.reroll):
+    for operator in (bpy.ops.niwaki.grow, bpy.ops.niwaki.again, bpy.ops.niwaki.reroll):
         with pytest.raises(RuntimeError, match="Trust"):
-            refused()
+            operator()
     with pytest.raises(RuntimeError, match="SHA-256"):
         bpy.ops.niwaki.trust(filepath=str(file), sha256="0" * 64)
     assert not mark.exists() and len(results()) == 1
     run = bpy.data.collections["tower 1"]
-    named, sha256 = run["niwaki_file"], run["niwaki_file_sha256"]
-    assert bpy.ops.niwaki.trust(filepath=named, sha256=sha256) == {"FINISHED"}
+    file_name, sha256 = run["niwaki_file"], run["niwaki_file_sha256"]
+    assert bpy.ops.niwaki.trust(filepath=file_name, sha256=sha256) == {"FINISHED"}
     assert bpy.ops.niwaki.again() == {"FINISHED"}
-    (again,) = [one for one in results() if one != result]
+    (again,) = [other for other in results() if other != result]
     assert bits(again) == first
 
 
 def test_a_search_is_cancelled(scene: bpy.types.Scene) -> None:
-    growing, settings = inside().growing, scene.niwaki_settings
+    growth, settings = inside().growth, scene.niwaki_settings
     settings.model, settings.effort = "gnarly-tree", 64.0
-    one = growing.Growing(settings.order(bpy.context).job())
-    while not one.has_ended and (one.progress is None or one.progress.best is None):
-        one.wait(0.05)
-    one.stop()
-    one.wait(20)
-    assert one.grown is not None and one.grown.interrupted, one.problem
-    placing, before = inside().placing, len(bpy.data.objects)
+    search = growth.Growth(settings.order(bpy.context).job())
+    while not search.has_ended and (search.progress is None or search.progress.best is None):
+        search.wait(0.05)
+    search.stop()
+    search.wait(20)
+    assert search.outcome is not None and search.outcome.interrupted, search.problem
+    placement, before = inside().placement, len(bpy.data.objects)
     for _ in range(2):
-        placing.show_best(bpy.context, one.best, (1, 2, 3))
-    preview = bpy.data.objects[placing.BEST]
+        placement.show_best(bpy.context, search.best, (1, 2, 3))
+    preview = bpy.data.objects[placement.BEST]
     bpy.context.view_layer.update()
     assert points(preview)[:, 2].min() > 2 and len(bpy.data.objects) == before + 1
-    placing.hide_best()
+    placement.hide_best()
     assert len(bpy.data.objects) == before
-    placing.place(bpy.context, one.grown, "tree")
-    one.clear()
+    placement.place(bpy.context, search.outcome, "tree")
+    search.clear()
     assert len(parts(results()[0])) > 3
 
 
 @pytest.mark.parametrize("key", ["TIMER", "ESC"])
-def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key: str) -> None:
-    # What Blender would call, without the window that it needs for it.
+def test_a_button_updates_by_a_timer_and_esc_ends_the_search(scene: bpy.types.Scene, key: str) -> None:
+    # The test makes Blender's calls, because `bpy` has no window.
     extension = inside()
     stopped: list[str] = []
     manager = SimpleNamespace(
@@ -284,18 +281,18 @@ def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key
         window_manager=manager, window=window, scene=scene, view_layer=bpy.context.view_layer, object=None
     )
 
-    class Button(extension.operators._Grows):
+    class Button(extension.operators._GrowthOperator):
         reports: list[str] = []
 
         def begin(self, context: Any) -> Any:
             order = scene.niwaki_settings.order(bpy.context)
-            return extension.growing.Growing(order.job())
+            return extension.growth.Growth(order.job())
 
         def place(self) -> tuple[float, ...]:
             return (0.0, 0.0, 0.0)
 
-        def end(self, context: Any, grown: Any) -> None:
-            extension.placing.place(context, grown, "tree")
+        def end(self, context: Any, outcome: Any) -> None:
+            extension.placement.place(context, outcome, "tree")
 
         def report(self, kind: set[str], text: str) -> None:
             self.reports.append(text)
@@ -304,34 +301,34 @@ def test_a_button_looks_now_and_then_and_esc_ends_it(scene: bpy.types.Scene, key
     scene.niwaki_settings.effort = 64.0 if key == "ESC" else 0.5
     button = Button()
     assert button.invoke(context, None) == {"RUNNING_MODAL"}
-    assert not bpy.ops.niwaki.grow.poll() and extension.operators.running() is button._growing
+    assert not bpy.ops.niwaki.grow.poll() and extension.operators.running() is button._growth
     assert button.modal(context, SimpleNamespace(type="MOUSEMOVE")) == {"PASS_THROUGH"}
     shown = False
-    while (found := button.modal(context, SimpleNamespace(type="TIMER"))) == {"PASS_THROUGH"}:
-        shown = shown or extension.placing.BEST in bpy.data.objects
+    while (state := button.modal(context, SimpleNamespace(type="TIMER"))) == {"PASS_THROUGH"}:
+        shown = shown or extension.placement.BEST in bpy.data.objects
         if key == "ESC" and shown:
             assert button.modal(context, SimpleNamespace(type="ESC")) == {"RUNNING_MODAL"}
-        button._growing.wait(0.05)
-    assert found == {"FINISHED"} and shown and stopped == ["timer"]
-    assert extension.placing.BEST not in bpy.data.objects and len(results()) == 1
+        button._growth.wait(0.05)
+    assert state == {"FINISHED"} and shown and stopped == ["timer"]
+    assert extension.placement.BEST not in bpy.data.objects and len(results()) == 1
     assert extension.operators.running() is None and bpy.ops.niwaki.grow.poll()
-    assert button.reports == (["Cancelled: the best until then"] if key == "ESC" else [])
+    assert button.reports == (["Cancelled: these are the best results so far"] if key == "ESC" else [])
     # Blender loads another file.
     assert button.invoke(context, None) == {"RUNNING_MODAL"}
-    folder = button._growing._folder
+    folder = button._growth._folder
     button.cancel(context)
-    button._growing.wait(20)
+    button._growth.wait(20)
     assert extension.operators.running() is None and not folder.exists()
 
 
-def test_messages_say_what_is_missing(scene: bpy.types.Scene) -> None:
+def test_missing_settings_give_a_message(scene: bpy.types.Scene) -> None:
     settings = scene.niwaki_settings
-    for set_up, said in (
+    for set_up, message in (
         (lambda: setattr(settings, "model", "spacesip"), "did you mean `spaceship`"),
-        (lambda: setattr(settings, "arguments", "{"), "no JSON"),
+        (lambda: setattr(settings, "arguments", "{"), "not JSON"),
     ):
         set_up()
-        with pytest.raises(RuntimeError, match=said):
+        with pytest.raises(RuntimeError, match=message):
             bpy.ops.niwaki.grow()
         settings.property_unset("model")
         settings.property_unset("arguments")
@@ -344,7 +341,7 @@ def test_messages_say_what_is_missing(scene: bpy.types.Scene) -> None:
 
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
 @pytest.mark.parametrize("size", [(640, 480), (300, 500)])
-def test_a_camera_of_the_search_sees_what_blender_s_sees(
+def test_a_camera_of_the_search_has_the_view_of_blender_s_camera(
     scene: bpy.types.Scene, kind: str, size: tuple[int, int]
 ) -> None:
     from niwaki import _engine, match_image
@@ -357,13 +354,13 @@ def test_a_camera_of_the_search_sees_what_blender_s_sees(
     scene.collection.objects.link(camera)
     camera.location, camera.rotation_euler = (6, -9, 5), (1.1, 0.1, 0.6)
     bpy.context.view_layer.update()
-    seen_by = inside().reading.eye(camera, scene).camera()
+    search_camera = inside().conversion.eye(camera, scene).camera()
     columns, rows = size[0] // 2, size[1] // 2
-    view = match_image(np.eye(rows, columns, dtype=bool), seen_by).views[0]
+    view = match_image(np.eye(rows, columns, dtype=bool), search_camera).views[0]
     for x, y, z in ((0, 0, 0), (1, 0.5, 1), (-0.7, 1, 0.3)):
         mask = view.mask(Scene([("dot", [_engine.shape("box", (x, z, -y), (0.2, 0.2, 0.2), bevel=0.0)])]))
         expected = world_to_camera_view(scene, camera, Vector((x, y, z)))
-        row, column = (float(one.mean()) + 0.5 for one in np.nonzero(mask))
+        row, column = (float(indices.mean()) + 0.5 for indices in np.nonzero(mask))
         assert column / columns == pytest.approx(expected.x, abs=0.01)
         assert 1.0 - row / rows == pytest.approx(expected.y, abs=0.01)
 
@@ -379,12 +376,12 @@ def test_a_silhouette_and_a_shadow_are_matched(scene: bpy.types.Scene, tmp_path:
     settings.camera = bpy.data.objects.new("camera", lens)
     scene.collection.objects.link(settings.camera)
     settings.camera.location, settings.camera.rotation_euler = (0, -9, 2.5), (np.pi / 2, 0, 0)
-    wanted = np.zeros((100, 100, 4), dtype=np.float32)
-    wanted[:, :, 3] = 1.0
-    # 1 wide, 2 high, on the ground: the lower row comes first.
-    wanted[:40, 40:60, :3] = 1.0
+    image = np.zeros((100, 100, 4), dtype=np.float32)
+    image[:, :, 3] = 1.0
+    # A tower of width 1 and height 2 on the ground; the lower row comes first.
+    image[:40, 40:60, :3] = 1.0
     settings.silhouette = bpy.data.images.new("tall", 100, 100)
-    settings.silhouette.pixels.foreach_set(wanted.ravel())
+    settings.silhouette.pixels.foreach_set(image.ravel())
     bpy.context.view_layer.update()
     settings.effort = 1.0
     assert bpy.ops.niwaki.grow() == {"FINISHED"}
@@ -396,19 +393,19 @@ def test_a_silhouette_and_a_shadow_are_matched(scene: bpy.types.Scene, tmp_path:
     scene.collection.objects.link(settings.light)
     bpy.ops.mesh.primitive_plane_add(size=10.0)
     settings.receiver, settings.shadow, settings.camera = bpy.context.object, bpy.data.images["tall"], None
-    # Seen along the light, 10 wide: 1.5 on both sides.
-    wanted[:, :, :3] = 0.0
-    wanted[42:58, 42:58, :3] = 1.0
-    settings.shadow.pixels.foreach_set(wanted.ravel())
+    # The view along the light is 10 wide; the square has side 1.6.
+    image[:, :, :3] = 0.0
+    image[42:58, 42:58, :3] = 1.0
+    settings.shadow.pixels.foreach_set(image.ravel())
     bpy.context.view_layer.update()
     assert bpy.ops.niwaki.grow() == {"FINISHED"}
-    (found,) = [one for one in results() if one != first]
-    low, high = cloud(found).min(axis=0), cloud(found).max(axis=0)
+    (second,) = [result for result in results() if result != first]
+    low, high = cloud(second).min(axis=0), cloud(second).max(axis=0)
     assert (high - low)[:2] == pytest.approx([1.6, 1.6], abs=0.2)
 
 
 def test_the_panel_is_drawn(scene: bpy.types.Scene, tmp_path: Path) -> None:
-    # By a layout that notes what is drawn; there is no window for a real one.
+    # A fake layout records the drawing, because `bpy` has no window.
     extension = inside()
     from bl_ext.user_default.niwaki import panel
 
@@ -436,7 +433,7 @@ def test_the_panel_is_drawn(scene: bpy.types.Scene, tmp_path: Path) -> None:
     bpy.ops.niwaki.grow()
     activate(next(iter(parts(results()[0]).values())))
     bpy.ops.niwaki.hold()
-    assert "label spaceship 1 #0" in drawn() and "1 parts are held" in drawn() and "niwaki.reroll" in drawn()
+    assert "label spaceship 1 #0" in drawn() and "Held parts: 1" in drawn() and "niwaki.reroll" in drawn()
     scene.niwaki_settings.model_file = str(tmp_path / "none.py")
     assert "Trust none.py" in drawn() and "prop function" in drawn()
     extension.operators._running.append(SimpleNamespace(progress=None))
@@ -444,7 +441,7 @@ def test_the_panel_is_drawn(scene: bpy.types.Scene, tmp_path: Path) -> None:
     extension.operators._running.clear()
 
 
-def test_it_is_switched_off_and_on() -> None:
+def test_the_extension_is_disabled_and_enabled() -> None:
     import addon_utils
 
     name = "bl_ext.user_default.niwaki"
@@ -464,7 +461,7 @@ def test_the_manual_s_picture(scene: bpy.types.Scene) -> None:
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     scene.collection.objects.link(camera)
     scene.camera = camera
-    clouds = np.concatenate([cloud(one) for one in results()])
+    clouds = np.concatenate([cloud(result) for result in results()])
     low, high = clouds.min(axis=0), clouds.max(axis=0)
     bpy.ops.mesh.primitive_plane_add(size=400.0, location=((low + high)[0] / 2, (low + high)[1] / 2, low[2]))
     ground = bpy.data.materials.new("ground")

@@ -1,7 +1,7 @@
 """Claim: Blender reads the files of the corpus of meshes (tests/niwaki/targets/mesh_corpus.py) as Niwaki does.
 
-`make test-blender` runs this on the Python that has `bpy`. Files that Niwaki refuses are not asked about: Blender's
-importers leave out what they cannot read.
+`make test-blender` runs this file on the Python that has `bpy`. Files that Niwaki refuses are not compared, because
+Blender's importers skip unreadable contents.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import pytest
 sys.path.append(str(Path(__file__).parents[2] / "niwaki/targets"))
 from mesh_corpus import CASES, Case  # noqa: E402
 
-#: What Blender reads in another way, and how.
+#: Files that Blender reads differently, and the difference.
 OTHERWISE = {
     "obj: mark of UTF-8": "reads no first line",
     "obj: UTF-16": "reads no line",
@@ -38,7 +38,7 @@ OTHERWISE = {
 
 
 def read(path: Path) -> None:
-    """Import a file with its coordinates as they are."""
+    """Import a file without conversion of axes."""
     axes: dict[str, Any] = {"forward_axis": "Y", "up_axis": "Z"}
     if path.suffix in (".glb", ".gltf"):
         bpy.ops.import_scene.gltf(filepath=str(path))
@@ -47,24 +47,24 @@ def read(path: Path) -> None:
 
 
 def triangles() -> np.ndarray:
-    """The triangles of all objects, as they are shown, (n, 3, 3)."""
+    """Collect the visible triangles of all objects, (n, 3, 3)."""
     graph = bpy.context.evaluated_depsgraph_get()
-    found = [np.empty((0, 3, 3))]
-    for one in graph.object_instances:
-        if one.object.type != "MESH":
+    blocks = [np.empty((0, 3, 3))]
+    for instance in graph.object_instances:
+        if instance.object.type != "MESH":
             continue
-        mesh = one.object.to_mesh()
+        mesh = instance.object.to_mesh()
         mesh.calc_loop_triangles()
         points = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.vertices.foreach_get("co", points)
         corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
         mesh.loop_triangles.foreach_get("vertices", corners)
-        matrix = np.array(one.matrix_world)
+        matrix = np.array(instance.matrix_world)
         placed = points.reshape(-1, 3).astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
         faces = corners.reshape(-1, 3)
-        # A mirror image turns its triangles over.
-        found.append(placed[faces if np.linalg.det(matrix[:3, :3]) > 0 else faces[:, ::-1]])
-    return np.concatenate(found)
+        # A mirror image reverses its triangles.
+        blocks.append(placed[faces if np.linalg.det(matrix[:3, :3]) > 0 else faces[:, ::-1]])
+    return np.concatenate(blocks)
 
 
 @pytest.mark.parametrize(

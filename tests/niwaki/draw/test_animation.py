@@ -1,4 +1,4 @@
-"""Claim: in a moving picture the parts appear one after another in the given order, and nothing else moves."""
+"""Claim: in a moving picture the parts appear in the given order, and all other pixels stay."""
 
 from __future__ import annotations
 
@@ -16,39 +16,39 @@ SMALL = {"size": (96, 72), "samples": 1}
 
 
 def row(count: int = 4) -> Scene:
-    """Boxes from left to right."""
+    """A row of boxes from left to right."""
     return Scene((f"box[{k}]", [_engine.shape("box", (2.0 * k, 0.5, 0), (1, 1, 1))]) for k in range(count))
 
 
 def frames(path: Path) -> list[np.ndarray]:
-    found = []
+    arrays = []
     with Image.open(path) as image:
         for k in range(image.n_frames):
             image.seek(k)
-            found.append(np.asarray(image.convert("RGB"), dtype=int))
-    return found
+            arrays.append(np.asarray(image.convert("RGB"), dtype=int))
+    return arrays
 
 
 def changed(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Columns with a pixel that differs by more than a palette's step."""
+    """Find columns with a pixel that differs by more than a palette's step."""
     return np.nonzero((np.abs(first - second).max(axis=2) > 40).any(axis=0))[0]
 
 
 @pytest.mark.parametrize("suffix", ["gif", "apng"])
 def test_parts_appear_from_left_to_right(tmp_path: Path, suffix: str) -> None:
-    found = frames(growth(row(), tmp_path / f"row.{suffix}", azimuth=0.0, elevation=0.0, **SMALL))
-    assert len(found) == 4
-    middles = [changed(a, b).mean() for a, b in zip(found, found[1:], strict=False)]
+    pictures = frames(growth(row(), tmp_path / f"row.{suffix}", azimuth=0.0, elevation=0.0, **SMALL))
+    assert len(pictures) == 4
+    middles = [changed(a, b).mean() for a, b in zip(pictures, pictures[1:], strict=False)]
     assert middles == sorted(middles) and middles[-1] - middles[0] > 20
-    # What was there stays as it is: the first box has the same pixels in every frame.
-    start = changed(found[0], found[1]).min() - 6
-    assert all(np.abs(frame[:, : start - 4] - found[0][:, : start - 4]).max() <= 24 for frame in found)
+    # Earlier parts do not change: the first box has the same pixels in every frame.
+    start = changed(pictures[0], pictures[1]).min() - 6
+    assert all(np.abs(frame[:, : start - 4] - pictures[0][:, : start - 4]).max() <= 24 for frame in pictures)
 
 
 def test_the_order_of_appearing_can_be_given(tmp_path: Path) -> None:
     back = growth(row(), tmp_path / "row.gif", parts=row().parts[::-1], azimuth=0.0, elevation=0.0, **SMALL)
-    found = frames(back)
-    middles = [changed(a, b).mean() for a, b in zip(found, found[1:], strict=False)]
+    pictures = frames(back)
+    middles = [changed(a, b).mean() for a, b in zip(pictures, pictures[1:], strict=False)]
     assert middles == sorted(middles, reverse=True)
 
 
@@ -68,8 +68,8 @@ def test_time_and_size_are_as_given(tmp_path: Path) -> None:
 
 
 def test_states_may_be_empty_and_come_back(tmp_path: Path) -> None:
-    found = frames(animate([Scene([]), row(), Scene([])], tmp_path / "blink.apng", **SMALL))
-    assert np.array_equal(found[0], found[2]) and len(changed(found[0], found[1])) > 10
+    pictures = frames(animate([Scene([]), row(), Scene([])], tmp_path / "blink.apng", **SMALL))
+    assert np.array_equal(pictures[0], pictures[2]) and len(changed(pictures[0], pictures[1])) > 10
 
 
 def test_bad_settings_are_refused_and_leave_nothing(tmp_path: Path) -> None:

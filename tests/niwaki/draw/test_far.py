@@ -1,6 +1,6 @@
-"""Claim: a file holds the scene at any size and any distance from the origin, as other programs read it.
+"""Claim: a file represents the scene at any size and any distance from the origin, as other programs read it.
 
-The judges are trimesh, shapely, resvg and Pillow; assimp where it is installed, which keeps 32 bits.
+The judges are trimesh, shapely, resvg and Pillow, and assimp if it is installed, which has numbers of 32 bits.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from niwaki.draw.scene import Scene
 from PIL import Image
 
 HERE, MAP, SPACE = (0.0, 0.0, 0.0), (500_000.0, 4_649_776.0, 10.0), (-1e9, 1e9, 5.0)
-#: Sizes and places at which a scene keeps four digits in the 64 bits that it has itself.
+#: Sizes and places at which the 64 bits of a scene have at least four digits.
 CASES = [(size, HERE) for size in (1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6)]
 CASES += [(size, MAP) for size in (1e-5, 1e-3, 0.3, 1e3, 1e6)] + [
     (size, SPACE) for size in (1e-2, 1.0, 1e3, 1e6)
@@ -38,7 +38,7 @@ SPACE_OF_SVG = "{http://www.w3.org/2000/svg}"
 
 
 def boxes(size: float, place: tuple[float, ...]) -> tuple[Scene, float]:
-    """Boxes and a mesh in two calls, and their volume."""
+    """Make boxes and a mesh in two calls; return their volume, too."""
 
     def at(x: float) -> tuple[float, ...]:
         return (place[0] + x * size, place[1], place[2])
@@ -64,14 +64,14 @@ def exported(scene: Scene, path: Path) -> Path:
 
 
 def volume(path: Path) -> float:
-    """The volume of a file, for trimesh."""
+    """Compute the volume of a file with trimesh."""
     meshes = trimesh.load_scene(path, process=False).dump()
-    # Near 0, where the volumes of trimesh do not cancel.
+    # The meshes are moved to 0, where the terms of trimesh's volumes do not cancel.
     return float(sum(mesh.apply_translation(-mesh.bounds[0]).volume for mesh in meshes))
 
 
 def by_assimp(path: Path, sink: Path) -> float:
-    """The volume of a file, for assimp."""
+    """Compute the volume of a file with assimp."""
     program = shutil.which("assimp")
     if program is None:
         pytest.skip("assimp is not installed")
@@ -84,18 +84,18 @@ def by_assimp(path: Path, sink: Path) -> float:
 def test_a_file_has_the_volume_of_its_scene(
     tmp_path: Path, suffix: str, size: float, place: tuple[float, ...]
 ) -> None:
-    scene, wanted = boxes(size, place)
+    scene, expected = boxes(size, place)
     path = exported(scene, tmp_path / f"boxes.{suffix}")
     scale = 1000.0 if suffix == "stl" else 1.0
-    assert volume(path) / scale**3 == pytest.approx(wanted, rel=1e-3)
-    if suffix != "stl":  # which a printer moves anyway
+    assert volume(path) / scale**3 == pytest.approx(expected, rel=1e-3)
+    if suffix != "stl":  # the solid for printing is moved
         assert trimesh.load_scene(path, process=False).bounds == pytest.approx(scene.bounds, abs=1e-4 * size)
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply", "glb", "stl", "3mf"])
 @pytest.mark.parametrize(("size", "place"), CASES)
 def test_assimp_reads_the_same(tmp_path: Path, suffix: str, size: float, place: tuple[float, ...]) -> None:
-    scene, wanted = boxes(size, place)
+    scene, expected = boxes(size, place)
     path = exported(scene, tmp_path / f"boxes.{suffix}")
     far = max(map(abs, place)) > 100.0 * 4.0 * size
     if far and suffix in ("obj", "ply"):
@@ -103,7 +103,7 @@ def test_assimp_reads_the_same(tmp_path: Path, suffix: str, size: float, place: 
     if far and suffix == "glb":
         path.write_bytes(with_origin_at_0(path.read_bytes()))
     scale = 1000.0 if suffix in ("stl", "3mf") else 1.0
-    assert by_assimp(path, tmp_path / "read.ply") / scale**3 == pytest.approx(wanted, rel=1e-3)
+    assert by_assimp(path, tmp_path / "read.ply") / scale**3 == pytest.approx(expected, rel=1e-3)
 
 
 def document(data: bytes) -> tuple[dict[str, Any], bytes]:
@@ -112,19 +112,19 @@ def document(data: bytes) -> tuple[dict[str, Any], bytes]:
 
 
 def with_origin_at_0(data: bytes) -> bytes:
-    """A GLB whose node `origin`, which must be the only one at the top, is moved to 0."""
-    found, rest = document(data)
-    (root,) = found["scenes"][0]["nodes"]
-    assert found["nodes"][root]["name"] == "origin"
-    found["nodes"][root]["translation"] = [0.0, 0.0, 0.0]
-    text = json.dumps(found).encode()
+    """Move the node `origin` of a GLB, which must be the only topmost node, to 0."""
+    header, rest = document(data)
+    (root,) = header["scenes"][0]["nodes"]
+    assert header["nodes"][root]["name"] == "origin"
+    header["nodes"][root]["translation"] = [0.0, 0.0, 0.0]
+    text = json.dumps(header).encode()
     text += b" " * (-len(text) % 4)
     body = struct.pack("<I4s", len(text), b"JSON") + text + rest
     return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply"])
-def test_plain_files_of_a_far_scene_are_warned_of(tmp_path: Path, suffix: str) -> None:
+def test_plain_files_of_a_far_scene_give_a_warning(tmp_path: Path, suffix: str) -> None:
     with pytest.warns(FarSceneWarning, match="3.9e[+]06 times as far .* .glb has an offset"):
         boxes(0.3, MAP)[0].export(tmp_path / f"boxes.{suffix}")
     with warnings.catch_warnings():
@@ -134,7 +134,7 @@ def test_plain_files_of_a_far_scene_are_warned_of(tmp_path: Path, suffix: str) -
 
 
 def discs(size: float, place: tuple[float, ...]) -> tuple[Scene, list[float]]:
-    """A disc, a stroke, and a fiftieth of the disc, all black; their areas."""
+    """Make a black disc, a stroke and a small disc; return their areas, too."""
     x, y, _ = place
     black = (0.0, 0.0, 0.0)
     shapes = [
@@ -156,13 +156,13 @@ def test_a_drawing_has_the_areas_of_its_scene(size: float, place: tuple[float, .
         corners = [
             tuple(map(float, pair.split(","))) for pair in re.findall(r"[-\d.]+,[-\d.]+", path.get("d", ""))
         ]
-        # A circle has 48 sides or more, and 48 miss 0.3 % of it.
+        # A circle has at least 48 sides, with which its area is 0.3 % too small.
         assert geometry.Polygon(corners).area == pytest.approx(area, rel=4e-3)
     x, y = map(float, root.get("data-origin", "0 0").split())
     left, top, wide, tall = map(float, root.get("viewBox", "").split())
-    shown = [[x + left, y - top - tall], [x + left + wide, y - top]]
+    frame = [[x + left, y - top - tall], [x + left + wide, y - top]]
     pad = 0.04 * scene.size[:2].max()
-    assert shown == pytest.approx(scene.bounds[:, :2] + [[-pad], [pad]], abs=1e-3 * size)
+    assert frame == pytest.approx(scene.bounds[:, :2] + [[-pad], [pad]], abs=1e-3 * size)
 
 
 @pytest.mark.parametrize(("size", "place"), CASES)
@@ -173,18 +173,18 @@ def test_a_page_shows_the_same_at_any_size_and_place(size: float, place: tuple[f
         (place[0] + 4 * size, -place[2] + 2 * size),
         (place[0], size - place[2]),
     ]
-    one = [(-1.0, -1.0), (4.0, 2.0), (0.0, 1.0)]
+    unit_floor = [(-1.0, -1.0), (4.0, 2.0), (0.0, 1.0)]
     texts = (
         (svg(discs(size, place)[0]), svg(discs(1.0, HERE)[0])),
-        (plan.plan_svg(boxes(size, place)[0], floor), plan.plan_svg(boxes(1.0, HERE)[0], one)),
+        (plan.plan_svg(boxes(size, place)[0], floor), plan.plan_svg(boxes(1.0, HERE)[0], unit_floor)),
     )
     for text, like in texts:
-        seen, wanted = (pixels(resvg_py, text), pixels(resvg_py, like))
-        assert abs(seen.astype(int) - wanted).mean() < 1.0  # of 255
+        image, expected = (pixels(resvg_py, text), pixels(resvg_py, like))
+        assert abs(image.astype(int) - expected).mean() < 1.0  # of 255
 
 
 def pixels(resvg_py: Any, text: str) -> Any:
-    """A page in 300 pixels."""
+    """Draw a page with 300 pixels."""
     page = re.sub(' (width|height)="[^"]*"', "", text.partition(">")[0]) + text[len(text.partition(">")[0]) :]
     left, top, wide, tall = map(float, re.search('viewBox="([^"]*)"', page)[1].split())  # type: ignore[index]
     page = page.replace("<svg", f'<svg width="300" height="{300 * tall / wide:.3f}"', 1)
@@ -192,7 +192,7 @@ def pixels(resvg_py: Any, text: str) -> Any:
     return np.asarray(drawn.convert("L").resize((300, 300)))
 
 
-def test_a_page_whose_units_are_no_pixels_has_a_size() -> None:
+def test_a_very_small_or_large_page_has_a_size() -> None:
     resvg_py = pytest.importorskip("resvg_py", reason="resvg draws the pages")
     for size in (1e-6, 0.2, 1.0, 1000.0, 1e6):
         drawn = Image.open(io.BytesIO(bytes(resvg_py.svg_to_bytes(svg_string=svg(discs(size, HERE)[0])))))
@@ -219,7 +219,9 @@ def test_every_id_of_a_drawing_is_another() -> None:
     )
     for style in ("ink", "lightning", "vines"):
         ids = [
-            one.get("id") for one in ElementTree.fromstring(svg(scene, style=style)).iter() if one.get("id")
+            node.get("id")
+            for node in ElementTree.fromstring(svg(scene, style=style)).iter()
+            if node.get("id")
         ]
         assert len(ids) == len(set(ids)) and ids.count("paper") == 1
 
@@ -240,7 +242,7 @@ def test_no_vertex_is_unused_and_no_normal_opposes_its_face(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["gnarly-tree", "spaceship", "coral"])
-def test_the_same_of_the_gallery(name: str) -> None:
+def test_scenes_of_the_gallery_have_sound_meshes(name: str) -> None:
     entry = nw.gallery.entry(name)
     assert entry is not None
     for seed in (1, 2):
@@ -249,19 +251,19 @@ def test_the_same_of_the_gallery(name: str) -> None:
 
 def sound(scene: Scene) -> None:
     """Check the vertices and the normals of a GLB."""
-    found, rest = document(nw.draw.glb.glb(scene))
+    header, rest = document(nw.draw.glb.glb(scene))
 
     def array(number: int, kind: str, width: int) -> Any:
-        view = found["bufferViews"][found["accessors"][number]["bufferView"]]
+        view = header["bufferViews"][header["accessors"][number]["bufferView"]]
         data = rest[8 + view["byteOffset"] :][: view["byteLength"]]
         return np.frombuffer(data, kind).reshape(-1, width)
 
-    for mesh in found["meshes"]:
-        for one in mesh["primitives"]:
+    for mesh in header["meshes"]:
+        for primitive in mesh["primitives"]:
             places, normals = (
-                array(one["attributes"][key], "<f4", 3).astype(float) for key in ("POSITION", "NORMAL")
+                array(primitive["attributes"][key], "<f4", 3).astype(float) for key in ("POSITION", "NORMAL")
             )
-            faces = array(one["indices"], "<u4", 3)
+            faces = array(primitive["indices"], "<u4", 3)
             assert set(faces.reshape(-1).tolist()) == set(range(len(places)))
             a, b, c = (places[faces[:, k]] for k in range(3))
             across = np.cross(b - a, c - a)

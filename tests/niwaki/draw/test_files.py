@@ -85,7 +85,7 @@ def test_an_obj_has_an_object_for_each_part(tmp_path: Path) -> None:
 
 
 def test_bad_places_are_refused_and_leave_nothing(tmp_path: Path) -> None:
-    for path, made, code in [
+    for path, subject, code in [
         (tmp_path / "ship.blend", scene(), "file-format"),
         (tmp_path / "ship.glb", Scene([]), "scene-empty"),
         (tmp_path / "no folder" / "ship.glb", scene(), "file-unwritable"),
@@ -93,7 +93,7 @@ def test_bad_places_are_refused_and_leave_nothing(tmp_path: Path) -> None:
         (tmp_path / "no folder" / "ship.gif", Scene(scene().parts[:1]), "file-unwritable"),
     ]:
         with pytest.raises(FileError) as caught:
-            made.export(path)
+            subject.export(path)
         assert caught.value.code == code
     assert list(tmp_path.iterdir()) == []
 
@@ -107,7 +107,7 @@ def test_only_print_formats_are_scaled(tmp_path: Path) -> None:
 
 @nw.model
 def bell():
-    """A block of steel, in which one side has a look of its own, on paint."""
+    """A block of steel with a rougher block, on a painted block."""
     nw.emit(
         nw.box((0.0, 1.0, 0.0), (1.0, 1.0, 1.0)),
         nw.box((2.0, 1.0, 0.0), (1.0, 1.0, 1.0), roughness=0.75),
@@ -118,15 +118,15 @@ def bell():
     nw.emit(nw.box((0.0, -1.0, 0.0), (1.0, 1.0, 1.0), color=(1.0, 0.0, 0.0)))
 
 
-def test_metalness_and_roughness_of_a_model_are_those_of_its_materials() -> None:
+def test_materials_have_the_metalness_and_roughness_of_the_model() -> None:
     scene = nw.run(bell, seed=1).best.scene
     data = glb(scene)
     document = json.loads(data[20 : 20 + struct.unpack_from("<I", data, 12)[0]])
-    of = [
-        (one["metallicFactor"], one["roughnessFactor"])
-        for one in (material["pbrMetallicRoughness"] for material in document["materials"])
+    finishes = [
+        (finish["metallicFactor"], finish["roughnessFactor"])
+        for finish in (material["pbrMetallicRoughness"] for material in document["materials"])
     ]
-    assert sorted(of)[1:] == [(1.0, 0.25), (1.0, 0.75)] and sorted(of)[0][0] == 0.0
+    assert sorted(finishes)[1:] == [(1.0, 0.25), (1.0, 0.75)] and sorted(finishes)[0][0] == 0.0
     plain = nw.run_python(bell, seed=1).scene
     assert [list(shapes) for _, shapes in plain] == [list(part.shapes) for part in scene]
 

@@ -1,4 +1,4 @@
-"""No number that is not finite leaves in a file: there is a message with the part, and no file."""
+"""Claim: no file has a number that is not finite; a message names the part, and no file is written."""
 
 from __future__ import annotations
 
@@ -55,12 +55,12 @@ def sheet(number: float) -> Sheet:
 
 
 def test_messages_name_the_part(tmp_path: Path, golden: Any) -> None:
-    found = []
+    texts = []
     for name, fails in failing(tmp_path).items():
         with pytest.raises(NiwakiError) as caught:
             fails()
-        found.append(f"## {name}\n\n{caught.value}\n".replace(str(tmp_path), "FOLDER"))
-    golden(GOLDEN / "finite.txt", "\n".join(found))
+        texts.append(f"## {name}\n\n{caught.value}\n".replace(str(tmp_path), "FOLDER"))
+    golden(GOLDEN / "finite.txt", "\n".join(texts))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -68,11 +68,11 @@ def test_messages_name_the_part(tmp_path: Path, golden: Any) -> None:
 @pytest.mark.parametrize("size", [1e-300, 1e-30, 1e-9, 1e6, 9e11])
 def test_extreme_sizes_give_a_message_or_finite_numbers(tmp_path: Path, suffix: str, size: float) -> None:
     try:
-        made = scene(size)
-    except ValueError:  # the engine makes no box without an inside
+        extreme = scene(size)
+    except ValueError:  # the engine refuses a box without a volume
         return
     try:
-        path = made.export(tmp_path / f"ship.{suffix}")
+        path = extreme.export(tmp_path / f"ship.{suffix}")
     except NiwakiError as error:
         assert str(error)
         return
@@ -90,13 +90,13 @@ def test_extreme_sizes_give_a_message_or_finite_numbers(tmp_path: Path, suffix: 
 
 @pytest.mark.parametrize("suffix", ["glb", "obj", "ply"])
 @pytest.mark.parametrize("bad", [0, 2])
-def test_a_mesh_that_is_not_finite_is_written_nowhere(
+def test_a_mesh_that_is_not_finite_gives_no_file(
     tmp_path: Path, suffix: str, bad: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # Shapes are within 1e12 of the origin: this is what a fault of the engine would give.
-    found = parts._engine.meshes([part.shapes for part in scene(1.0).parts])
-    found[0][bad][0] = math.inf, math.nan, 0.0
-    monkeypatch.setattr(parts, "_engine", SimpleNamespace(meshes=lambda _: found))
+    # The engine keeps shapes within 1e12 of the origin, so the test simulates a fault of the engine.
+    meshes = parts._engine.meshes([part.shapes for part in scene(1.0).parts])
+    meshes[0][bad][0] = math.inf, math.nan, 0.0
+    monkeypatch.setattr(parts, "_engine", SimpleNamespace(meshes=lambda _: meshes))
     with pytest.raises(FileError, match="ship/body has numbers"):
         scene(1.0).export(tmp_path / f"ship.{suffix}")
     assert list(tmp_path.iterdir()) == []
@@ -124,7 +124,7 @@ def test_a_table_has_no_number_that_is_not_finite() -> None:
     assert "inf" not in text and "nan" not in text and "None" in text and "0.0" in text
 
 
-def test_finite_numbers_are_left_as_they_are() -> None:
+def test_finite_numbers_stay_unchanged() -> None:
     values = np.array([[1e38, -1e38], [0.0, 5e-324]])
     assert (finite.finite(values, "a") == values).all()
     assert finite.floats(values, "a").dtype == np.float32

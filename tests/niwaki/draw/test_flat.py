@@ -38,15 +38,15 @@ def turn(points: list[tuple[float, float]], first: int, last: int) -> float:
     return atan2(d - b, c - a)
 
 
-def test_curves_are_smooth_and_go_on_into_the_last_of_a_fork() -> None:
+def test_curves_are_smooth_and_continue_into_the_last_stroke_of_a_fork() -> None:
     low = Stroke("a", (0.0, 0.0), (0.0, 2.0), 0.6, 0.6)
     left, right = (Stroke("b", (0.0, 2.0), (side, 3.5), 0.4, 0.3) for side in (-1.0, 1.0))
-    trunk, one, two = curves([low, left, right])
-    end, begun = turn(trunk.points, -2, -1), turn(two.points, 0, 1)
-    assert end == pytest.approx(begun, abs=0.12)
-    assert abs(end - turn(one.points, 0, 1)) > 0.5
-    assert trunk.widths[-1] == two.widths[0] == one.widths[0] == 0.6 and two.widths[-1] == 0.3
-    assert (trunk.points[-1], two.points[-1]) == ((0.0, 2.0), (1.0, 3.5))
+    trunk, branch, last = curves([low, left, right])
+    end, start = turn(trunk.points, -2, -1), turn(last.points, 0, 1)
+    assert end == pytest.approx(start, abs=0.12)
+    assert abs(end - turn(branch.points, 0, 1)) > 0.5
+    assert trunk.widths[-1] == last.widths[0] == branch.widths[0] == 0.6 and last.widths[-1] == 0.3
+    assert (trunk.points[-1], last.points[-1]) == ((0.0, 2.0), (1.0, 3.5))
     assert [hypot(*point) for point in curves([low], bend=0.0)[0].points] == [0.0, 2.0]
 
 
@@ -60,7 +60,7 @@ def test_a_band_is_as_wide_as_its_stroke() -> None:
     assert area == pytest.approx(3.0 + np.pi * (0.25 + 0.0625) / 2, rel=0.01)
 
 
-def test_what_is_in_front_is_drawn_last() -> None:
+def test_shapes_in_front_are_drawn_last() -> None:
     page = drawing(plant(), size=(400, 400), window=((-2.0, 0.0), (2.0, 4.0)))
 
     def at(x: float, y: float) -> Any:
@@ -74,8 +74,8 @@ def test_what_is_in_front_is_drawn_last() -> None:
 
 @pytest.mark.parametrize("style", STYLES)
 def test_every_style_draws_every_part(style: str) -> None:
-    found = marks(plant(), STYLES[style])
-    assert {mark.address for mark in found} == {part.address for part in plant()}
+    drawn = marks(plant(), STYLES[style])
+    assert {mark.address for mark in drawn} == {part.address for part in plant()}
     page = np.asarray(drawing(plant(), size=(120, 120), style=style, clear=True))
     assert 0.05 < (page[:, :, 3] > 100).mean() < 0.95
     root = ElementTree.fromstring(svg(plant(), style=style))
@@ -99,7 +99,7 @@ def test_pictures_and_files_of_flat_scenes_are_drawings(tmp_path: Path) -> None:
     assert picture.size == (90, 60)
     assert picture.getpixel((1, 1)) == (*(round(255 * part) for part in BOARD), 255)
     assert scene.export(tmp_path / "plant.svg", style="vines").read_text().startswith("<svg")
-    # The same shapes are plates in space.
+    # In a GLB the shapes are plates in space.
     assert scene.export(tmp_path / "plant.glb").stat().st_size > 1000
     assert draw.sheet.sheet([scene, scene], size=(60, 60), style="vines").size[1] == 60
     assert scene.animate(tmp_path / "plant.gif", style="lightning").stat().st_size > 1000

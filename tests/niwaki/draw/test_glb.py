@@ -1,5 +1,5 @@
-"""Claim: in a GLB each part turns about its own frame, a call about its first part, and each choice of the run is an
-extra of exactly one node, that of its call; so a program that opens the file needs no mending."""
+"""Claim: in a GLB each part turns about its own frame and a call about its first part; each choice of the run is an
+extra of exactly one node, that of its call. So the file needs no corrections in other programs."""
 
 from __future__ import annotations
 
@@ -31,21 +31,21 @@ def document(data: bytes) -> dict[str, Any]:
     return dict(json.loads(data[20 : 20 + size]))
 
 
-def world(found: dict[str, Any]) -> dict[str, np.ndarray]:
-    """The matrix of each node in the scene, by its address or its name."""
+def world(contents: dict[str, Any]) -> dict[str, np.ndarray]:
+    """Compute the matrix of each node in the scene, by its address or its name."""
     matrices: dict[str, np.ndarray] = {}
 
     def walk(number: int, around: np.ndarray) -> None:
-        node = found["nodes"][number]
+        node = contents["nodes"][number]
         x, y, z, w = node.get("rotation", (0, 0, 0, 1))
-        own = trimesh.transformations.quaternion_matrix([w, x, y, z])
-        own[:3, :3] *= np.array(node.get("scale", (1, 1, 1)))
-        own[:3, 3] = node["translation"]
-        matrices[node.get("extras", {}).get("address", node["name"])] = around @ own
+        local = trimesh.transformations.quaternion_matrix([w, x, y, z])
+        local[:3, :3] *= np.array(node.get("scale", (1, 1, 1)))
+        local[:3, 3] = node["translation"]
+        matrices[node.get("extras", {}).get("address", node["name"])] = around @ local
         for child in node.get("children", ()):
-            walk(child, around @ own)
+            walk(child, around @ local)
 
-    for root in found["scenes"][0]["nodes"]:
+    for root in contents["scenes"][0]["nodes"]:
         walk(root, np.eye(4))
     return matrices
 
@@ -62,26 +62,26 @@ def world(found: dict[str, Any]) -> dict[str, np.ndarray]:
     ],
 )
 def test_a_shape_turns_about_its_own_frame(shape: Shape, origin: Any, axis: int, along: Any) -> None:
-    found = pivot(shape)
-    assert found.origin == pytest.approx(origin)
-    assert found.axes[:, axis] == pytest.approx(np.array(along))
-    assert found.axes.T @ found.axes == pytest.approx(np.eye(3), abs=1e-12)
-    assert np.linalg.det(found.axes) == pytest.approx(1.0)
+    frame = pivot(shape)
+    assert frame.origin == pytest.approx(origin)
+    assert frame.axes[:, axis] == pytest.approx(np.array(along))
+    assert frame.axes.T @ frame.axes == pytest.approx(np.eye(3), abs=1e-12)
+    assert np.linalg.det(frame.axes) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("name", ["spaceship", "gnarly-tree", "building"])
-def test_nodes_have_the_parts_frames_and_the_scene_stays_where_it_is(name: str, tmp_path: Path) -> None:
+def test_nodes_have_the_frames_of_their_parts_and_the_scene_stays_in_place(name: str, tmp_path: Path) -> None:
     entry = gallery.entry(name)
     assert entry is not None
     sample = nw.run(entry.model, seed=3).best
     path = sample.export(tmp_path / "best.glb")
     matrices = world(document(path.read_bytes()))
     for part in sample.scene.parts:
-        own, matrix = pivot(part.shapes[0]), matrices[part.address]
-        assert matrix[:3, 3] == pytest.approx(own.origin, abs=1e-6)
-        # Several shapes share one mesh when a turn takes one onto the other; their frames follow the turn.
+        frame, matrix = pivot(part.shapes[0]), matrices[part.address]
+        assert matrix[:3, 3] == pytest.approx(frame.origin, abs=1e-6)
+        # Shapes that differ by a rotation share a mesh; their frames follow the rotation.
         size = np.linalg.norm(matrix[:3, 0])
-        assert matrix[:3, :3] / size == pytest.approx(own.axes, abs=1e-5)
+        assert matrix[:3, :3] / size == pytest.approx(frame.axes, abs=1e-5)
     loaded = trimesh.load_scene(path, process=False)
     reach = np.abs(loaded.bounds).max()
     corners = np.concatenate([piece.vertices for part in part_meshes(sample.scene) for piece in part.pieces])
@@ -90,18 +90,18 @@ def test_nodes_have_the_parts_frames_and_the_scene_stays_where_it_is(name: str, 
     )
 
 
-def test_a_call_stands_where_its_first_part_stands() -> None:
+def test_a_call_has_the_place_of_its_first_part() -> None:
     def limb(x: float) -> list[Shape]:
         return [_engine.shape("limb", (x, 1, 2), (x, 2, 2), 0.2, 0.1)]
 
     scene = Scene([("arm/emit", limb(5)), ("arm/hand/emit", limb(6)), ("arm/hand/thumb/emit", limb(7))])
-    found = document(glb(scene))
-    matrices = world(found)
+    contents = document(glb(scene))
+    matrices = world(contents)
     assert matrices["arm"][:3, 3] == pytest.approx([5, 1, 2])
     assert matrices["hand"][:3, 3] == pytest.approx([6, 1, 2])
     assert matrices["arm/hand/thumb/emit"][:3, 3] == pytest.approx([7, 1, 2])
-    # What moves with a call is told relative to it.
-    hand = next(node for node in found["nodes"] if node["name"] == "hand" and "children" in node)
+    # Nodes below a call have places relative to the call.
+    hand = next(node for node in contents["nodes"] if node["name"] == "hand" and "children" in node)
     assert hand["translation"] == pytest.approx([1, 0, 0])
 
 
@@ -117,10 +117,10 @@ def test_each_choice_is_an_extra_of_its_call() -> None:
         "body/hull/plates": 7,
         "nothing/here": 0.25,
     }
-    found = document(glb(scene, About("ship", choices)))
+    contents = document(glb(scene, About("ship", choices)))
     noted = {
-        node["extras"].get("address", node["name"]): [one["address"] for one in node["extras"]["choices"]]
-        for node in found["nodes"]
+        node["extras"].get("address", node["name"]): [row["address"] for row in node["extras"]["choices"]]
+        for node in contents["nodes"]
         if "choices" in node.get("extras", {})
     }
     assert noted == {
@@ -128,24 +128,29 @@ def test_each_choice_is_an_extra_of_its_call() -> None:
         "wing[0]/tip/emit": ["wing[0]/tip/bend", "wing[0]/tip/flap/angle"],
         "body/hull/emit": ["body/size", "body/hull/plates"],
     }
-    extras = found["scenes"][0]["extras"]["niwaki"]
-    assert extras["model"] == "ship" and [one["address"] for one in extras["choices"]] == [
+    extras = contents["scenes"][0]["extras"]["niwaki"]
+    assert extras["model"] == "ship" and [row["address"] for row in extras["choices"]] == [
         "count",
         "nothing/here",
     ]
-    tip = next(node for node in found["nodes"] if node.get("extras", {}).get("address") == "wing[0]/tip/emit")
-    assert [one["value"] for one in tip["extras"]["choices"]] == [[0.5, "inf"], True]
+    tip = next(
+        node for node in contents["nodes"] if node.get("extras", {}).get("address") == "wing[0]/tip/emit"
+    )
+    assert [row["value"] for row in tip["extras"]["choices"]] == [[0.5, "inf"], True]
 
 
 def test_a_sample_s_file_has_all_its_choices(tmp_path: Path) -> None:
     entry = gallery.entry("spaceship")
     assert entry is not None
     sample = nw.run(entry.model, seed=3).best
-    found = document(sample.export(tmp_path / "best.glb").read_bytes())
-    holders = [*(node.get("extras", {}) for node in found["nodes"]), found["scenes"][0]["extras"]["niwaki"]]
-    noted = [one for holder in holders for one in holder.get("choices", [])]
-    assert len({one["address"] for one in noted}) == len(noted)
-    assert {one["address"]: one["value"] for one in noted} == {
+    contents = document(sample.export(tmp_path / "best.glb").read_bytes())
+    holders = [
+        *(node.get("extras", {}) for node in contents["nodes"]),
+        contents["scenes"][0]["extras"]["niwaki"],
+    ]
+    noted = [row for holder in holders for row in holder.get("choices", [])]
+    assert len({row["address"] for row in noted}) == len(noted)
+    assert {row["address"]: row["value"] for row in noted} == {
         address: list(value) if isinstance(value, tuple) else value
         for address, value in sample.held().items()
     }

@@ -1,5 +1,5 @@
-"""Claim: parts share a mesh exactly when a scale, a rotation and a translation take one onto the other; a node's place
-is that of its part, and the nodes above it are the calls of its address."""
+"""Claim: parts share a mesh exactly if they differ by a scale, a rotation and a translation; a node has the place of
+its part, and the nodes above it are the calls of its address."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def turned(angle: float) -> Any:
 
 
 def blocks(count: int = 12) -> Scene:
-    """Equal blocks in many places and turns, all of one colour."""
+    """Equal blocks of one colour in many places and rotations."""
     return Scene(
         (
             f"block[{k}]",
@@ -48,16 +48,16 @@ def document(data: bytes) -> dict[str, Any]:
 
 
 def numbers(*shapes: Shape) -> list[int]:
-    """The geometry of each shape."""
+    """Number the geometry of each shape."""
     scene = Scene((f"{k}", [shape]) for k, shape in enumerate(shapes))
     return [instance.mesh for instance in instances(part_meshes(scene))[1]]
 
 
 def test_equal_blocks_are_one_mesh_with_a_node_for_each(tmp_path: Path) -> None:
-    found = document(glb(blocks()))
-    assert len(found["nodes"]) == 12 and len(found["meshes"]) == 1 and len(found["accessors"]) == 3
-    assert [node["name"] for node in found["nodes"]] == [f"block[{k}]" for k in range(12)]
-    assert all(node["extras"]["address"] == node["name"] for node in found["nodes"])
+    contents = document(glb(blocks()))
+    assert len(contents["nodes"]) == 12 and len(contents["meshes"]) == 1 and len(contents["accessors"]) == 3
+    assert [node["name"] for node in contents["nodes"]] == [f"block[{k}]" for k in range(12)]
+    assert all(node["extras"]["address"] == node["name"] for node in contents["nodes"])
     loaded = trimesh.load_scene(blocks().export(tmp_path / "blocks.glb"))
     assert len(loaded.graph.nodes_geometry) == 12 and len(loaded.geometry) == 1
     for part in blocks():
@@ -69,7 +69,7 @@ def test_equal_blocks_are_one_mesh_with_a_node_for_each(tmp_path: Path) -> None:
         )
 
 
-def test_each_node_puts_every_vertex_where_the_scene_has_it(tmp_path: Path) -> None:
+def test_each_node_keeps_the_place_of_every_vertex(tmp_path: Path) -> None:
     mixed = Scene(
         [*blocks(4).parts, ("other", [_engine.shape("cylinder", (1, 2, 3), 0.5, 2.0, (1.0, 1.0, 0.0))])]
     )
@@ -80,7 +80,7 @@ def test_each_node_puts_every_vertex_where_the_scene_has_it(tmp_path: Path) -> N
         assert np.abs(corners - part.pieces[0].vertices).max() < 2e-6
 
 
-def test_what_is_equal_and_what_is_not() -> None:
+def test_equality_of_parts() -> None:
     box = _engine.shape("box", (0, 0, 0), (1, 2, 3))
     assert numbers(box, _engine.shape("box", (9, -4, 1), (1, 2, 3), rotation=turned(2.2))) == [0, 0]
     assert numbers(box, _engine.shape("box", (0, 0, 0), (1, 2, 3.0001))) == [0, 1]
@@ -93,7 +93,7 @@ def test_what_is_equal_and_what_is_not() -> None:
     ) == [0, 1]
 
 
-def test_a_part_and_a_larger_one_share_a_mesh(tmp_path: Path) -> None:
+def test_parts_of_different_sizes_share_a_mesh(tmp_path: Path) -> None:
     sizes = (1.0, 2.5, 1e-3, 7.0)
     scene = Scene(
         (
@@ -106,9 +106,9 @@ def test_a_part_and_a_larger_one_share_a_mesh(tmp_path: Path) -> None:
         )
         for k, s in enumerate(sizes)
     )
-    found = document(glb(scene))
-    assert len(found["meshes"]) == 1
-    assert [node.get("scale", [1.0])[0] for node in found["nodes"]] == pytest.approx(sizes, rel=1e-9)
+    contents = document(glb(scene))
+    assert len(contents["meshes"]) == 1
+    assert [node.get("scale", [1.0])[0] for node in contents["nodes"]] == pytest.approx(sizes, rel=1e-9)
     loaded = trimesh.load_scene(scene.export(tmp_path / "sizes.glb"), process=False)
     for part, size in zip(part_meshes(scene), sizes, strict=True):
         matrix, name = loaded.graph[part.address]
@@ -128,7 +128,7 @@ ADDRESSES = (
 
 
 def tree(addresses: Sequence[str]) -> list[Any]:
-    """The names of nodes, each with those below it."""
+    """List the names of nodes, each with its children."""
     nodes: list[dict[str, Any]] = [
         {"extras": {"address": address}, "translation": [0.0, 0.0, 0.0]} for address in addresses
     ]
@@ -151,19 +151,23 @@ def test_nodes_are_in_the_hierarchy_of_calls() -> None:
     ]
     deep = ["/".join(["grow"] * k + ["emit"]) for k in range(1, 3 * DEEPEST)]
 
-    def depth(found: Any) -> int:
-        return 1 + max(map(depth, found[1:])) if isinstance(found, list) else 1
+    def depth(nodes: Any) -> int:
+        return 1 + max(map(depth, nodes[1:])) if isinstance(nodes, list) else 1
 
     assert max(map(depth, tree(deep))) <= DEEPEST + 2
     assert "/" not in str(tree(deep))
 
 
 def test_materials_have_names() -> None:
-    own = _engine.shape("limb", (0, 0, 0), (0, 1, 0), 0.2, 0.1, color=(1.0, 0.5, 0.0))
-    bridge = document(glb(Scene([("limb", [own]), ("deck", [_engine.shape("box", (5, 0, 0), (4, 2, 3))])])))
-    assert [one["name"] for one in bridge["materials"]] == ["warm grey", "#ff8000"]
+    orange = _engine.shape("limb", (0, 0, 0), (0, 1, 0), 0.2, 0.1, color=(1.0, 0.5, 0.0))
+    bridge = document(
+        glb(Scene([("limb", [orange]), ("deck", [_engine.shape("box", (5, 0, 0), (4, 2, 3))])]))
+    )
+    assert [material["name"] for material in bridge["materials"]] == ["warm grey", "#ff8000"]
     bark = _engine.shape("limb", (9, 0, 0), (9, 1, 0), 0.2, 0.1)
-    names = [one["name"] for one in document(glb(Scene([("a", [own]), ("b", [bark])])))["materials"]]
+    names = [
+        material["name"] for material in document(glb(Scene([("a", [orange]), ("b", [bark])])))["materials"]
+    ]
     assert names == ["#ff8000", "bark"]
 
 
@@ -175,27 +179,27 @@ def test_mirror_images_are_different() -> None:
     ) == [0, 1]
 
 
-def test_other_paints_share_the_buffers_and_not_the_mesh() -> None:
+def test_parts_with_different_paints_share_only_the_buffers() -> None:
     red, blue = (
         _engine.shape("box", (k, 0, 0), (1, 1, 1), color=c) for k, c in ((0, (1, 0, 0)), (3, (0, 0, 1)))
     )
-    found = document(glb(Scene([("red", [red]), ("blue", [blue]), ("also red", [red])])))
-    assert len(found["nodes"]) == 3 and len(found["meshes"]) == 2 and len(found["accessors"]) == 3
-    assert len(found["materials"]) == 2
+    contents = document(glb(Scene([("red", [red]), ("blue", [blue]), ("also red", [red])])))
+    assert len(contents["nodes"]) == 3 and len(contents["meshes"]) == 2 and len(contents["accessors"]) == 3
+    assert len(contents["materials"]) == 2
 
 
 def test_palette_tones_make_few_materials() -> None:
     scene = Scene((f"block[{k}]", [_engine.shape("box", (2.0 * k, 0, 0), (1, 1, 1))]) for k in range(300))
-    found = document(glb(scene))
-    assert len(found["nodes"]) == 300 and len(found["accessors"]) == 3
-    assert len(found["meshes"]) == len(found["materials"]) < 60
+    contents = document(glb(scene))
+    assert len(contents["nodes"]) == 300 and len(contents["accessors"]) == 3
+    assert len(contents["meshes"]) == len(contents["materials"]) < 60
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_quaternions_are_the_rotation(seed: int) -> None:
+def test_quaternions_equal_the_rotation(seed: int) -> None:
     draw = np.random.default_rng(seed)
     axis = draw.normal(size=3)
-    # Half turns are where the naive formula divides by zero.
+    # The naive formula divides by zero at half turns.
     angle = np.pi if seed < 8 else draw.uniform(-np.pi, np.pi)
     matrix = np.array(rotation(tuple(axis / np.linalg.norm(axis)), angle))
     x, y, z, w = quaternion(matrix)

@@ -1,4 +1,4 @@
-"""Claim: a picture has the given size, the same bytes on any number of threads, and the right subject."""
+"""Claim: a picture has the given size, equal bytes on any number of threads, and the right subject."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_the_same_bytes_on_one_thread_and_four() -> None:
         "p = s.picture(targets.ship(), size=(96, 64), samples=5)\n"
         "print(hashlib.sha256(np.asarray(p).tobytes()).hexdigest())\n"
     )
-    seen = {
+    hashes = {
         subprocess.run(
             [sys.executable, "-c", program],
             env={**os.environ, "RAYON_NUM_THREADS": threads},
@@ -73,7 +73,7 @@ def test_the_same_bytes_on_one_thread_and_four() -> None:
         ).stdout
         for threads in ("1", "4")
     }
-    assert len(seen) == 1 and len(seen.pop().strip()) == len(hashlib.sha256().hexdigest())
+    assert len(hashes) == 1 and len(hashes.pop().strip()) == len(hashlib.sha256().hexdigest())
 
 
 def test_framing_shows_every_corner() -> None:
@@ -81,10 +81,10 @@ def test_framing_shows_every_corner() -> None:
     eye, target, up, fov = _engine.frame_camera(_engine.Surfaces([]), points, aspect=1.5, margin=0.1)
     forward = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
     right = np.cross(forward, up) / np.linalg.norm(np.cross(forward, up))
-    seen = points - eye
+    rays = points - eye
     half = np.tan(np.radians(fov) / 2)
-    x = seen @ right / (seen @ forward) / (half * 1.5)
-    y = seen @ np.cross(right, forward) / (seen @ forward) / half
+    x = rays @ right / (rays @ forward) / (half * 1.5)
+    y = rays @ np.cross(right, forward) / (rays @ forward) / half
     assert max(np.abs(x).max(), np.abs(y).max()) == pytest.approx(0.8, abs=1e-3)
 
 

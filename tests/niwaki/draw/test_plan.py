@@ -1,4 +1,4 @@
-"""Claim: a plan shows the outline of each shape, higher things on top, in the colours of the shapes."""
+"""Claim: a plan shows the outline of each shape in its colour, with higher shapes on top."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FLOOR = [(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)]
 
 @nw.model
 def stack():  # type: ignore[no-untyped-def]
-    """A small red box on a large blue one, to the right of and further back than the middle."""
+    """A small red box on a large blue box, to the right of the middle and behind it."""
     nw.emit(nw.box((1.0, 1.5, -1.0), (1.0, 1.0, 1.0), color=RED))
     nw.emit(nw.box((1.0, 0.5, -1.0), (2.0, 1.0, 2.0), color=BLUE))
 
@@ -27,17 +27,17 @@ def scene() -> Scene:
     return nw.run(stack, seed=1).scene
 
 
-def test_higher_things_lie_on_top() -> None:
+def test_higher_shapes_lie_on_top() -> None:
     low, high = plan.patches(scene())
     assert (low.height, high.height) == (1.0, 2.0)
     assert sorted(high.corners) == [(0.5, 0.5), (0.5, 1.5), (1.5, 0.5), (1.5, 1.5)]
     image = plan.plan(scene(), FLOOR, width=300)
     at = [image.getpixel(place) for place in ((195, 105), (155, 65), (60, 240))]
-    for color, wanted in zip(at, (RED, BLUE, plan.FLOOR), strict=True):
-        assert all(abs(part - 255.0 * want) < 2.0 for part, want in zip(color, wanted, strict=True))
+    for color, expected in zip(at, (RED, BLUE, plan.FLOOR), strict=True):
+        assert all(abs(part - 255.0 * share) < 2.0 for part, share in zip(color, expected, strict=True))
 
 
-def test_the_page_of_a_plan(tmp_path: Path) -> None:
+def test_a_plan_is_written_as_svg_and_png(tmp_path: Path) -> None:
     root = xml.fromstring(plan.save(tmp_path / "plan.svg", scene(), FLOOR).read_text())
     assert [part.get("fill") for part in root] == ["#ede9e2", "#1a1ae5", "#e51a1a"]
     assert plan.save(tmp_path / "plan.png", scene()).stat().st_size > 500

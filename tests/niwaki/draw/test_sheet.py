@@ -1,4 +1,4 @@
-"""Claim: a sheet has a cell for each scene, framed alike, and wrong settings give an error."""
+"""Claim: a sheet has a cell for each scene, and bad settings give an error."""
 
 from __future__ import annotations
 

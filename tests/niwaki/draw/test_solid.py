@@ -1,5 +1,5 @@
-"""Claim: a printed solid is the union of the shapes, closed, in millimetres with z up; other parts are reported by
-address. The files are read by trimesh (STL) and lib3mf (3MF), which did not write them."""
+"""Claim: a printed solid is the closed union of the shapes, in millimetres with z up; parts that are no solids are
+reported by address. Independent libraries read the files: trimesh (STL) and lib3mf (3MF)."""
 
 from __future__ import annotations
 
@@ -32,18 +32,18 @@ def overlapping() -> Scene:
 
 
 def tower() -> Scene:
-    """A box of 4 x 1 x 2 with one of 1 x 3 x 1 standing on it: they only touch; 5 + ... high is y."""
+    """A box of 4 x 1 x 2 with a box of 1 x 3 x 1 on top; the boxes only touch, and y is up."""
     return Scene([("foot", [box(0, 0.5, 0, (4, 1, 2))]), ("mast", [box(1.5, 2.5, 0.5, (1, 3, 1))])])
 
 
 def read_stl(path: Path) -> trimesh.Trimesh:
-    found = trimesh.load_mesh(path)
-    assert isinstance(found, trimesh.Trimesh)
-    return found
+    mesh = trimesh.load_mesh(path)
+    assert isinstance(mesh, trimesh.Trimesh)
+    return mesh
 
 
 def read_3mf(path: Path) -> tuple[Any, Any]:
-    """The model and its first mesh, by the consortium's own reader, in its strict mode."""
+    """Read the model and its first mesh with the consortium's reader in strict mode."""
     from lib3mf import get_wrapper
 
     model = get_wrapper().CreateModel()
@@ -51,9 +51,9 @@ def read_3mf(path: Path) -> tuple[Any, Any]:
     reader.SetStrictModeActive(True)
     reader.ReadFromFile(str(path))
     assert reader.GetWarningCount() == 0
-    found = model.GetMeshObjects()
-    assert found.MoveNext()
-    return model, found.GetCurrentMeshObject()
+    meshes = model.GetMeshObjects()
+    assert meshes.MoveNext()
+    return model, meshes.GetCurrentMeshObject()
 
 
 def corners(mesh: Any) -> np.ndarray:
@@ -66,22 +66,22 @@ def volume(vertices: np.ndarray, faces: np.ndarray) -> float:
 
 
 def test_an_stl_is_the_union_in_millimetres(tmp_path: Path) -> None:
-    found = read_stl(overlapping().export(tmp_path / "cubes.stl", scale=10.0))
-    assert found.is_watertight and found.is_winding_consistent
-    assert found.volume == pytest.approx(15_000.0, rel=1e-3)
-    assert np.allclose(found.bounds, [[0, 0, 0], [30, 30, 30]], atol=0.01)
+    solid = read_stl(overlapping().export(tmp_path / "cubes.stl", scale=10.0))
+    assert solid.is_watertight and solid.is_winding_consistent
+    assert solid.volume == pytest.approx(15_000.0, rel=1e-3)
+    assert np.allclose(solid.bounds, [[0, 0, 0], [30, 30, 30]], atol=0.01)
 
 
 def test_a_scene_is_in_metres_by_default(tmp_path: Path) -> None:
-    found = read_stl(overlapping().export(tmp_path / "cubes.stl"))
-    assert np.allclose(found.extents, 3000.0, rtol=1e-4)
+    solid = read_stl(overlapping().export(tmp_path / "cubes.stl"))
+    assert np.allclose(solid.extents, 3000.0, rtol=1e-4)
 
 
-def test_what_is_up_on_the_screen_is_up_on_the_bed(tmp_path: Path) -> None:
-    found = read_stl(tower().export(tmp_path / "tower.stl", scale=1.0))
-    assert np.allclose(found.extents, [4, 2, 4], atol=1e-3)
-    # The mast stands at x from 1 to 2 and z from 0 to 1 of the scene; a mirrored file would have it elsewhere.
-    high = found.vertices[found.vertices[:, 2] > 2.0]
+def test_up_on_the_screen_is_up_on_the_bed(tmp_path: Path) -> None:
+    solid = read_stl(tower().export(tmp_path / "tower.stl", scale=1.0))
+    assert np.allclose(solid.extents, [4, 2, 4], atol=1e-3)
+    # The mast stands at x from 1 to 2 and z from 0 to 1 of the scene; a mirrored file would move it.
+    high = solid.vertices[solid.vertices[:, 2] > 2.0]
     assert np.allclose([high.min(axis=0)[:2], high.max(axis=0)[:2]], [[3, 0], [4, 1]], atol=1e-3)
 
 
@@ -92,14 +92,14 @@ def test_a_3mf_has_its_unit_and_name_and_is_closed(tmp_path: Path) -> None:
     assert model.GetUnit() == ModelUnit.MilliMeter
     assert mesh.GetName() == "a <tower>"
     assert mesh.IsValid() and mesh.IsManifoldAndOriented()
-    found = corners(mesh)
+    points = corners(mesh)
     faces = np.array([list(triangle.Indices) for triangle in mesh.GetTriangleIndices()])
-    assert volume(found, faces) == pytest.approx(11_000.0, rel=1e-3)
-    assert np.allclose([found.min(axis=0), found.max(axis=0)], [[0, 0, 0], [40, 20, 40]], atol=0.01)
+    assert volume(points, faces) == pytest.approx(11_000.0, rel=1e-3)
+    assert np.allclose([points.min(axis=0), points.max(axis=0)], [[0, 0, 0], [40, 20, 40]], atol=0.01)
     assert model.GetBuildItems().Count() == 1
 
 
-def test_touching_parts_are_joined_and_separate_ones_reported() -> None:
+def test_touching_parts_are_joined_and_separate_parts_reported() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert union(tower()).pieces == 1

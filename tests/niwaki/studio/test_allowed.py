@@ -127,13 +127,13 @@ def test_each_model_of_a_file_that_was_named_can_be_chosen(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("port", [-1, 65_536, 70_000, 10**20])
-def test_a_port_that_is_none_is_refused(port: int) -> None:
+def test_an_invalid_port_is_refused(port: int) -> None:
     with pytest.raises(InputError, match="a port from 0 to 65535") as caught:
         listening(port)
     assert caught.value.code == "bad-setting"
 
 
-def test_a_port_that_is_taken_is_refused() -> None:
+def test_a_port_in_use_is_refused() -> None:
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()

@@ -99,7 +99,7 @@ def test_work_beside_commands_that_fails_is_told_to_every_window(tmp_path, monke
     asyncio.run(work())
 
 
-def test_a_worker_that_says_what_is_no_report_is_named(tmp_path):
+def test_a_failed_report_ends_the_worker_process(tmp_path):
     """The process is ended, so that its further reports reach no other job."""
     from niwaki.studio.process import Worker
 
@@ -182,7 +182,7 @@ def test_half_sent_requests_keep_nobody_out(served, connected):
 
 @pytest.mark.parametrize("request_of", [b"GET / HTTP/1.1\r\nHost: %s\r\n\r\n", b"PUT / HTTP/1.1\r\nHost: %s\r\n\r\n",
                                         b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"])  # fmt: skip
-def test_who_is_not_known_does_not_stay(served, request_of):
+def test_a_client_without_access_is_disconnected(served, request_of):
     host = f"127.0.0.1:{served.port}".encode()
     with socket.create_connection(("127.0.0.1", served.port), 10) as link:
         link.sendall(request_of.replace(b"%s", host))
@@ -308,7 +308,7 @@ def test_uploads_are_read_by_a_few_processes_at_a_time(tmp_path, monkeypatch):
     assert answered == [200] * 12 and most == [0, server.READERS]
 
 
-def test_an_upload_on_a_full_disk_says_so(tmp_path, monkeypatch):
+def test_an_upload_on_a_full_disk_gives_a_message(tmp_path, monkeypatch):
     def full(*_: Any, **__: Any) -> Any:
         raise OSError(28, "No space left on device")
 

@@ -25,7 +25,7 @@ def test_the_page_is_built_from_its_sources(tmp_path):
         )
 
 
-def test_the_page_asks_for_nothing_from_elsewhere():
+def test_the_page_has_no_external_resources():
     text = (BUILT / "index.html").read_text() + (BUILT / "app.css").read_text()
     assert "http" not in text and "//" not in text.replace("/*", "").replace("*/", "")
 

@@ -286,14 +286,14 @@ def test_a_wrong_line_is_named_or_left_out_where_it_is_the_last(tmp_path, line, 
         ("x" * 2_000_000, "file-limit"),
     ],
 )
-def test_a_session_without_its_name_says_so(tmp_path, text, reason):
+def test_a_session_without_its_name_gives_a_message(tmp_path, text, reason):
     (tmp_path / "session.json").write_text(text)
     with pytest.raises(NiwakiError, match=reason):
         Journal(tmp_path)
     assert (tmp_path / "session.json").read_text() == text
 
 
-def test_a_window_is_told_which_step_was_left_out(tmp_path):
+def test_a_window_receives_a_message_about_the_lost_step(tmp_path):
     shutil.copytree(STORED, tmp_path / "stored")
     with open(tmp_path / "stored" / "journal.jsonl", "ab") as file:
         file.write(b'{"step":9,"parent":8,"na\x00\x00\x00\n')
@@ -304,7 +304,7 @@ def test_a_window_is_told_which_step_was_left_out(tmp_path):
     session.journal.close()
 
 
-def test_what_cannot_be_stored_is_refused_before_the_disk(tmp_path):
+def test_values_that_cannot_be_stored_are_refused_before_writing(tmp_path):
     async def work() -> None:
         session, window = Session(tmp_path, []), Window()
         session.ready.set()
@@ -382,7 +382,7 @@ def test_the_key_is_a_file_of_its_own_for_the_user_alone(tmp_path):
 
 
 @UNIX
-def test_a_pipe_in_place_of_a_file_does_not_hold_the_start(tmp_path):
+def test_a_pipe_in_place_of_a_file_does_not_block_the_start(tmp_path):
     for name in ("journal.jsonl", "session.json"):
         folder = tmp_path / name
         folder.mkdir()
@@ -391,7 +391,7 @@ def test_a_pipe_in_place_of_a_file_does_not_hold_the_start(tmp_path):
             Journal(folder)
 
 
-def test_a_session_that_cannot_be_opened_is_a_message_of_the_command(tmp_path):
+def test_the_command_reports_a_session_that_cannot_be_opened(tmp_path):
     (tmp_path / "session.json").write_text("[]")
     command = [
         sys.executable,
@@ -406,7 +406,7 @@ def test_a_session_that_cannot_be_opened_is_a_message_of_the_command(tmp_path):
     assert done.returncode == 2 and "error[bad-session]" in done.stderr and "Traceback" not in done.stderr
 
 
-def test_everything_that_a_studio_has_stored_lies_in_its_folder(tmp_path):
+def test_all_files_of_a_studio_lie_in_its_folder(tmp_path):
     with serving(tmp_path / "session") as served:
         assert isinstance(served, Served)
         names = {place.name for place in (tmp_path / "session").iterdir()}

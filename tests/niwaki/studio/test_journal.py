@@ -36,7 +36,7 @@ def steps(journal, *names):
         journal.step(name, {"model": name})
 
 
-def test_ten_steps_back_and_again_give_the_same_hash(session):
+def test_ten_undos_and_redos_restore_the_same_hashes(session):
     journal = session()
     hashes = [journal.document().hash]
     for name in "abcdefghij":
@@ -51,7 +51,7 @@ def test_ten_steps_back_and_again_give_the_same_hash(session):
     assert not journal.redo() and (journal.undoable, journal.redoable) == (10, 0)
 
 
-def test_a_step_after_undo_takes_the_place_of_what_was_undone(session):
+def test_a_step_after_undo_replaces_the_undone_step(session):
     journal = session()
     steps(journal, "a", "b")
     journal.undo()
@@ -61,7 +61,7 @@ def test_a_step_after_undo_takes_the_place_of_what_was_undone(session):
     assert journal.document().model == "a" and journal.redo() and journal.document().model == "c"
 
 
-def test_another_process_reads_the_same(session):
+def test_a_second_journal_reads_the_same_state(session):
     journal = session()
     steps(journal, "a", "b", "c")
     journal.undo()
@@ -85,7 +85,7 @@ def test_a_last_line_that_is_cut_short_is_left_out(session, tmp_path, cut):
     assert session().document().model == "c"
 
 
-def test_a_session_of_the_first_format_is_opened_with_its_results_and_its_way_back(tmp_path):
+def test_a_session_of_the_first_format_opens_with_results_and_undo(tmp_path):
     pytest.importorskip("starlette")
     shutil.copytree(STORED, tmp_path / "stored")
     with serving(tmp_path / "stored") as served, studio.connect(served.url, served.key) as script:

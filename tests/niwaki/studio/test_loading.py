@@ -161,7 +161,7 @@ def test_a_host_function_that_does_not_end_does_not_hold_the_desk_for_ever(tmp_p
 
 
 @pytest.mark.skipif(os.name == "nt", reason="groups of processes are Unix")
-def test_what_a_file_has_started_ends_with_its_process(tmp_path, monkeypatch):
+def test_processes_of_a_file_end_with_its_worker(tmp_path, monkeypatch):
     monkeypatch.setattr(process, "LOADING", 2.0)
     place, note = tmp_path / "pile.py", tmp_path / "child"
     place.write_text(

@@ -33,7 +33,7 @@ def described(connected):
     return connected.ask("describe", key=connected.view["picked"])
 
 
-def test_regions_and_rules_are_those_of_the_drawing(connected):
+def test_regions_match_the_drawing(connected):
     connected.ask("model", reference="drawing:bug")
     while not connected.view["model"]["regions"] or not any(
         isinstance(header, Regions) for header, _ in connected.pictures
@@ -79,7 +79,7 @@ def test_a_pinned_region_keeps_its_colour_in_twenty_colourings(served, connected
     connected.ask("free")
 
 
-def test_a_colour_that_is_given_is_measured_and_not_searched_for(connected):
+def test_a_chosen_colour_is_measured_without_a_search(connected):
     colored(connected, count=1)
     before = described(connected)
     connected.pictures.clear()
@@ -96,7 +96,7 @@ def test_a_colour_that_is_given_is_measured_and_not_searched_for(connected):
     assert described(connected)["colors"] == before["colors"]
 
 
-def test_rules_are_asked_and_those_that_contradict_are_refused(connected):
+def test_contradictory_rules_are_refused(connected):
     connected.ask("model", reference="drawing:robot")
     rules = {"rules": [{"kind": "lighter", "regions": ["face", "body"]}]}
     connected.ask("ask", ask={"rules": rules})
@@ -114,7 +114,7 @@ def test_rules_are_asked_and_those_that_contradict_are_refused(connected):
         connected.ask("run")
 
 
-def test_a_drawing_that_is_sent_is_chosen_as_ours_are(served, connected):
+def test_an_uploaded_drawing_works_as_a_drawing_of_the_package(served, connected):
     sent = json.loads(fetch(served, "/upload?name=mine.svg", (EXAMPLES / "rocket.svg").read_bytes()))
     assert sent["regions"] == len(Drawing.load("rocket").names)
     results = colored(connected, sent["reference"], count=1)
@@ -148,13 +148,13 @@ def test_a_drawing_that_is_sent_is_chosen_as_ours_are(served, connected):
         ("no.txt", b"hello"),
     ],
 )
-def test_what_is_no_drawing_is_refused_with_a_reason(served, name, body):
+def test_an_invalid_drawing_is_refused_with_a_reason(served, name, body):
     with pytest.raises(urllib.error.HTTPError) as caught:
         fetch(served, f"/upload?name={name}", body)
     assert caught.value.code in (415, 422) and len(json.loads(caught.value.read())["text"]) > 10
 
 
-def test_colourings_are_back_after_a_restart(tmp_path):
+def test_colourings_survive_a_restart(tmp_path):
     with serving(tmp_path) as served, studio.connect(served.url, served.key) as script:
         sent = json.loads(fetch(served, "/upload?name=a.svg", (EXAMPLES / "bug.svg").read_bytes()))
         colored(script, sent["reference"], count=2)

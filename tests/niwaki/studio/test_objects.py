@@ -49,7 +49,7 @@ def test_nothing_goes_below_the_floor_or_near_an_obstacle(served, connected):
     assert np.allclose(solid.bounds, [[5 - reach, -0.5, -3 - reach], [5 + reach, 1.5, -3 + reach]])
 
 
-def test_a_change_of_the_ask_leaves_the_rest_and_a_target_ends_a_sketch(connected):
+def test_a_change_of_a_goal_keeps_the_others_and_a_target_replaces_a_sketch(connected):
     stroke = {"points": [[0.5, 0.5]], "width": 0.2}
     connected.ask("ask", ask={"floor": 0.0, "target": {"source": "box"}})
     connected.ask("ask", ask={"sketch": {"strokes": [stroke], "aspect": 1.0}})
@@ -71,14 +71,14 @@ def test_a_change_of_the_ask_leaves_the_rest_and_a_target_ends_a_sketch(connecte
         {"flor": 0.0},
     ],
 )
-def test_an_ask_that_cannot_be_is_refused(connected, ask):
+def test_invalid_goals_are_refused(connected, ask):
     before = connected.view["ask"]
     with pytest.raises(studio.StudioError):
         connected.ask("ask", ask=ask)
     assert connected.view["ask"] == before
 
 
-def test_a_shadow_falls_on_the_floor_where_the_light_throws_it(served, connected):
+def test_a_shadow_falls_along_the_light(served, connected):
     connected.ask("model", reference="building")
     camera = {"position": [0.0, 14.0, 30.0], "look_at": [0.0, 0.0, 0.0], "up": [0, 1, 0], "fov": 30.0}
     stroke = {"points": [[0.6, 0.5], [0.75, 0.5]], "width": 0.1}
@@ -91,7 +91,7 @@ def test_a_shadow_falls_on_the_floor_where_the_light_throws_it(served, connected
     assert connected.view["results"][0]["covered"] > 0.5
 
 
-def test_the_difference_has_a_byte_for_each_cell_and_its_sums_are_those_of_the_fit(served, connected):
+def test_the_difference_has_a_byte_for_each_cell_and_the_sums_of_the_fit(served, connected):
     connected.ask("run")
     key = connected.view["picked"]
     connected.ask("difference", key=key)

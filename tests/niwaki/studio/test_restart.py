@@ -53,7 +53,7 @@ def test_kill_in_a_search_loses_nothing_that_was_shown(tmp_path):
         assert not script.view["interrupted"]
 
 
-def test_a_worker_that_is_killed_is_named_and_a_fresh_one_takes_its_place(tmp_path):
+def test_a_killed_worker_gives_a_message_and_a_fresh_process(tmp_path):
     with serving(tmp_path) as served, studio.connect(served.url, served.key) as script:
         script.ask("model", reference="gnarly-tree")
         script.ask("set", settings={"count": 1, "seed": 1, "effort": 64.0})

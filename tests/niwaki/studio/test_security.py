@@ -60,7 +60,7 @@ def test_the_token_serves_once_and_another_one_is_printed(served, cookie):
 
 
 @pytest.mark.parametrize("path", ["/", "/app.js", "/file/" + "0" * 64, "/socket", "/anything"])
-def test_nothing_is_told_without_a_cookie_or_a_key(served, path):
+def test_requests_without_cookie_or_key_are_refused(served, path):
     assert ask(served, path=path)[0] == 403
     assert ask(served, path=path, Authorization="Bearer wrong")[0] == 403
     assert ask(served, path=path, Authorization=f"Basic {served.key}")[0] == 403
@@ -150,7 +150,7 @@ INVALID = (
 )
 
 
-def test_messages_that_are_none_are_refused_and_the_socket_stays(served):
+def test_invalid_messages_are_refused_and_the_socket_stays(served):
     with studio.connect(served.url, served.key) as script:
         for text in INVALID:
             script._socket.send(text)
@@ -192,7 +192,7 @@ def test_a_mesh_that_is_too_large_is_refused_before_it_is_read(served):
 @pytest.mark.parametrize(
     "name,body", [("a.exe", b"x"), ("a.stl", b"not a mesh"), ("a.obj", b""), ("a.glb", b"glTF" + bytes(40))]
 )
-def test_what_is_no_mesh_is_refused_with_the_reason(served, name, body):
+def test_an_invalid_mesh_is_refused_with_a_reason(served, name, body):
     status, _, data = ask(served, "POST", f"/upload?name={name}", body, **key(served))
     assert status in (415, 422) and json.loads(data)["text"]
 

@@ -69,7 +69,7 @@ def test_a_shape_has_its_parts_and_lies_in_its_bounds(connected):
     assert np.allclose(points.min(axis=0), header.low) and np.allclose(points.max(axis=0), header.high)
 
 
-def test_stop_ends_a_search_and_keeps_what_it_found(connected):
+def test_stop_ends_a_search_and_keeps_its_results(connected):
     """At this effort the search takes minutes."""
     connected.ask("model", reference="gnarly-tree")
     connected.ask("set", settings={"count": 1, "seed": 1, "effort": 64.0})
@@ -80,7 +80,7 @@ def test_stop_ends_a_search_and_keeps_what_it_found(connected):
     assert connected.view["searching"] is None and len(connected.view["results"]) == 1
 
 
-def test_runs_that_became_impossible_are_told_with_their_parts(connected):
+def test_impossible_runs_are_reported_with_their_parts(connected):
     grown(connected, count=1)
     losses = connected.view["losses"]
     assert losses.startswith("lost on the way: ") and "no_self_intersection" in losses and "(line " in losses
@@ -193,7 +193,7 @@ def test_two_windows_see_the_same_session(served, connected):
         assert connected.view == other.view
 
 
-def test_what_is_exported_is_what_replay_writes_to_the_byte(served, connected, tmp_path):
+def test_an_export_equals_the_bytes_of_replay(served, connected, tmp_path):
     key = grown(connected, count=3)[1]["key"]
     recipe = connected.ask("export", key=key, format="json")
     (tmp_path / "run.json").write_bytes(fetch(served, f"/file/{recipe['hash']}"))
@@ -215,7 +215,7 @@ def test_what_is_exported_is_what_replay_writes_to_the_byte(served, connected, t
         assert len(trimesh.load(tmp_path / "out" / f"best.{name}", force="mesh").faces)
 
 
-def test_a_mesh_that_is_sent_is_a_target_moved_and_turned(served, connected):
+def test_an_uploaded_mesh_is_a_target_that_moves_and_turns(served, connected):
     mesh = trimesh.creation.box((2.0, 1.0, 4.0))
     sent = json.loads(fetch(served, "/upload?name=block.obj", mesh.export(file_type="obj").encode()))
     assert sent["triangles"] == 12 and sent["size"] == [2.0, 1.0, 4.0]
@@ -251,7 +251,7 @@ def test_a_silhouette_drawn_by_hand_is_grown_into(connected):
     assert connected.view["results"][0]["similarity"] >= 0.8
 
 
-def test_drawing_models_follow_their_own_drawing_and_one_that_is_drawn(connected):
+def test_drawing_models_follow_their_own_drawing_or_a_sketch(connected):
     assert grown(connected, "vines", count=1)[0]["similarity"] > 0.8
     stroke = {"points": [[0.5, 0.9], [0.5, 0.2]], "width": 0.12}
     connected.ask("ask", ask={"sketch": {"strokes": [stroke], "aspect": 1.0}})
@@ -259,7 +259,7 @@ def test_drawing_models_follow_their_own_drawing_and_one_that_is_drawn(connected
     assert connected.view["results"][0]["similarity"] > 0.5
 
 
-def test_a_file_that_breaks_keeps_the_last_shape_and_goes_on_when_it_is_mended(served, pile, connected):
+def test_a_broken_file_keeps_the_last_shape_until_it_is_corrected(served, pile, connected):
     good = pile.read_text()
     connected.ask("model", reference=str(pile))
     connected.ask("ask", ask={"target": {"source": "box", "scale": [1.5, 3.0, 1.5]}})
@@ -304,7 +304,7 @@ def test_arguments_reach_the_shape_that_is_shown(pile, connected):
         connected.ask("run", fields="no")
 
 
-def test_the_types_of_the_page_are_those_of_the_messages():
+def test_the_types_of_the_page_match_the_messages():
     assert (REPOSITORY / "studio/page/src/messages.ts").read_text() == typescript(), "run `make studio-page`"
 
 

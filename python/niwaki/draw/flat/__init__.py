@@ -1,7 +1,7 @@
-"""A scene of flat shapes as a drawing.
+"""Drawings of flat shapes.
 
-strokes   strokes that continue one another, as smooth curves that taper
-marks     filled outlines in order, each named by the address of its part; the styles
+strokes   connected strokes as smooth curves that taper
+marks     filled outlines in order, with the address of the part; the styles
 drawing   marks as pixels
-svg       marks as SVG, each part a group with a readable id
+svg       marks as SVG: a group with a readable id for each part
 """

@@ -14,7 +14,7 @@ from niwaki.draw.flat.marks import Mark, Rgb, marks, style_of
 from niwaki.draw.flat.strokes import Point
 from niwaki.draw.limits import check_size
 
-#: The factor by which a drawing is larger before its edges are made smooth.
+#: The factor of oversampling, for smooth edges.
 FINE = 3
 
 #: Low and high corner, (x, y) each, scene units.
@@ -32,31 +32,31 @@ def drawing(
     clear: bool = False,
     like: Assembly | None = None,
 ) -> Image.Image:
-    """Draws a scene of flat shapes, seen from +z.
+    """Draw a scene of flat shapes, seen from +z.
 
     Parameters
     ----------
     scene
-        What to draw.
+        The scene.
     size
         Width and height in pixels.
     style
         "ink", "vines", "lightning" or "circuit".
     window
-        The part of the plane that is shown, whole; all of the scene when left out.
+        The part of the plane to show; the whole scene when left out.
     margin
-        Empty border around the scene, as a share of its size; none around a window.
+        Empty border around the scene, as a share of its size; a window has no border.
     under
-        (rows, columns): an image that fills the window and lies under the drawing, pale.
+        A pale image under the drawing, (rows, columns), which fills the window.
     clear
-        Transparent paper.
+        Whether the paper is transparent.
     like
-        The whole of which the scene is a state: its framing and its curves are taken.
+        The whole scene of which `scene` is a state; the drawing has its framing and its curves.
 
     Returns
     -------
     PIL.Image.Image
-        RGBA.
+        The picture, RGBA.
     """
     chosen = style_of(style)
     check_size(size, fine=FINE)
@@ -85,7 +85,7 @@ def drawing(
 def framing(
     scene: Assembly, window: Window | None, size: tuple[int, int], margin: float
 ) -> tuple[float, float, float]:
-    """The left and the upper border, scene units, and pixels for each unit; what is shown is in the middle."""
+    """Return the left and the upper border, scene units, and pixels for each unit; the window is in the middle."""
     if window is None:
         bounds = scene.bounds
         (x, y, _), (right, high, _) = bounds.tolist()
@@ -106,7 +106,7 @@ def _fill(page: Image.Image, group: Sequence[Mark], at: Callable[[Point], Point]
 def _shine(
     page: Image.Image, group: Sequence[Mark], at: Callable[[Point], Point], blur: float
 ) -> Image.Image:
-    """Adds light: as two lamps that shine on the same place never exceed white (the screen of photographers)."""
+    """Add light with the blend mode "screen", which never exceeds white."""
     light = Image.new("RGB", page.size)
     pen = ImageDraw.Draw(light)
     for mark in group:

@@ -1,9 +1,9 @@
-"""Strokes that continue one another, drawn as smooth curves that taper.
+"""Strokes as smooth curves that taper.
 
-A stroke continues another when it starts where that one ends. Each becomes a cubic Bezier curve between its ends; the
-tangent at a joint is the mean of the two strokes that meet there, a third of it the distance of the control point. At a
-fork the curve goes on into the last of the strokes, and the others leave it. Widths change evenly from one end to
-the other.
+A stroke continues another stroke if it starts at the end of that stroke. Each stroke becomes a cubic Bezier curve
+between its ends. The tangent at a joint is the mean of the two strokes; a third of it is the distance of the control
+point. At a fork the curve continues into the last of the strokes, and the others branch off. Widths change evenly along
+a stroke.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from math import ceil, cos, hypot, pi, sin
 
 Point = tuple[float, float]
 
-#: Straight pieces of a curve.
+#: The number of straight pieces of a curve.
 PIECES = 20
-#: Straight pieces of a round end, for a half turn.
+#: The number of straight pieces of a round end.
 ROUND = 10
 
 
@@ -27,13 +27,13 @@ class Stroke:
     Attributes
     ----------
     address : str
-        Of its part.
+        The address of the part.
     start, end : (x, y)
-        Scene units.
+        The ends, scene units.
     width, end_width : float
-        Scene units.
+        The widths at both ends, scene units.
     z : float
-        What it lies in front of.
+        The height above the plane; higher strokes lie in front.
     """
 
     address: str
@@ -45,7 +45,7 @@ class Stroke:
 
     @property
     def along(self) -> Point:
-        """From its start to its end."""
+        """Vector from the start to the end."""
         return self.end[0] - self.start[0], self.end[1] - self.start[1]
 
 
@@ -56,11 +56,11 @@ class Curve:
     Attributes
     ----------
     points : list of (x, y)
-        From its start to its end.
+        Points from the start to the end.
     widths : list of float
-        At each point.
+        The width at each point.
     continues : bool
-        Whether it starts at the end of another.
+        Whether the curve starts at the end of another curve.
     """
 
     points: list[Point]
@@ -68,14 +68,14 @@ class Curve:
     continues: bool
 
     def outline(self, wider: float = 1.0, more: float = 0.0, aside: float = 0.0) -> list[Point]:
-        """The corners of a band along the curve, with round ends.
+        """Return the corners of a band along the curve, with round ends.
 
         Parameters
         ----------
         wider, more
             The width is multiplied by `wider`, then `more` is added.
         aside
-            How far the band lies to the left of the curve, as a share of its width.
+            The offset of the band to the left of the curve, as a share of its width.
         """
         left, right = [], []
         count = len(self.points)
@@ -91,44 +91,44 @@ class Curve:
 
 
 def curves(strokes: Sequence[Stroke], bend: float = 1.0) -> list[Curve]:
-    """The curves of strokes, in their order.
+    """Return the curves of strokes, in their order.
 
     Parameters
     ----------
     strokes
-        Those that lie on one plane, in the order in which they were drawn.
+        The strokes, in the order of drawing.
     bend
         1 for smooth joints, 0 for straight strokes.
     """
-    ending = {(one.end, one.z): one for one in strokes}
-    following = {(one.start, one.z): one for one in strokes}
-    made = []
-    for one in strokes:
-        before, after = ending.get((one.start, one.z)), following.get((one.end, one.z))
-        first = one.along if before is None or before is one else _mean(before.along, one.along)
-        last = one.along if after is None or after is one else _mean(one.along, after.along)
-        width = one.width if before is None or before is one else before.end_width
+    ending = {(stroke.end, stroke.z): stroke for stroke in strokes}
+    following = {(stroke.start, stroke.z): stroke for stroke in strokes}
+    bent = []
+    for stroke in strokes:
+        before, after = ending.get((stroke.start, stroke.z)), following.get((stroke.end, stroke.z))
+        first = stroke.along if before is None or before is stroke else _mean(before.along, stroke.along)
+        last = stroke.along if after is None or after is stroke else _mean(stroke.along, after.along)
+        width = stroke.width if before is None or before is stroke else before.end_width
         count = PIECES if bend else 1
-        points = [_bezier(one, first, last, bend, k / count) for k in range(count + 1)]
-        widths = [width + (one.end_width - width) * k / count for k in range(count + 1)]
-        made.append(Curve(points, widths, before is not None))
-    return made
+        points = [_bezier(stroke, first, last, bend, k / count) for k in range(count + 1)]
+        widths = [width + (stroke.end_width - width) * k / count for k in range(count + 1)]
+        bent.append(Curve(points, widths, before is not None))
+    return bent
 
 
 def _mean(a: Point, b: Point) -> Point:
     return 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
 
 
-def _bezier(one: Stroke, first: Point, last: Point, bend: float, t: float) -> Point:
-    """A point of the curve with those tangents; with `bend` 0 a point of the straight stroke."""
+def _bezier(stroke: Stroke, first: Point, last: Point, bend: float, t: float) -> Point:
+    """Compute a point of the curve with these tangents; with `bend` 0, a point of the straight stroke."""
     s = 1.0 - t
     weights = s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t
-    first, last = _towards(one.along, first, bend), _towards(one.along, last, bend)
+    first, last = _towards(stroke.along, first, bend), _towards(stroke.along, last, bend)
     corners = (
-        one.start,
-        (one.start[0] + first[0] / 3.0, one.start[1] + first[1] / 3.0),
-        (one.end[0] - last[0] / 3.0, one.end[1] - last[1] / 3.0),
-        one.end,
+        stroke.start,
+        (stroke.start[0] + first[0] / 3.0, stroke.start[1] + first[1] / 3.0),
+        (stroke.end[0] - last[0] / 3.0, stroke.end[1] - last[1] / 3.0),
+        stroke.end,
     )
     return (
         sum(w * x for w, (x, _) in zip(weights, corners, strict=True)),
@@ -144,7 +144,7 @@ def _towards(straight: Point, tangent: Point, bend: float) -> Point:
 
 
 def _cap(start: Point, end: Point) -> list[Point]:
-    """Points of a half circle clockwise from `start` to `end`, without both."""
+    """Return points of a half circle clockwise from `start` to `end`, without the ends."""
     x, y = _mean(start, end)
     u, v = start[0] - x, start[1] - y
     turns = [pi * k / ROUND for k in range(1, ROUND)]
@@ -152,15 +152,15 @@ def _cap(start: Point, end: Point) -> list[Point]:
 
 
 def sides_of(radius: float, whole: float) -> int:
-    """How many sides a circle has: enough to miss it by a ten-thousandth of the whole drawing's size at most."""
+    """Return the number of sides of a circle; the error is at most a ten-thousandth of the whole drawing's size."""
     return max(48, 4 * ceil(60.0 * (radius / whole) ** 0.5)) if whole > 0.0 else 48
 
 
 def ring(center: Point, along: float, across: float, angle: float, sides: int) -> list[Point]:
-    """Corners of an ellipse with those half axes, the first turned by `angle`, counter-clockwise."""
+    """Return the corners of an ellipse, counter-clockwise; `angle` turns its first half axis."""
     turn = cos(angle), sin(angle)
-    made = []
+    corners = []
     for k in range(sides):
         u, v = along * cos(2.0 * pi * k / sides), across * sin(2.0 * pi * k / sides)
-        made.append((center[0] + u * turn[0] - v * turn[1], center[1] + u * turn[1] + v * turn[0]))
-    return made
+        corners.append((center[0] + u * turn[0] - v * turn[1], center[1] + u * turn[1] + v * turn[0]))
+    return corners

@@ -1,6 +1,6 @@
-"""Marks as SVG: a group for each part, its id made of the address, its title the address itself.
+"""Marks as SVG: a group for each part; its title is the address, and its id is made from the address.
 
-One unit of the page is one of the scene; see `niwaki.draw.page` for scenes far from the origin.
+A unit of the page is a scene unit; see `niwaki.draw.page` for scenes far from the origin.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from niwaki.errors import FileError
 def svg(scene: Assembly, *, style: str = "ink", window: Window | None = None, margin: float = 0.04) -> str:
     """Write a scene of flat shapes as SVG.
 
-    A part is a group, and its edge, its light and its glow, which lie on layers of their own, are further ones.
-    Soft marks are blurred by a filter and added as light.
+    A part is a group; its edge, its light and its glow are further groups on their own layers. Soft marks are blurred
+    by a filter and add light.
 
     Parameters
     ----------
@@ -31,8 +31,8 @@ def svg(scene: Assembly, *, style: str = "ink", window: Window | None = None, ma
     if len(scene) == 0:
         raise FileError("scene-empty", verb="write")
     chosen = style_of(style)
-    drawn = marks(scene, chosen)
-    for mark in drawn:
+    mark_list = marks(scene, chosen)
+    for mark in mark_list:
         finite(mark.corners, mark.address)
     if window is None:
         (low_x, low_y, _), (high_x, high_y, _) = scene.bounds.tolist()
@@ -42,9 +42,9 @@ def svg(scene: Assembly, *, style: str = "ink", window: Window | None = None, ma
     (left, low), (right, high) = finite(window, "the page", "its corners").tolist()
     page = Page((left, low), (right, high))
     lines = [f"<svg {page.attributes}>"]
-    taken = {"paper"}
-    for blur in sorted({mark.blur for mark in drawn} - {0.0}):
-        taken.add(_filter(blur))
+    used = {"paper"}
+    for blur in sorted({mark.blur for mark in mark_list} - {0.0}):
+        used.add(_filter(blur))
         lines.append(
             f'  <filter id="{_filter(blur)}" x="-100%" y="-100%" width="300%" height="300%">'
             f'<feGaussianBlur stdDeviation="{blur:g}"/></filter>'
@@ -52,9 +52,9 @@ def svg(scene: Assembly, *, style: str = "ink", window: Window | None = None, ma
     x, y = map(page.number, page.at((left, high)))
     size = f'width="{page.number(page.width)}" height="{page.number(page.height)}"'
     lines.append(f'  <rect id="paper" x="{x}" y="{y}" {size} fill="{_hex(chosen.paper)}"/>')
-    for (address, role), group in groupby(drawn, key=lambda mark: (mark.address, mark.role)):
+    for (address, role), group in groupby(mark_list, key=lambda mark: (mark.address, mark.role)):
         name = identifier(address) + (f".{role}" if role else "")
-        name = _free(name, taken)
+        name = _free(name, used)
         lines.append(f"  <g id={quoteattr(name)}><title>{escape(address)}</title>")
         lines += [f"    {_path(mark, page)}" for mark in group]
         lines.append("  </g>")
@@ -62,20 +62,19 @@ def svg(scene: Assembly, *, style: str = "ink", window: Window | None = None, ma
 
 
 def identifier(address: str) -> str:
-    """A name that XML allows, as near to the address as it can be: `branch/branch/emit#1` is `branch-x2.emit-1`."""
-    steps = [(step, len(list(same))) for step, same in groupby(address.split("/"))]
+    """Make an XML name that is close to the address: `branch/branch/emit#1` becomes `branch-x2.emit-1`."""
+    steps = [(step, len(list(group))) for step, group in groupby(address.split("/"))]
     text = ".".join(step if count == 1 else f"{step}-x{count}" for step, count in steps)
     name = re.sub(r"[^A-Za-z0-9_.\-]+", "-", text.replace("]", "")).strip("-")
     return name if name[:1].isalpha() or name[:1] == "_" else f"part.{name}"
 
 
-def _free(name: str, taken: set[str]) -> str:
-    """The name, or with the first number that makes it another than those taken; it is taken then."""
-    found = next(
-        one for one in (name, *(f"{name}.{k}" for k in range(2, len(taken) + 3))) if one not in taken
-    )
-    taken.add(found)
-    return found
+def _free(name: str, used: set[str]) -> str:
+    """Return the name, with a number if it is in use; the result is then in use, too."""
+    candidates = (name, *(f"{name}.{k}" for k in range(2, len(used) + 3)))
+    free = next(candidate for candidate in candidates if candidate not in used)
+    used.add(free)
+    return free
 
 
 def _path(mark: Mark, page: Page) -> str:

@@ -180,14 +180,14 @@ function Search({ settings }: { settings: Settings }) {
       </label>
       {isScene && (
         <label class="row" title="Choose among the results of the search: the best, or the most different">
-          <span>different</span>
+          <span>variety</span>
           <Field
             type="range"
             min={0}
             max={1}
             step={0.25}
             value={settings.strength}
-            aria-label="Difference of results"
+            aria-label="Variety"
             aria-valuetext={STRENGTHS[Math.round(4 * (settings.strength ?? 0))]}
             onEnd={(text) => set({ strength: Number(text) })}
           />

@@ -1,7 +1,7 @@
-"""What is asked, as values that a worker process is sent.
+"""Orders: the goals of a search as values for a worker process.
 
-Points of meshes and eyes are Blender's, with z up. A model grows from its origin; `Order.origin` is where that is in
-Blender. What a search is asked is in scene units from there, by the options of `niwaki.targets.asks`.
+Points of meshes and eyes are Blender's, with z up. A model grows from its origin, whose place in Blender is
+`Order.origin`. The goals are options of `niwaki.targets.asks`, in scene units from this origin.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Triple = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Mesh:
-    """A mesh of Blender where it stands.
+    """A mesh of Blender in world space.
 
     Attributes
     ----------
@@ -38,14 +38,14 @@ class Mesh:
     faces: NDArray[np.int64]
 
     def target(self, origin: Triple = (0.0, 0.0, 0.0)) -> nw.Target:
-        """The solid, in scene units from an origin."""
+        """Return the solid as a target, in scene units from an origin."""
         with warnings.catch_warnings():
-            # Blender's own checks show holes.
+            # Blender shows holes itself.
             warnings.simplefilter("ignore")
             return nw.Target(axes.to_scene(self.vertices - origin), self.faces, self.name)
 
     def receiver(self, origin: Triple) -> nw.Receiver:
-        """The surface, in scene units from an origin."""
+        """Return the surface as a receiver, in scene units from an origin."""
         return nw.Receiver(axes.to_scene(self.vertices - origin), self.faces, self.name)
 
 
@@ -56,13 +56,13 @@ class Eye:
     Attributes
     ----------
     forward, up
-        Directions of its view.
+        Directions of the view.
     fov
-        Vertical, degrees; None where it is orthographic.
+        Vertical field of view, degrees; None for an orthographic camera.
     height
-        Of what an orthographic one shows.
+        The height of an orthographic view.
     near
-        What is nearer is not seen.
+        The near clipping distance.
     """
 
     position: Triple
@@ -73,7 +73,7 @@ class Eye:
     near: float = 0.1
 
     def camera(self, origin: Triple = (0.0, 0.0, 0.0)) -> nw.Camera:
-        """The camera, in scene units from an origin."""
+        """Return the camera, in scene units from an origin."""
         position = axes.to_scene(np.subtract(self.position, origin))
         forward, up = axes.to_scene(self.forward), axes.to_scene(self.up)
         look_at = (position + forward).tolist()
@@ -85,41 +85,41 @@ class Eye:
 
 
 def direction(way: Triple) -> Triple:
-    """A direction of Blender in a scene."""
+    """Convert a direction of Blender to a scene."""
     x, y, z = axes.to_scene(way).tolist()
     return x, y, z
 
 
-#: What a picture is nothing without, in the panel's words.
+#: The settings that a picture needs, and the message if they are missing.
 NEEDED = {
-    "match_image": ({"camera"}, "The silhouette has no camera: choose the one that sees it"),
+    "match_image": ({"camera"}, "The silhouette has no camera: choose a camera"),
     "match_shadow": (
         {"light", "receiver"},
-        "The shadow needs a light, and a mesh that it falls on: choose both",
+        "The shadow needs a light and a mesh that receives it: choose both",
     ),
 }
 
 
 @dataclass(frozen=True)
 class Order:
-    """A search as the panel asks for it.
+    """The order of a search, from the settings of the panel.
 
     Attributes
     ----------
     model
         A name of the gallery, or `file.py:function`.
-    asked
-        What the result should be like: options of `niwaki.targets.asks`, in scene units from the origin.
+    goals
+        Options of `niwaki.targets.asks`, in scene units from the origin.
     origin
-        Where the model's origin stands.
+        The place of the model's origin.
     effort
-        Rounds of the search, in its usual number.
+        The factor of the usual number of search rounds.
     count
-        How many results that differ.
+        The number of results that differ.
     """
 
     model: str
-    asked: Mapping[str, Any] = field(default_factory=dict)
+    goals: Mapping[str, Any] = field(default_factory=dict)
     origin: Triple = (0.0, 0.0, 0.0)
     arguments: dict[str, Any] = field(default_factory=dict)
     count: int = 1
@@ -127,21 +127,21 @@ class Order:
     seed: int = 1
 
     def job(self) -> GrowValues:
-        """The worker's job.
+        """Make the job for the worker.
 
         Raises
         ------
         ValueError
-            A picture comes without its camera, or without its light.
+            A picture has no camera or no light.
         """
-        for picture, (others, text) in NEEDED.items():
-            if picture in self.asked and not others <= self.asked.keys():
+        for picture, (needed, text) in NEEDED.items():
+            if picture in self.goals and not needed <= self.goals.keys():
                 raise ValueError(text)
         write = Writer("inside")
         return GrowValues(
             model=self.model,
             arguments=self.arguments,
-            options={name: write(value) for name, value in self.asked.items()},
+            options={name: write(value) for name, value in self.goals.items()},
             settings=Settings(count=self.count, effort=self.effort),
             run=0,
             seed=self.seed,

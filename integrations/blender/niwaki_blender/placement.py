@@ -1,4 +1,4 @@
-"""Results as collections of objects: the parts of a GLB below an empty that moves them all."""
+"""Results as collections of objects: the parts of a GLB below an empty that moves all of them."""
 
 from __future__ import annotations
 
@@ -9,37 +9,38 @@ import addon_utils
 import bpy
 import numpy as np
 
-from . import grid, keeping
-from .asking import Mesh
-from .growing import Grown
+from . import grid, storage
+from .growth import GrowthOutcome
+from .order import Mesh
 
-#: What the best so far is called.
+#: The name of the best result so far.
 BEST = "niwaki: best so far"
 
 
 def place(
     context: bpy.types.Context,
-    grown: Grown,
+    outcome: GrowthOutcome,
     name: str,
     held: Collection[str] = (),
     at: Sequence[float] = (0.0, 0.0, 0.0),
 ) -> bpy.types.Collection:
-    """Put results into a new collection of the scene; several stand in a grid.
+    """Place results in a new collection of the scene; several results stand in a grid.
 
     Parameters
     ----------
     name
-        Of the collection.
+        The name of the collection.
     held
-        Addresses of parts that are marked as held.
+        Addresses of parts to mark as held.
     at
-        Where the model's origin stands in the first one.
+        The place of the model's origin in the first result.
     """
     run = bpy.data.collections.new(name)
     context.scene.collection.children.link(run)
-    keeping.keep_run(run, grown, at)
+    storage.store_run(run, outcome, at)
     handles = [
-        _result(context, run, grown, number, f"{name} #{number}", held) for number in range(len(grown.files))
+        _result(context, run, outcome, number, f"{name} #{number}", held)
+        for number in range(len(outcome.files))
     ]
     context.view_layer.update()
     sizes = [_size(handle) for handle in handles]
@@ -50,76 +51,76 @@ def place(
 
 
 def show_best(context: bpy.types.Context, best: Mesh, at: Sequence[float]) -> None:
-    """Show the best so far as one object; it is in the way of nothing, and is removed when the search has ended."""
+    """Show the best result so far as an object that cannot be selected; the end of the search removes it."""
     hide_best()
     data = bpy.data.meshes.new(BEST)
     data.from_pydata(best.vertices.tolist(), [], best.faces.tolist())
-    thing = bpy.data.objects.new(BEST, data)
-    thing.location, thing.hide_select, thing.hide_render = at, True, True
-    context.scene.collection.objects.link(thing)
+    preview = bpy.data.objects.new(BEST, data)
+    preview.location, preview.hide_select, preview.hide_render = at, True, True
+    context.scene.collection.objects.link(preview)
 
 
 def hide_best() -> None:
-    """Remove the best so far."""
+    """Remove the best result so far."""
     data = bpy.data.meshes.get(BEST)
     if data is not None:
-        for thing in [one for one in bpy.data.objects if one.data == data]:
-            bpy.data.objects.remove(thing)
+        for preview in [obj for obj in bpy.data.objects if obj.data == data]:
+            bpy.data.objects.remove(preview)
         bpy.data.meshes.remove(data)
 
 
 def handle_of(result: bpy.types.Collection) -> bpy.types.Object | None:
-    """The empty that moves a result."""
-    return next((thing for thing in result.objects if thing.parent is None), None)
+    """Find the empty that moves a result."""
+    return next((obj for obj in result.objects if obj.parent is None), None)
 
 
 def _result(
     context: bpy.types.Context,
     run: bpy.types.Collection,
-    grown: Grown,
+    outcome: GrowthOutcome,
     number: int,
     name: str,
     held: Collection[str],
 ) -> bpy.types.Object:
-    """One result, and the empty that moves it."""
+    """Import a result; return the empty that moves it."""
     collection = bpy.data.collections.new(name)
     run.children.link(collection)
-    keeping.keep_result(collection, grown, number)
+    storage.store_result(collection, outcome, number)
     handle = bpy.data.objects.new(name, None)
     collection.objects.link(handle)
-    for thing in _imported(context, grown.files[number]):
-        for other in list(thing.users_collection):
-            other.objects.unlink(thing)
-        collection.objects.link(thing)
-        if thing.parent is None:
-            thing.parent = handle
-        if thing.get(keeping.ADDRESS) in held:
-            thing[keeping.HELD] = True
+    for obj in _import(context, outcome.files[number]):
+        for other in list(obj.users_collection):
+            other.objects.unlink(obj)
+        collection.objects.link(obj)
+        if obj.parent is None:
+            obj.parent = handle
+        if obj.get(storage.ADDRESS) in held:
+            obj[storage.HELD] = True
     return handle
 
 
-def _imported(context: bpy.types.Context, file: Path) -> list[bpy.types.Object]:
-    """The objects of a GLB, with materials that the .blend may have already."""
+def _import(context: bpy.types.Context, file: Path) -> list[bpy.types.Object]:
+    """Import the objects of a GLB; equal materials of the .blend are reused."""
     if not addon_utils.check("io_scene_gltf2")[1]:
         addon_utils.enable("io_scene_gltf2")
     if context.object is not None and context.object.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-    things, materials = set(bpy.data.objects), set(bpy.data.materials)
+    objects, materials = set(bpy.data.objects), set(bpy.data.materials)
     before = context.scene.get("niwaki")
     bpy.ops.import_scene.gltf(filepath=str(file))
-    # The choices of calls without an object: the collection has all choices.
+    # The importer stores the choices of calls without an object there; the collection has all choices.
     if before is None and "niwaki" in context.scene:
         del context.scene["niwaki"]
     for material in set(bpy.data.materials) - materials:
-        same = bpy.data.materials.get(material.name.rpartition(".")[0])
-        if same is not None and _look(same) == _look(material):
-            material.user_remap(same)
+        twin = bpy.data.materials.get(material.name.rpartition(".")[0])
+        if twin is not None and _look(twin) == _look(material):
+            material.user_remap(twin)
             bpy.data.materials.remove(material)
-    return [thing for thing in bpy.data.objects if thing not in things]
+    return [obj for obj in bpy.data.objects if obj not in objects]
 
 
 def _look(material: bpy.types.Material) -> tuple[float, ...]:
-    """Colour, roughness and metal of a material."""
+    """Return colour, roughness and metalness of a material."""
     shader = material.node_tree and material.node_tree.nodes.get("Principled BSDF")
     if not shader:
         return (*material.diffuse_color, material.roughness, material.metallic)
@@ -129,12 +130,11 @@ def _look(material: bpy.types.Material) -> tuple[float, ...]:
 
 
 def _size(handle: bpy.types.Object) -> tuple[float, float]:
-    """The extent of what a handle moves, along x and y."""
+    """Measure the objects of a handle along x and y."""
     corners = [
-        np.array(thing.bound_box) @ np.array(thing.matrix_world)[:2, :3].T
-        + np.array(thing.matrix_world)[:2, 3]
-        for thing in handle.children_recursive
-        if thing.type == "MESH"
+        np.array(obj.bound_box) @ np.array(obj.matrix_world)[:2, :3].T + np.array(obj.matrix_world)[:2, 3]
+        for obj in handle.children_recursive
+        if obj.type == "MESH"
     ]
     if not corners:
         return (0.0, 0.0)

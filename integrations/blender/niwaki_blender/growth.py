@@ -1,6 +1,7 @@
-"""A search in a worker process, watched from a thread: Blender stays free, and asks now and then how far it is.
+"""A search in a worker process, watched by a thread: Blender stays responsive and polls the progress.
 
-The worker is the studio's: a process of the same Python that does jobs. A model is imported and run only there.
+The worker is that of the studio: a process of the same Python that does jobs. Only this process imports and runs
+models.
 """
 
 from __future__ import annotations
@@ -22,26 +23,26 @@ from niwaki.studio.messages import Answer, GrowAgain, GrowValues, Hold, Outcome,
 from niwaki.studio.process import Worker
 
 from . import axes
-from .asking import Mesh
+from .order import Mesh
 
-#: Seconds between two tries to stop a search.
-LOOK = 0.05
+#: Seconds between attempts to stop a search.
+INTERVAL = 0.05
 
 
 @dataclass(frozen=True)
-class Grown:
-    """What a search found.
+class GrowthOutcome:
+    """The outcome of a search.
 
     Attributes
     ----------
     run : str
-        The run.json: the whole search with its results, to carry it out again.
+        The text of run.json: the whole search with its results, for repetition.
     outcomes
-        Numbers of the results, the best first.
+        The numbers of the results, the best first.
     files
-        Their GLB files.
+        The GLB files of the results.
     interrupted
-        Whether it was cancelled before its end.
+        Whether the search was cancelled before its end.
     """
 
     run: str
@@ -51,19 +52,19 @@ class Grown:
 
 
 @dataclass(frozen=True)
-class Again:
-    """A stored search to carry out again.
+class Repetition:
+    """A stored search to repeat.
 
     Attributes
     ----------
     run : str
-        Its run.json.
+        The text of its run.json.
     number
-        The result of it whose parts are held.
+        The number of the result whose parts are held.
     seed, count
-        As they were, where they are None.
+        A new seed and a new number of results; None for the stored values.
     held
-        Addresses of parts that stay as they are; as they were stored, where it is None.
+        Addresses of held parts; None for the stored ones.
     """
 
     run: str
@@ -73,13 +74,13 @@ class Again:
     held: Sequence[str] | None = None
 
 
-class Growing:
-    """A search that was begun.
+class Growth:
+    """A search in the background.
 
     Parameters
     ----------
     job
-        What to search.
+        The search.
     words
         Files of models that may be run.
 
@@ -87,44 +88,44 @@ class Growing:
     ----------
     progress : Progressed or None
         The newest report.
-    best : asking.Mesh or None
-        The shape of the best so far, from the model's origin.
-    grown : Grown or None
-        What was found, when it has ended.
+    best : order.Mesh or None
+        The shape of the best result so far, from the model's origin.
+    outcome : GrowthOutcome or None
+        The outcome, after the end of the search.
     problem, code : str
-        Why it failed, for people and for programs.
+        The reason of a failure, for people and for programs.
     """
 
-    def __init__(self, job: GrowValues | Again, words: Sequence[str] = ()) -> None:
+    def __init__(self, job: GrowValues | Repetition, words: Sequence[str] = ()) -> None:
         self.progress: Progressed | None = None
         self.best: Mesh | None = None
-        self.grown: Grown | None = None
+        self.outcome: GrowthOutcome | None = None
         self.problem = self.code = ""
         self._folder = Path(tempfile.mkdtemp(prefix="niwaki-"))
         self._worker = Worker(*words, environment=environment())
         self._job = job
         self._loop = asyncio.new_event_loop()
         self._is_searching, self._is_stopping, self._is_abandoned = True, False, False
-        self._thread = threading.Thread(target=self._carry_out, daemon=True)
+        self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 
     @property
     def has_ended(self) -> bool:
-        """Whether there is a result or a problem."""
+        """Whether the search has ended."""
         return not self._thread.is_alive()
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait for the end."""
+        """Wait for the end of the search."""
         self._thread.join(seconds)
 
     def stop(self) -> None:
-        """End the search; what it has found is kept."""
+        """Stop the search, and keep its results so far."""
         if not self.has_ended and not self._is_stopping:
             self._is_stopping = True
             asyncio.run_coroutine_threadsafe(self._stop(), self._loop)
 
     def abandon(self) -> None:
-        """End the search, and leave nothing of it."""
+        """Stop the search, and remove its results."""
         self._is_abandoned = True
         self.stop()
         if self.has_ended:
@@ -134,12 +135,12 @@ class Growing:
         """Remove the files."""
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    def _carry_out(self) -> None:
+    def _run(self) -> None:
         try:
             self._loop.run_until_complete(self._work())
         except _Failed as error:
             self.problem, self.code = str(error), error.code
-        except Exception as error:  # a thread has nobody who would see it
+        except Exception as error:  # errors of a thread are otherwise invisible
             self.problem = f"{type(error).__name__}: {error}"
         finally:
             self._is_searching = False
@@ -149,37 +150,37 @@ class Growing:
                 self.clear()
 
     async def _end(self) -> None:
-        """End the worker, and wait for a `stop` that is still trying."""
+        """End the worker, and wait for a pending `stop`."""
         await self._worker.kill()
-        left = asyncio.all_tasks() - {asyncio.current_task()}
-        await asyncio.gather(*left, return_exceptions=True)
+        tasks = asyncio.all_tasks() - {asyncio.current_task()}
+        await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _stop(self) -> None:
-        """Stop the worker's job: once there is one, and its process."""
+        """Stop the worker's job, as soon as its process and the job have started."""
         while self._is_searching:
             await self._worker.stop()
-            await asyncio.sleep(LOOK)
+            await asyncio.sleep(INTERVAL)
 
     async def _work(self) -> None:
         file = self._folder / "run.json"
-        job = self._job if isinstance(self._job, GrowValues) else await self._again(self._job)
+        job = self._job if isinstance(self._job, GrowValues) else await self._repeat(self._job)
         job.file = str(file)
         answer = Answer() if self._is_stopping else await self._do(job)
         self._is_searching = False
         if not answer.outcomes:
-            raise _Failed("Cancelled before anything was found")
+            raise _Failed("The search was cancelled before it found a result")
         files = []
         for outcome in answer.outcomes:
             number = outcome.key.number
             folder = self._folder / str(number)
-            written = await self._do(
+            export = await self._do(
                 WriteFile(source=str(file), number=number, format="glb", folder=str(folder))
             )
-            files.append(Path(written.path))
-        self.grown = Grown(file.read_text(), answer.outcomes, files, answer.interrupted)
+            files.append(Path(export.path))
+        self.outcome = GrowthOutcome(file.read_text(), answer.outcomes, files, answer.interrupted)
 
-    async def _again(self, stored: Again) -> GrowAgain:
-        """The job of a stored search, with the choices that hold its parts."""
+    async def _repeat(self, stored: Repetition) -> GrowAgain:
+        """Make the job of a stored search, with the choices of its held parts."""
         source = self._folder / "stored.json"
         source.write_text(stored.run)
         hold: dict[str, Any] | None = None
@@ -215,38 +216,38 @@ class _Failed(Exception):
 
 
 def _mesh(shape: Shape, payload: bytes) -> Mesh:
-    """The light mesh of a worker: places, colours, corners, numbers of parts (`niwaki.studio.worker.shapes`)."""
+    """Read the light mesh of a worker (`niwaki.studio.worker.shapes`): positions, colours, corners, parts."""
     points = np.frombuffer(payload, "<f4", 3 * shape.vertices).reshape(-1, 3)
     faces = np.frombuffer(payload, "<u4", 3 * shape.triangles, 16 * shape.vertices).reshape(-1, 3)
     return Mesh("best so far", axes.to_blender(points), faces.astype(np.int64))
 
 
 def environment() -> dict[str, str]:
-    """Of a worker: it finds the packages of the extension, and nothing of the folder that Blender was started in."""
+    """Make the environment of a worker: it has the extension's packages, and ignores the current folder."""
     packages = str(Path(niwaki.__file__).parents[1])
     paths = [packages, *filter(None, [os.environ.get("PYTHONPATH")])]
     return {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "PYTHONSAFEPATH": "1"}
 
 
 def results(run: str) -> list[dict[str, Any]]:
-    """The results of a run.json: their seeds, scores and choices."""
-    found: list[dict[str, Any]] = json.loads(run)["runs"]
-    return found
+    """Read the results of a run.json: seeds, scores and choices."""
+    rows: list[dict[str, Any]] = json.loads(run)["runs"]
+    return rows
 
 
 def title(reference: str) -> str:
-    """What results of a model are called: the model's name, or that of its function or file."""
+    """Name the results of a model: by the model, its function or its file."""
     path, _, function = reference.rpartition(":")
     return Path(reference).stem if reference.endswith(".py") or not path else function
 
 
 def reference(run: str) -> str:
-    """The model of a run.json, as it was named."""
+    """Return the reference of the model of a run.json."""
     return str(json.loads(run)["model"])
 
 
 def model_file(run: str) -> tuple[Path, str] | None:
-    """The model's file of a run.json with the hash of its bytes; None where a model of the gallery was grown."""
+    """Return the model's file of a run.json and the hash of its bytes; None for a model of the gallery."""
     data = json.loads(run)
     path, colon, _ = str(data["model"]).rpartition(":")
     return (Path(path), str(data["file_hash"])) if colon and data.get("file_hash") else None

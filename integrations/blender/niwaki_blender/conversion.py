@@ -1,4 +1,4 @@
-"""Objects, cameras, lights and images of Blender as arrays, where they stand and with their modifiers."""
+"""Conversion of objects, cameras, lights and images to arrays, in world space and with modifiers."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from .asking import Eye, Mesh
+from .order import Eye, Mesh
 
-#: Two shares of width and height count as one.
+#: The largest relative difference between equal aspect ratios.
 NEAR = 0.01
 
 
-def mesh(thing: bpy.types.Object, context: bpy.types.Context) -> Mesh:
-    """The triangles of an object in the world.
+def mesh(obj: bpy.types.Object, context: bpy.types.Context) -> Mesh:
+    """Read the triangles of an object in world space.
 
     Raises
     ------
     ValueError
-        It has none.
+        The object has no faces.
     """
-    seen = thing.evaluated_get(context.evaluated_depsgraph_get())
-    data = seen.to_mesh()
+    evaluated = obj.evaluated_get(context.evaluated_depsgraph_get())
+    data = evaluated.to_mesh()
     try:
         data.calc_loop_triangles()
         vertices = np.empty(3 * len(data.vertices), dtype=np.float32)
@@ -31,34 +31,34 @@ def mesh(thing: bpy.types.Object, context: bpy.types.Context) -> Mesh:
         faces = np.empty(3 * len(data.loop_triangles), dtype=np.int32)
         data.loop_triangles.foreach_get("vertices", faces)
     finally:
-        seen.to_mesh_clear()
+        evaluated.to_mesh_clear()
     if not len(faces):
-        raise ValueError(f"{thing.name} has no faces")
-    matrix = np.array(seen.matrix_world, dtype=np.float64)
+        raise ValueError(f"{obj.name} has no faces")
+    matrix = np.array(evaluated.matrix_world, dtype=np.float64)
     points = vertices.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     triangles = faces.reshape(-1, 3).astype(np.int64)
     if np.linalg.det(matrix[:3, :3]) < 0.0:
-        # A mirror turns triangles over.
+        # A mirror image reverses triangles.
         triangles = triangles[:, ::-1]
-    return Mesh(thing.name, points, np.ascontiguousarray(triangles))
+    return Mesh(obj.name, points, np.ascontiguousarray(triangles))
 
 
-def eye(thing: bpy.types.Object, scene: bpy.types.Scene) -> Eye:
-    """A camera of the scene.
+def eye(obj: bpy.types.Object, scene: bpy.types.Scene) -> Eye:
+    """Read a camera of the scene.
 
     Raises
     ------
     ValueError
-        It is panoramic, or its view is shifted.
+        The camera is panoramic, or its view is shifted.
     """
-    lens = thing.data
+    lens = obj.data
     if lens.type not in ("PERSP", "ORTHO"):
-        raise ValueError(f"{thing.name} is panoramic: choose a perspective or an orthographic camera")
+        raise ValueError(f"{obj.name} is panoramic: choose a perspective or an orthographic camera")
     if lens.shift_x or lens.shift_y:
-        raise ValueError(f"The view of {thing.name} is shifted: set both shifts to 0")
+        raise ValueError(f"The view of {obj.name} is shifted: set both shifts to 0")
     corners = np.array(lens.view_frame(scene=scene))
     half = float(np.ptp(corners[:, 1])) / 2.0
-    matrix = np.array(thing.matrix_world, dtype=np.float64)
+    matrix = np.array(obj.matrix_world, dtype=np.float64)
     axes = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
     view = {
         "position": tuple(matrix[:3, 3].tolist()),
@@ -71,19 +71,19 @@ def eye(thing: bpy.types.Object, scene: bpy.types.Scene) -> Eye:
     return Eye(**view, fov=fov, near=lens.clip_start)
 
 
-def light(thing: bpy.types.Object) -> tuple[float, float, float]:
-    """The direction in which a light travels: that of the object, as of a sun."""
-    x, y, z = (-np.array(thing.matrix_world, dtype=np.float64)[:3, 2]).tolist()
+def light(obj: bpy.types.Object) -> tuple[float, float, float]:
+    """Read the direction of a light, as that of a sun."""
+    x, y, z = (-np.array(obj.matrix_world, dtype=np.float64)[:3, 2]).tolist()
     return (x, y, z)
 
 
 def mask(image: bpy.types.Image) -> NDArray[np.bool_]:
-    """Where an image is light and opaque, (rows, columns), the upper row first.
+    """Mark the light and opaque pixels of an image, (rows, columns), the upper row first.
 
     Raises
     ------
     ValueError
-        It has no pixels.
+        The image has no pixels.
     """
     columns, rows = image.size
     if not columns or not rows:
@@ -98,12 +98,12 @@ def mask(image: bpy.types.Image) -> NDArray[np.bool_]:
 
 
 def check_shape(image: bpy.types.Image, scene: bpy.types.Scene) -> None:
-    """Refuse an image that the camera does not see as it is.
+    """Check that an image has the aspect ratio of the render.
 
     Raises
     ------
     ValueError
-        Its shape is not that of the render.
+        The aspect ratios differ.
     """
     render = scene.render
     columns, rows = image.size
@@ -111,6 +111,6 @@ def check_shape(image: bpy.types.Image, scene: bpy.types.Scene) -> None:
     high = render.resolution_y * render.pixel_aspect_y
     if abs(columns * high / (rows * wide) - 1.0) > NEAR:
         raise ValueError(
-            f"{image.name} has {columns} x {rows} pixels, and the camera sees "
-            f"{render.resolution_x} x {render.resolution_y}: give both the same shape"
+            f"{image.name} has {columns} x {rows} pixels, and the render has "
+            f"{render.resolution_x} x {render.resolution_y}: set both to the same aspect ratio"
         )
