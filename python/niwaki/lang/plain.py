@@ -392,7 +392,7 @@ class PlainRun:
         inference.check(method, keep)
         function = underlying(model)
         if memoised.holds_one([model, *args]):
-            message = "a memoised function belongs to the run around, and is given away"
+            message = "a memoised function belongs to the enclosing run and cannot leave it"
             raise ModelFault("memo-outside", message, stack=self.stack())
         if not isinstance(function, FunctionType):
             raise ModelFault("not-callable", f"`infer` runs a model, found {model!r}", stack=self.stack())
