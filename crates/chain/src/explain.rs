@@ -120,7 +120,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
                     return Err(met.into());
                 }
             };
-            if change != Change::Same {
+            if change != Change::Unchanged {
                 let steps = named(&state, task, &noted);
                 if after.is_empty() {
                     after = state.trace.outline(program);
@@ -129,7 +129,7 @@ pub fn explain(task: &Task, seed: u64, tries: u64, address: &str) -> Result<Expl
                 new = draws.drawn;
             }
             state.trace.rollback(program);
-            if change != Change::Same {
+            if change != Change::Unchanged {
                 break;
             }
         }

@@ -18,7 +18,7 @@ use niwaki_run::log::Log;
 use niwaki_run::weights::near_log_step;
 use niwaki_vm::machine::Machine;
 use niwaki_vm::machine::answers::{Answer, At, Factor};
-use niwaki_vm::machine::lanes::{Apart, Column, Dists, LaneAnswers, Lanes, Logs};
+use niwaki_vm::machine::lanes::{Column, Dists, Divergence, LaneAnswers, Lanes, Logs};
 use std::sync::Arc;
 
 /// Fewer particles than this run one by one.
@@ -99,7 +99,7 @@ impl InLanes {
     pub fn part(mut self, particles: &mut [Particle]) {
         let logs = self.past.logs();
         for (lane, (p, log)) in particles.iter_mut().zip(logs).enumerate() {
-            p.state = self.lanes.apart(lane);
+            p.state = self.lanes.state_of(lane);
             (p.stream, p.lineage) = (self.streams[lane], self.lineages[lane]);
             p.record.log = log;
             for (total, sum) in [
@@ -162,10 +162,10 @@ impl InLanes {
     }
 
     /// By how much they have grown together, as [`counted`](crate::resident::counted) one by one.
-    fn growth(&self, values: usize) -> Result<Growth, Apart> {
+    fn growth(&self, values: usize) -> Result<Growth, Divergence> {
         let (n, state) = (self.len(), self.lanes.shared());
         if state.value_bytes() > values_to_recount(values) {
-            return Err(Apart);
+            return Err(Divergence);
         }
         let grown = state.own_bytes() as isize - self.bytes;
         Ok(Growth::of(n, grown, state.value_bytes().saturating_sub(values)))
@@ -286,7 +286,7 @@ fn draw_from(
     which: &[u32],
     blocks: &FirstBlocks,
     log_prior: &mut [f64],
-) -> Result<Vec<i64>, Apart> {
+) -> Result<Vec<i64>, Divergence> {
     let (mut drawn, mut exact) = (Vec::with_capacity(log_prior.len()), true);
     let mut sums = log_prior.iter_mut();
     let mut take = |k, log| {
@@ -299,7 +299,7 @@ fn draw_from(
     } else {
         tables.draw(which.iter().map(|row| *row as usize).zip(uniforms), &mut take);
     }
-    if exact { Ok(drawn) } else { Err(Apart) }
+    if exact { Ok(drawn) } else { Err(Divergence) }
 }
 
 impl Drawing<'_> {
@@ -314,7 +314,7 @@ impl Drawing<'_> {
 }
 
 impl LaneAnswers for Drawing<'_> {
-    fn choices(&mut self, at: &At<'_, f64>, dists: Dists<'_>) -> Result<Column, Apart> {
+    fn choices(&mut self, at: &At<'_, f64>, dists: Dists<'_>) -> Result<Column, Divergence> {
         let (address, lanes) = (at.address(), self.streams.len());
         self.blocks.make(self.streams, address);
         if let Some((all, which)) = dists.shared()
@@ -336,7 +336,7 @@ impl LaneAnswers for Drawing<'_> {
                 let mut all = Vec::with_capacity(lanes);
                 all.push($first);
                 for lane in 1..lanes {
-                    let $draw(x) = draw(lane) else { return Err(Apart) };
+                    let $draw(x) = draw(lane) else { return Err(Divergence) };
                     all.push(x);
                 }
                 $column(Arc::new(all))
@@ -346,19 +346,19 @@ impl LaneAnswers for Drawing<'_> {
             Draw::Real(x) => column!(Draw::Real, Column::Reals, x),
             Draw::Int(x) => column!(Draw::Int, Column::Ints, x),
             Draw::Bool(x) => column!(Draw::Bool, Column::Truths, x),
-            _ => return Err(Apart),
+            _ => return Err(Divergence),
         };
         if !exact {
-            return Err(Apart);
+            return Err(Divergence);
         }
         Ok(self.note(address, column))
     }
 
-    fn scores(&mut self, _: &At<'_, f64>, _: Factor, logs: Logs<'_>) -> Result<Answer<()>, Apart> {
+    fn scores(&mut self, _: &At<'_, f64>, _: Factor, logs: Logs<'_>) -> Result<Answer<()>, Divergence> {
         // A score of minus infinity, or one that is none, is for single runs.
         let is_usual = |log: f64| log.abs() < NEAR;
         let exact = match logs {
-            Logs::Same(log) => {
+            Logs::Shared(log) => {
                 let log = grid(log);
                 is_usual(log) && self.log_factors.iter_mut().all(|sum| add(sum, log))
             }
@@ -367,6 +367,6 @@ impl LaneAnswers for Drawing<'_> {
                 both.fold(true, |exact, (sum, log)| exact & is_usual(*log) & add(sum, grid(*log)))
             }
         };
-        if exact { Ok(Answer::Pause) } else { Err(Apart) }
+        if exact { Ok(Answer::Pause) } else { Err(Divergence) }
     }
 }

@@ -102,7 +102,7 @@ impl Resident {
             let machine = task.machine();
             let mut census = Census::new();
             if let Some(first) = particles.first() {
-                machine.leave_out_given(&first.state, &mut census);
+                machine.leave_out_inputs(&first.state, &mut census);
             }
             particles.iter().for_each(|particle| particle.count(&mut census));
             (self.values, self.fresh) = (census.bytes(), 0);

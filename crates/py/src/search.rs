@@ -41,7 +41,7 @@ use niwaki_search::nested::Inner;
 use niwaki_vm::core::Name;
 use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::invalid::{self, Count as InvalidCount};
-use niwaki_vm::machine::{Limits, Together};
+use niwaki_vm::machine::{Limits, SharedSteps};
 use niwaki_vm::value::{Closure, Value};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -281,7 +281,7 @@ impl PyTask {
         let inner = read.unwrap_or_else(|| Err(unknown())).map_err(|fault| faults::setting(py, &fault))?;
         let inferences = self.model.get().inferences(self.task.limits);
         let entry = Arc::new(Closure { function: program.entry.0, memo: None, captures: vec![] });
-        let together = Arc::new(Together::new(self.task.limits.steps));
+        let together = Arc::new(SharedSteps::new(self.task.limits.steps));
         let value =
             self.at_once(py, || Ok(inferences.infer(&inner, &entry, &self.task.args, seed, &together)?))?;
         self.object(py, &value)

@@ -10,7 +10,7 @@ use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::kept::{Change, Trace};
 use niwaki_vm::machine::stack::RunFault;
 use niwaki_vm::machine::state::State;
-use niwaki_vm::machine::{Limits, Machine, Together};
+use niwaki_vm::machine::{Limits, Machine, SharedSteps};
 use niwaki_vm::value::{Closure, Value};
 use std::any::Any;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ pub struct Task {
     /// The limits of one run.
     pub limits: Limits,
     /// The steps that all of its runs may take together: of a search inside of a model.
-    pub together: Option<Arc<Together>>,
+    pub together: Option<Arc<SharedSteps>>,
     /// Counts the runs of its searches that are invalid; clones count together.
     pub invalid: Arc<Invalid>,
 }

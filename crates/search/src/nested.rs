@@ -16,7 +16,7 @@ use niwaki_run::task::{Hosts, Task};
 use niwaki_run::weights::Normalised;
 use niwaki_vm::code::{FunctionId, Program};
 use niwaki_vm::fault::Fault;
-use niwaki_vm::machine::{Limits, Together};
+use niwaki_vm::machine::{Limits, SharedSteps};
 use niwaki_vm::value::{Closure, Value, identical};
 use std::any::Any;
 use std::collections::{HashMap, VecDeque};
@@ -200,9 +200,9 @@ impl Hosts for Inferences {
         };
         match (model, seed) {
             (Value::Function(model), Value::Int(seed)) => {
-                let together = Arc::new(Together::new(self.limits.steps.saturating_sub(*steps)));
+                let together = Arc::new(SharedSteps::new(self.limits.steps.saturating_sub(*steps)));
                 let answer = self.infer(method, model, args, *seed as u64, &together)?;
-                let answer_steps = together.taken();
+                let answer_steps = together.used();
                 *steps = steps.saturating_add(answer_steps);
                 if all_args.iter().chain([&answer]).map(Value::own_bytes).sum::<usize>() <= REMEMBERED_BYTES {
                     self.known.remember(constant, all_args, (&answer, answer_steps));
@@ -226,7 +226,7 @@ impl Inferences {
         model: &Arc<Closure>,
         args: &[Value],
         seed: u64,
-        together: &Arc<Together>,
+        together: &Arc<SharedSteps>,
     ) -> Result<Value, Fault> {
         Value::Function(Arc::clone(model)).refuse_memoised()?;
         args.iter().try_for_each(Value::refuse_memoised)?;

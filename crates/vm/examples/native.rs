@@ -1,4 +1,5 @@
-//! What machine code gains: loops and functions of numbers, interpreted and compiled, in nanoseconds of a round.
+//! The speed of machine code: loops and functions of numbers, interpreted and compiled, in nanoseconds per
+//! round.
 //!
 //! `cargo run --release -p niwaki-vm --example native`
 
@@ -62,9 +63,9 @@ fn run(program: &Program) -> (String, f64) {
     for _ in 0..5 {
         let mut machine = Machine::new(program, Limits { steps: u64::MAX, ..Limits::default() });
         let mut state = machine.start(&[], true).expect("no arguments");
-        let begun = Instant::now();
+        let start = Instant::now();
         machine.finish(&mut state, &mut Halves).expect("no fault");
-        best = best.min(begun.elapsed().as_secs_f64());
+        best = best.min(start.elapsed().as_secs_f64());
         answer = repr(&state.result()).expect("a number").to_string();
     }
     (answer, best)
@@ -76,8 +77,8 @@ fn main() {
         let module = parse(&format!("(module {text} (entry \"m\"))")).expect("core form");
         let program: Program = compile(&module, vec![]).expect("a program");
         let (plain, quick) = (program.clone().with_machine_code_after(0), program);
-        let ((one, slow), (other, fast)) = (run(&plain), run(&quick));
-        assert_eq!(one, other, "{name}");
+        let ((interpreted, slow), (compiled, fast)) = (run(&plain), run(&quick));
+        assert_eq!(interpreted, compiled, "{name}");
         let each = |seconds: f64| seconds / f64::from(ROUNDS) * 1e9;
         println!("{name:20} {:9.2} ns {:9.2} ns {:7.1}", each(slow), each(fast), slow / fast);
     }

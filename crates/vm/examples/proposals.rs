@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p niwaki-vm --example proposals [NAME] [SIZE]`
 //!
-//! With `PROPOSALS=N` it makes N proposals instead of running for `SECONDS`, so that instructions can be counted.
+//! With `PROPOSALS=N` the example makes N proposals instead of running for `SECONDS`, so that instructions can
+//! be counted.
 
 use niwaki_math::{Dist, Stream, grid};
 use niwaki_vm::core::parse::parse;
@@ -24,7 +25,7 @@ impl Answers<f64> for Draws {
     }
 }
 
-/// Small steps for numbers on the whole line, the prior for all else.
+/// Proposes small steps for numbers on the whole line, and draws from the prior for all other values.
 struct Steps(u64);
 
 impl Propose<f64> for Steps {
@@ -128,7 +129,7 @@ fn programs(n: usize) -> Vec<(&'static str, String)> {
 }
 
 fn main() {
-    let wanted = std::env::args().nth(1).unwrap_or_default();
+    let pattern = std::env::args().nth(1).unwrap_or_default();
     let n = std::env::args().nth(2).and_then(|n| n.parse().ok()).unwrap_or(1000);
     let seconds = std::env::var("SECONDS").ok().and_then(|s| s.parse().ok()).unwrap_or(1.0);
     let count = std::env::var("PROPOSALS").ok().and_then(|n| n.parse::<u64>().ok());
@@ -139,7 +140,7 @@ fn main() {
         _ => Strategy::C3,
     };
     for (name, text) in programs(n) {
-        if !name.starts_with(&wanted) {
+        if !name.starts_with(&pattern) {
             continue;
         }
         let program = compile(&parse(&text).expect("core form"), vec![]).expect("a program");
@@ -164,7 +165,7 @@ fn main() {
             sum.add_total(stale);
             sum.remove_total(fresh);
             let ratio = sum.value() + (backward - forward);
-            if change == Change::Same
+            if change == Change::Unchanged
                 || (change == Change::Done && (ratio >= 0.0 || pick.uniform().ln() < ratio))
             {
                 trace.commit(&program);

@@ -115,7 +115,7 @@ impl Walk {
     ) -> Result<Decision, Failure> {
         let program = &*task.program;
         match change {
-            Change::Same => {
+            Change::Unchanged => {
                 self.state.trace.commit(program);
                 self.last = Decision { same: true, accepted: true, log_ratio: 0.0 };
                 return Ok(self.last);

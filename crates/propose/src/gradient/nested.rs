@@ -29,7 +29,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At, Factor};
 use niwaki_vm::machine::invalid::Invalid;
 use niwaki_vm::machine::state::State;
-use niwaki_vm::machine::{Machine, Stop, Together};
+use niwaki_vm::machine::{Machine, SharedSteps, Stop};
 use niwaki_vm::value::{Closure, Value, repr};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -136,13 +136,13 @@ pub(super) fn enumerated(
     Value::Function(Arc::clone(model)).refuse_memoised()?;
     args.iter().try_for_each(Value::refuse_memoised)?;
     let name = &around.program.function(FunctionId(model.function)).name;
-    let together = Together::new(around.limits.steps.saturating_sub(*steps));
+    let together = SharedSteps::new(around.limits.steps.saturating_sub(*steps));
     let limits = limits_inside(around.limits, around.depth)?;
     let inside = Hosted { limits, depth: around.depth + 1, ..around.clone() };
     let found = runs(&inside, model, args, max_runs, &together).and_then(ranked).map_err(|failure| {
         if together.is_spent() { too_long(name, limits.steps) } else { fault_of(name, failure) }
     });
-    *steps = steps.saturating_add(together.taken());
+    *steps = steps.saturating_add(together.used());
     found
 }
 
@@ -152,7 +152,7 @@ fn runs(
     model: &Arc<Closure<Var>>,
     args: &[Value<Var>],
     max_runs: usize,
-    together: &Together,
+    together: &SharedSteps,
 ) -> Result<Vec<Outcome>, Failure> {
     let mut machine = Machine::new(&inside.program, inside.limits).within(Some(together));
     let joint = Joint { log: Var::from_f64(0.0), plain: Total::default() };

@@ -1,19 +1,19 @@
 //! Addresses: 128-bit hashes of the path of sites from the root.
 //!
-//! A node carries the hash of its path; a choice's address is its node's hash joined with its site's key. The
-//! same choice has the same address in any execution order. Ancestors are not visited to find it.
+//! A node carries the hash of its path; a choice's address is its node's hash joined with its site's key. So
+//! the same choice has the same address in any order of execution, and no ancestors are visited to compute it.
 
 /// The address of the root activation.
 pub const ROOT: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C834;
 
-/// Both halves of a 64 by 64 bit product, folded.
+/// Folds both halves of a 64 by 64 bit product.
 #[inline]
 fn fold(a: u64, b: u64) -> u64 {
     let product = u128::from(a) * u128::from(b);
     (product as u64) ^ (product >> 64) as u64
 }
 
-/// The path that continues `path` by `key`.
+/// Extends `path` by `key`.
 #[inline]
 pub fn join(path: u128, key: u128) -> u128 {
     let (lo, hi) = (path as u64 ^ key as u64, (path >> 64) as u64 ^ (key >> 64) as u64);
@@ -28,7 +28,7 @@ pub fn iteration_key(i: u32) -> u128 {
     (u128::from(i) + 1).wrapping_mul(0x2545_F491_4F6C_DD1D_D1B5_4A32_D192_ED03)
 }
 
-/// The key of a site, from a text that describes it and the number of equal ones before it.
+/// The key of a site, from a text that describes it and the number of equal texts before it.
 pub fn site_key(text: &str, occurrence: u32) -> u128 {
     let mut state = 0x6C62_272E_07BB_0142_62B8_2175_6295_C58Du128;
     for byte in text.bytes() {

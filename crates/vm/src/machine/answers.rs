@@ -21,7 +21,7 @@ pub enum Answer<T> {
     Pause,
 }
 
-/// Which kind of factor a score comes from.
+/// The kind of factor that a score comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Factor {
     /// `observe`: the log density of a distribution at a value.
@@ -34,7 +34,7 @@ pub enum Factor {
     Held,
 }
 
-/// Where a question comes from.
+/// The place that a question comes from.
 pub struct At<'a, S: Scalar> {
     /// The site.
     pub site: &'a Site,
@@ -46,19 +46,19 @@ pub struct At<'a, S: Scalar> {
 }
 
 impl<S: Scalar> At<'_, S> {
-    /// The address: a hash of the path of sites.
+    /// The address of the question: a hash of the path of sites.
     #[inline]
     pub fn address(&self) -> u128 {
         join(self.state.nodes[self.node.0 as usize].path, self.site.key)
     }
 
-    /// The hash of the path of its activation.
+    /// The hash of the path of the activation.
     #[inline]
     pub fn activation(&self) -> u128 {
         self.state.nodes[self.node.0 as usize].path
     }
 
-    /// The readable address. It visits all ancestors, so use it for records and messages, not for every choice.
+    /// The readable address. It visits all ancestors: use it for records and messages, not for every choice.
     ///
     /// Under a stochastic order a future does not know its ancestors; its path then starts at the future.
     pub fn path(&self) -> String {
@@ -69,21 +69,22 @@ impl<S: Scalar> At<'_, S> {
         path + &self.site.label
     }
 
-    /// The value of a variable in scope, by its name in the model's source, where the program was compiled to keep it
-    /// ([`compile_with_scope`](crate::passes::compile_with_scope)).
+    /// The value of a variable in scope, by its name in the model's source, if the program was compiled to keep
+    /// the variable ([`compile_with_scope`](crate::passes::compile_with_scope)).
     pub fn scope(&self, name: &str) -> Option<Value<S>> {
         self.visible().find(|(x, _, _)| *x == name).map(|(_, _, value)| value.clone())
     }
 
-    /// The variables in scope that the program was compiled to keep, in the order in which they were last assigned:
-    /// the name, whether its value is an angle ([`Visible::is_angle`]), and the value. In a kept run a list may hold
-    /// [`Value::Cell`]s ([`At::element`]).
+    /// The variables in scope that the program was compiled to keep, in the order in which they were last
+    /// assigned: the name, whether its value is an angle ([`Visible::is_angle`]), and the value. In a kept run
+    /// a list may hold [`Value::Cell`]s ([`At::element`]).
     #[inline]
     pub fn visible(&self) -> impl Iterator<Item = (&str, bool, &Value<S>)> {
-        self.kept().filter(|(x, _)| !x.name.is_empty()).map(|(x, value)| (&*x.name, x.is_angle, value))
+        self.variables().filter(|(x, _)| !x.name.is_empty()).map(|(x, value)| (&*x.name, x.is_angle, value))
     }
 
-    /// What an element of a list is: in a kept run a list may hold cells, elsewhere it is the element itself.
+    /// The value of an element of a list. In a kept run the list may hold cells; elsewhere the element is the
+    /// value itself.
     #[inline]
     pub fn element<'v>(&'v self, element: &'v Value<S>) -> &'v Value<S> {
         match element {
@@ -92,49 +93,49 @@ impl<S: Scalar> At<'_, S> {
         }
     }
 
-    /// Where the program looks from: the value of the variable in scope that was last assigned among those that hold a
-    /// frame ([`Class::is_frame`](crate::value::Class::is_frame)).
+    /// The place that the program looks from. It is the value of the variable that was last assigned, among the
+    /// variables in scope that hold a frame ([`Class::is_frame`](crate::value::Class::is_frame)).
     pub fn look(&self) -> Option<&Record<S>> {
-        self.kept().rev().find_map(|(_, value)| match value {
+        self.variables().rev().find_map(|(_, value)| match value {
             Value::Record(record) if record.class.is_frame() => Some(&**record),
             _ => None,
         })
     }
 
-    /// The box of the part that was emitted last on the call path: by the activation itself (the iterations of its loops
-    /// count as its own), or else by its caller before the call. A future has what its creator had then; a call that
-    /// has returned leaves nothing. `None` where there is none, and in a run that does not note parts
-    /// ([`State::note_parts`]).
+    /// The box of the part that was emitted last on the call path: by the activation itself (with the
+    /// iterations of its loops), or else by its caller before the call. A future has the part that its creator
+    /// had then; a call that has returned leaves none. `None` if there is no part, and in a run that does not
+    /// record parts ([`State::note_parts`]).
     #[inline]
     pub fn part(&self) -> Option<&Aabb> {
         self.state.part(self.node)
     }
 
-    /// What is kept for the site, with its values.
+    /// The variables that are kept for the site, with their values.
     #[inline]
-    fn kept(&self) -> impl DoubleEndedIterator<Item = (&Visible, &Value<S>)> {
+    fn variables(&self) -> impl DoubleEndedIterator<Item = (&Visible, &Value<S>)> {
         let node = &self.state.nodes[self.node.0 as usize];
         let outer = match self.function.mode {
             Mode::Iteration => self.state.nodes[node.parent.0 as usize].registers as usize,
             _ => 0,
         };
-        let registers = Registers { f: self.function, own: node.registers as usize, outer, scratch: 0 };
+        let registers = Registers { f: self.function, base: node.registers as usize, outer, scratch: 0 };
         let (from, to) = self.site.visible;
-        // What is kept is never in scratch.
+        // Kept variables are never in scratch.
         let visible = self.function.scope[from as usize..to as usize].iter();
         visible.map(move |x| (x, registers.get(self.state, &[], x.at)))
     }
 }
 
-/// Answers the machine's questions. What they say nothing to does not stop a run: factors, primitives and queries.
+/// The answers to the machine's questions. By default, factors, primitives and queries do not stop a run.
 pub trait Answers<S: Scalar> {
-    /// Whether they remember the choices of a run: a run that makes choices without end takes memory then.
+    /// Whether the answers record the choices of a run: then a run that makes choices without end takes memory.
     const LOGS: bool = false;
 
-    /// Whether they want to know the distributions of observations ([`Answers::observes`]).
+    /// Whether the answers need the distributions of observations ([`Answers::observes`]).
     const WATCHES: bool = false;
 
-    /// An observation of this distribution is met, or a held choice; before its score.
+    /// The run meets an observation of this distribution, or a held choice. Called before its score.
     fn observes(&mut self, _: &At<'_, S>, _: &Dist<S>) {}
 
     /// The value of a random choice.
@@ -152,7 +153,7 @@ pub trait Answers<S: Scalar> {
         Ok(Answer::Go(()))
     }
 
-    /// A held choice has its value, which scores this log density, nats.
+    /// A held choice has its value, which has this log density, in nats.
     ///
     /// # Errors
     /// As for [`Answers::choice`].
@@ -161,11 +162,12 @@ pub trait Answers<S: Scalar> {
         self.score(at, Factor::Held, log)
     }
 
-    /// The run cannot meet a held choice any more, which has this readable address: it is impossible. Where the run is to stop,
-    /// the next answer says so. A kept run is reported as [`Change::Impossible`](super::kept::Change) at its end instead.
+    /// The run can no longer meet the held choice with this readable address, so it is impossible. If the run
+    /// is to stop, the next answer says so. A kept run is reported as
+    /// [`Change::Impossible`](super::kept::Change) at its end instead.
     fn unmet(&mut self, _: &str) {}
 
-    /// One primitive for the scene.
+    /// A primitive for the scene.
     ///
     /// # Errors
     /// As for [`Answers::choice`].
@@ -183,7 +185,7 @@ pub trait Answers<S: Scalar> {
         Ok(())
     }
 
-    /// A call of a pure host function. `steps` are those of the run so far; the function may add its own.
+    /// A call of a pure host function. `steps` are the run's steps so far; the function may add to them.
     ///
     /// # Errors
     /// As for [`Answers::choice`].

@@ -1,4 +1,5 @@
-//! The state of a run that has not begun: the call of the program's entry function, or of any closure of the program.
+//! The state of a run that has not begun: a call of the program's entry function, or of any closure of the
+//! program.
 
 use super::held::Held;
 use super::numbers::Numbers;
@@ -11,10 +12,10 @@ use niwaki_math::Scalar;
 use std::sync::Arc;
 
 impl<S: Scalar> Machine<'_, S> {
-    /// The state of a run of a closure of the program; otherwise as [`Machine::start`].
+    /// The state of a run of a closure of the program; otherwise like [`Machine::start`].
     ///
     /// # Errors
-    /// The wrong number of arguments.
+    /// The number of arguments is wrong.
     pub fn start_closure(
         &self,
         closure: &Closure<S>,
@@ -24,7 +25,8 @@ impl<S: Scalar> Machine<'_, S> {
         self.start_call(FunctionId(closure.function), &closure.captures, args, depth_first)
     }
 
-    /// One runnable future: the call of a function, which finds its arguments, defaults and captures in its registers.
+    /// The state with one runnable future: the call of a function, with its arguments, defaults and captures in
+    /// its registers.
     pub(super) fn start_call(
         &self,
         function: FunctionId,
@@ -51,11 +53,11 @@ impl<S: Scalar> Machine<'_, S> {
         let inputs =
             args.iter().cloned().chain((args.len()..needed).map(default)).chain(captures.iter().cloned());
         let unmet = Numbers::below(self.held.map_or(0, Held::len));
-        let given = self.given(args, captures);
-        let mut state = State { depth_first, unmet, given, ..State::empty() };
+        let shared_inputs = self.shared_inputs(args, captures);
+        let mut state = State { depth_first, unmet, inputs: shared_inputs, ..State::empty() };
         let root = state.new_node(self.program, function, NodeId::NONE, 0, address::ROOT);
         let at = state.nodes[root.0 as usize].registers as usize;
-        // A pure function has its inputs in scratch: it is given them when it runs.
+        // A pure function has its inputs in scratch: it gets them when it runs.
         if f.mode == Mode::Pure {
             state.registers.extend(inputs);
         } else {
@@ -68,10 +70,10 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(state)
     }
 
-    /// What a run is given, where that takes memory.
-    fn given(&self, args: &[Value<S>], captures: &[Value<S>]) -> Option<Arc<[Value<S>]>> {
-        let given = args.iter().chain(captures).filter(|value| !value.is_plain());
-        let given: Arc<[Value<S>]> = given.cloned().collect();
-        (!given.is_empty()).then_some(given)
+    /// The arguments and captures of a run that take memory.
+    fn shared_inputs(&self, args: &[Value<S>], captures: &[Value<S>]) -> Option<Arc<[Value<S>]>> {
+        let values = args.iter().chain(captures).filter(|value| !value.is_plain());
+        let values: Arc<[Value<S>]> = values.cloned().collect();
+        (!values.is_empty()).then_some(values)
     }
 }

@@ -1,27 +1,27 @@
-//! A box for each activation: what it emitted last.
+//! The boxes of the parts that activations emitted last.
 
 use super::buffers::copy;
 use niwaki_geom::Aabb;
 
-/// What activations emitted last.
+/// The part that each activation emitted last.
 #[derive(Debug, Default)]
 pub(crate) struct Parts {
-    pub(super) noted: bool,
-    /// By node: the path of the activation that emitted it, and its box.
+    pub(super) are_recorded: bool,
+    /// For each node, the path of the activation that emitted the part, and its box.
     pub(super) boxes: Vec<(u128, Aabb)>,
 }
 
 impl Parts {
-    /// Whether the run notes them.
-    pub fn are_noted(&self) -> bool {
-        self.noted
+    /// Whether the run records parts.
+    pub fn is_recording(&self) -> bool {
+        self.are_recorded
     }
 
-    /// Becomes a copy, in place.
+    /// Becomes a copy of another table, in place.
     #[inline]
     pub fn clone_from(&mut self, source: &Parts) {
-        self.noted = source.noted;
-        if self.noted {
+        self.are_recorded = source.are_recorded;
+        if self.are_recorded {
             copy(&mut self.boxes, &source.boxes);
         }
     }

@@ -1,11 +1,12 @@
-//! What an operation costs, and whether a run may still afford it.
+//! The price of operations, and whether a run may still afford them.
 //!
-//! Values that are made are charged to the run ([`State::charged`]) and not given back when they are dropped: who drops
-//! the last copy may depend on other threads. When the sum reaches the ceiling, an audit counts what the run really holds, each
-//! shared part once, and the sum begins anew from there. So the count is exact where it decides, it is the same on any number
-//! of threads, and a run that drops what it makes is audited once for every so many bytes that it made.
+//! New values are charged to the run ([`State::charged`]) and not given back when they are dropped: other
+//! threads may decide who drops the last copy. When the sum reaches the ceiling, an audit counts what the run
+//! really holds, each shared part once, and the sum begins anew from there. So the count is exact where it
+//! decides, and it is the same on any number of threads. A run that drops what it makes is audited once for
+//! each so many bytes.
 //!
-//! Operations on many elements have their price before they are carried out: what does not fit is refused before it is
+//! Operations on many elements are charged before they run: a value that does not fit is refused before it is
 //! allocated.
 
 use super::keep::Keep;
@@ -19,23 +20,24 @@ use crate::fault::Fault;
 use crate::value::{Census, Value, index, ops};
 use niwaki_math::{Family, Scalar};
 
-/// Elements that cost one step.
+/// The number of elements that cost one step.
 const ELEMENTS: usize = 8;
 
-/// Where a distribution is built for a question, this many times as many elements cost a step.
+/// The factor by which more elements cost a step when a question builds a distribution.
 const PARAMETERS_PER_STEP: u64 = 8;
 
-/// Steps between two looks at the limits.
-const LOOK: u64 = 256;
+/// The number of steps between two checks of the limits.
+const CHECK_INTERVAL: u64 = 256;
 
-/// Sequences no longer than this have no price beyond that of the value that is made.
+/// The longest sequences without a price beyond that of the new value.
 const SHORT: usize = 64;
 
-/// Most bytes that are charged for one element of a value that a function made: a larger one was there before.
+/// The most bytes that are charged for one element of a value that a function made: a larger element existed
+/// before.
 const ELEMENT_BYTES: usize = 128;
 
-/// Scratch registers that each run has, whether it uses them or not. A machine keeps as many from one run to the next: if
-/// they were charged as they are used, what a run may afford would depend on the runs before.
+/// The scratch registers that each run has, whether it uses them or not. A machine keeps as many from one run
+/// to the next. If they were charged when they are used, the runs before would decide what a run may afford.
 pub(super) const SCRATCH: usize = 256;
 
 /// The price of an operation.
@@ -53,7 +55,7 @@ impl Price {
     }
 }
 
-/// How many elements a value has, if it is a sequence.
+/// The number of elements of a sequence; 0 for other values.
 #[inline]
 fn length<S: Scalar>(value: &Value<S>) -> usize {
     match value {
@@ -67,7 +69,7 @@ fn length<S: Scalar>(value: &Value<S>) -> usize {
     }
 }
 
-/// The price of an operation of two values that are not both numbers.
+/// The price of an operation on two values that are not both numbers.
 pub(super) fn of_binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Price {
     let slot = size_of::<Value<S>>();
     match (op, a, b) {
@@ -85,7 +87,7 @@ pub(super) fn of_binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Pr
             let count = length(sequence).saturating_mul(times);
             let bytes = match sequence {
                 Value::Str(text) => text.len().saturating_mul(times) + 64,
-                // A list takes some more than its elements, for the nodes of its trie.
+                // A list takes somewhat more than its elements, for the nodes of its trie.
                 _ => count.saturating_mul(19).saturating_add(640),
             };
             Price::of(count, bytes)
@@ -102,7 +104,7 @@ pub(super) fn of_binary<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Pr
     }
 }
 
-/// The price of a call of a built-in function, above that of the value that it returns; zero for short arguments.
+/// The price of a call of a built-in function, without the value that it returns; zero for short arguments.
 #[inline]
 pub(super) fn of_builtin<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>]) -> Price {
     let longest = args.iter().map(length).max().unwrap_or(0);
@@ -124,7 +126,7 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
         }
         "sum" | "min" | "max" | "any" | "all" | "hypot" | "gcd" => each(24),
         "zip" | "zip_strict" | "enumerate" => each(144),
-        // Of a string the elements are its characters.
+        // The elements of a string are its characters.
         "sorted" | "reversed" | "to_list" | "to_tuple" if matches!(args[0], Value::Str(_)) => {
             Price::of(longest, longest.saturating_mul(32 * 96))
         }
@@ -132,7 +134,8 @@ fn of_long<S: Scalar>(builtin: &Builtin<S>, args: &[Value<S>], longest: usize) -
     }
 }
 
-/// Whether a parameter makes the building of a distribution cost something: it is long, or copied many times.
+/// Whether building a distribution from this parameter costs something: the parameter is long, or copied many
+/// times.
 #[inline(always)]
 fn has_price<S: Scalar>(family: Family, value: &Value<S>) -> bool {
     length(value) > SHORT || matches!(family, Family::Mixture | Family::MultivariateGaussian)
@@ -173,19 +176,19 @@ pub(super) const fn has_rows(family: Family) -> bool {
     )
 }
 
-/// Bytes of a list that was made from another one by appending an element: its body, and a copy of its last leaf.
+/// The bytes that appending an element to a list takes: a body, and a copy of the last leaf.
 pub(super) fn of_append<S: Scalar>(longer: &Value<S>) -> usize {
     96 + (1 + length(longer) % 32) * size_of::<Value<S>>()
 }
 
-/// Bytes of a value that an operation made, with those of its elements that it may have made.
+/// The bytes of the value that an operation made, with those of the elements that it may have made.
 #[inline]
 pub(super) fn of_result<S: Scalar>(value: &Value<S>) -> usize {
-    if value.is_plain() { 0 } else { of_made(value) }
+    if value.is_plain() { 0 } else { of_aggregate(value) }
 }
 
 #[inline(never)]
-fn of_made<S: Scalar>(value: &Value<S>) -> usize {
+fn of_aggregate<S: Scalar>(value: &Value<S>) -> usize {
     let element = |item: &Value<S>| item.own_bytes().min(ELEMENT_BYTES);
     let of_elements = |items: &mut dyn Iterator<Item = &Value<S>>, count: usize| {
         let some: usize = items.take(SHORT).map(element).sum();
@@ -200,13 +203,13 @@ fn of_made<S: Scalar>(value: &Value<S>) -> usize {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Bytes that the machine itself holds for the run: scratch registers and calls of pure functions.
+    /// The bytes that the machine itself holds for the run: scratch registers and calls of pure functions.
     #[inline]
     pub(super) fn own_bytes(&self) -> usize {
         self.high.max(SCRATCH) * size_of::<Value<S>>() + self.pure.len() * size_of::<PureCall>()
     }
 
-    /// A run that has not begun is audited when it may have used up its memory, not before.
+    /// Sets the ceiling of a run that has not begun: it is audited only when it may have used up its memory.
     #[inline]
     pub(super) fn set_ceiling(&self, state: &mut State<S>) {
         if state.ceiling == 0 {
@@ -215,19 +218,19 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// The limits are looked at after so many more steps: what grows slowly has no other price.
+    /// Sets the step of the next check of the limits: slow growth has no other price.
     #[inline]
     pub(super) fn set_alarm(&self, state: &mut State<S>) {
-        state.alarm = self.limits.steps.min(state.steps.saturating_add(LOOK));
+        state.alarm = self.limits.steps.min(state.steps.saturating_add(CHECK_INTERVAL));
     }
 
-    /// Looks at both limits.
+    /// Checks both limits.
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run has taken too many steps or bytes.
     #[cold]
     #[inline(never)]
-    pub(super) fn look<K: Keep<S>>(&self, state: &mut State<S>, keep: &K) -> Result<(), Fault> {
+    pub(super) fn check_limits<K: Keep<S>>(&self, state: &mut State<S>, keep: &K) -> Result<(), Fault> {
         if state.steps > self.limits.steps {
             return Err(self.out_of_steps());
         }
@@ -235,7 +238,7 @@ impl<S: Scalar> Machine<'_, S> {
         self.afford(state, keep)
     }
 
-    /// Drops what a run before left in the scratch registers: what a run holds must not depend on it.
+    /// Drops what an earlier run left in the scratch registers: the memory of a run must not depend on it.
     #[inline]
     pub(super) fn empty_scratch(&mut self) {
         self.pure.clear();
@@ -244,14 +247,14 @@ impl<S: Scalar> Machine<'_, S> {
                 *value = Value::None;
             }
         }
-        // After a deep recursion, most of them are not needed again.
+        // After a deep recursion, most of the registers are not needed again.
         self.high = self.high.min(SCRATCH);
     }
 
-    /// Charges what an operation is about to make.
+    /// Charges an operation before it makes its result.
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run takes too many steps or bytes.
     #[inline]
     pub(super) fn charge<K: Keep<S>>(
         &self,
@@ -270,10 +273,10 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(())
     }
 
-    /// Charges a price of which the bytes are given back at once: those of an operation, beside what it returns.
+    /// Charges a price and gives its bytes back at once: they belong to the operation, not to its result.
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run takes too many steps or bytes.
     #[inline]
     pub(super) fn charge_passing<K: Keep<S>>(
         &self,
@@ -289,10 +292,10 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(())
     }
 
-    /// An operation of two values, with its price where it has one.
+    /// Runs an operation on two values, and charges its price.
     ///
     /// # Errors
-    /// Too many steps or bytes, and as for [`operate::values`].
+    /// The run takes too many steps or bytes, or an error of [`operate::values`].
     #[inline(never)]
     pub(super) fn operate<K: Keep<S>>(
         &self,
@@ -311,7 +314,7 @@ impl<S: Scalar> Machine<'_, S> {
         operate::values(op, r.get(state, &self.scratch, a), r.get(state, &self.scratch, b))
     }
 
-    /// A comparison of two values that are not plain, with its price.
+    /// Compares two values that are not plain, and charges the price.
     ///
     /// # Errors
     /// As for [`Machine::operate`].
@@ -330,10 +333,10 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Charges the price of a built-in function of one argument.
+    /// Charges the price of a built-in function with one argument.
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run takes too many steps or bytes.
     #[inline(never)]
     pub(super) fn charge_argument<K: Keep<S>>(
         &self,
@@ -347,10 +350,10 @@ impl<S: Scalar> Machine<'_, S> {
         self.charge_passing(state, keep, price)
     }
 
-    /// Charges the price of a built-in function of the arguments in the buffer.
+    /// Charges the price of a built-in function with the arguments in the buffer.
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run takes too many steps or bytes.
     #[inline(never)]
     pub(super) fn charge_arguments<K: Keep<S>>(
         &self,
@@ -361,10 +364,10 @@ impl<S: Scalar> Machine<'_, S> {
         self.charge_passing(state, keep, of_builtin(builtin, &self.buffer))
     }
 
-    /// Charges what a built-in function has made.
+    /// Charges the value that a built-in function made.
     ///
     /// # Errors
-    /// Too many bytes.
+    /// The run takes too many bytes.
     #[inline(never)]
     pub(super) fn charge_answer<K: Keep<S>>(
         &self,
@@ -374,14 +377,15 @@ impl<S: Scalar> Machine<'_, S> {
         value: &Value<S>,
     ) -> Result<(), Fault> {
         // A longer list shares all but its end with the list before.
-        let bytes = if builtin.name == "append" { of_append(value) } else { of_made(value) };
+        let bytes = if builtin.name == "append" { of_append(value) } else { of_aggregate(value) };
         self.charge(state, keep, Price { steps: 0, bytes })
     }
 
-    /// Charges the building of a distribution by a question, which finds most of them in the cache: fewer steps.
+    /// Charges the building of a distribution by a question. The cache has most of these distributions, so they
+    /// cost fewer steps.
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run takes too many steps or bytes.
     #[inline(always)]
     pub(super) fn charge_rows<K: Keep<S>>(
         &self,
@@ -402,7 +406,7 @@ impl<S: Scalar> Machine<'_, S> {
     /// The rare part of [`Machine::charge_rows`].
     ///
     /// # Errors
-    /// Too many steps or bytes.
+    /// The run takes too many steps or bytes.
     #[cold]
     #[inline(never)]
     fn charge_long_rows<K: Keep<S>>(
@@ -420,16 +424,16 @@ impl<S: Scalar> Machine<'_, S> {
         self.charge_passing(state, keep, Price { steps: price.steps / PARAMETERS_PER_STEP, ..price })
     }
 
-    /// The run has grown: an audit, where it is due.
+    /// Audits a run that has grown, if an audit is due.
     ///
     /// # Errors
-    /// Too many bytes.
+    /// The run takes too many bytes.
     #[inline]
     pub(super) fn afford<K: Keep<S>>(&self, state: &mut State<S>, keep: &K) -> Result<(), Fault> {
         if state.bytes() + self.own_bytes() > state.ceiling { self.audit(state, keep, 0) } else { Ok(()) }
     }
 
-    /// Counts what a run holds between two questions, so that values that it has dropped do not count any more.
+    /// Counts what a run holds between two questions, so that values that it has dropped no longer count.
     pub fn recount(&mut self, state: &mut State<S>) {
         self.empty_scratch();
         state.charged = self.values_of(state, &super::keep::Dropped);
@@ -437,25 +441,26 @@ impl<S: Scalar> Machine<'_, S> {
 
     fn values_of<K: Keep<S>>(&self, state: &State<S>, keep: &K) -> usize {
         let mut census = Census::new();
-        self.leave_out_given(state, &mut census);
+        self.leave_out_inputs(state, &mut census);
         state.count(&mut census);
-        // What is small and in no other value may be gone already, where machine code ran.
+        // Small values that are in no other value do not count: where machine code ran, they may not exist any
+        // more.
         let scratch = self.scratch[..self.high].iter().filter(|value| !value.is_small());
         scratch.for_each(|value| census.add(value));
         keep.count_bytes(&mut census);
         census.bytes()
     }
 
-    /// What belongs to the program and to the caller is not counted.
-    pub fn leave_out_given(&self, state: &State<S>, census: &mut Census<'_, S>) {
+    /// Excludes the values of the program and of the caller from a census.
+    pub fn leave_out_inputs(&self, state: &State<S>, census: &mut Census<'_, S>) {
         self.program.leave_out(census);
-        state.leave_out_given(census);
+        state.leave_out_inputs(census);
     }
 
-    /// Counts what the run holds. `coming` of the bytes charged are not allocated yet.
+    /// Counts what the run holds. `coming` of the charged bytes are not allocated yet.
     ///
     /// # Errors
-    /// They are more than the run may have.
+    /// The run holds more bytes than it may.
     #[cold]
     #[inline(never)]
     pub(super) fn audit<K: Keep<S>>(
@@ -465,7 +470,7 @@ impl<S: Scalar> Machine<'_, S> {
         coming: usize,
     ) -> Result<(), Fault> {
         if self.in_lanes {
-            // What differs from lane to lane is not in the state, so it cannot be counted here.
+            // The values that differ between lanes are not in the state, so they cannot be counted here.
             return Err(self.out_of_memory());
         }
         let limit = self.limits.bytes;

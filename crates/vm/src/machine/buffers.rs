@@ -1,6 +1,6 @@
-//! Copies of short vectors, and room for long ones.
+//! Copies of short vectors, and the growth of long ones.
 
-/// `clone_from` for short slices: an inlined loop without calls.
+/// Does `clone_from` for short slices: an inlined loop without calls.
 #[inline(always)]
 pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     if to.len() != from.len() {
@@ -13,16 +13,16 @@ pub(super) fn copy<T: Clone>(to: &mut Vec<T>, from: &[T]) {
     }
 }
 
-/// From this many bytes on a vector that grows is given all the room that it may need.
+/// The size in bytes from which a growing vector gets all the room that it may need.
 const LARGE: usize = 1 << 20;
 
-/// Makes room for more elements. A large vector gets room for `spare` bytes at once: pages that are not written take no
-/// memory, while a vector that doubles is in memory twice when it moves.
+/// Makes room for more elements. A large vector gets room for `spare` bytes at once. Pages that are not written
+/// take no memory, while a vector that doubles is in memory twice when it moves.
 #[inline]
 pub(super) fn make_room<T>(vector: &mut Vec<T>, more: usize, spare: impl FnOnce() -> usize) {
     if vector.capacity() - vector.len() < more && vector.len() * size_of::<T>() >= LARGE {
         let room = (spare() / size_of::<T>()).max(more);
-        // Where so much cannot be had, the vector grows as usual.
+        // If so much room is not available, the vector grows as usual.
         let _ = vector.try_reserve_exact(room);
     }
 }

@@ -1,5 +1,5 @@
-//! A cache of distributions by the list or tuple of their parameters: a categorical over the weights of a mixture is
-//! built once, not for each point.
+//! A cache of distributions by the list or tuple of their parameters. A categorical distribution over the
+//! weights of a mixture is built once, not for each point.
 //!
 //! An entry owns the parameters of its distribution, so that an equal address in memory means equal parameters.
 
@@ -8,43 +8,45 @@ use crate::fault::Fault;
 use crate::value::Value;
 use niwaki_math::{Dist, Family, Scalar};
 
-/// Entries of the table; the address in memory selects two neighbours. With one, which parameters drive each other out would
-/// be an accident of where they lie in memory, and with it how much a run costs.
+/// Entries of the table; the address in memory selects two neighbours. With one entry for each address, the
+/// parameters that evict each other would depend on their places in memory, and with them the time of a run.
 const ENTRIES: usize = 512;
 
-/// Bytes that it may hold in any case.
-const LEAST: usize = 1 << 20;
+/// The fewest bytes that the cache may hold.
+const MIN_BYTES: usize = 1 << 20;
 
 /// A family, its parameters, and the distribution.
 type Entry<S> = (Family, Value<S>, Dist<S>);
 
 /// A small table of distributions.
 pub(super) struct DistCache<S: Scalar> {
-    /// Empty until the first one is looked up: many machines run for one barrier or one proposal only.
+    /// The entries; empty until the first lookup, because many machines run for one barrier or one proposal
+    /// only.
     entries: Vec<Option<Entry<S>>>,
-    /// Bytes of the entries made since it was last emptied, and how many there may be.
+    /// The bytes of the entries since the cache was last emptied, and their maximum.
     bytes: usize,
     most: usize,
 }
 
 impl<S: Scalar> DistCache<S> {
-    /// A cache of that many bytes at most; of a small run it may hold more than the run itself.
+    /// A cache of at most `bytes` bytes. For a small run it may hold more than the run itself.
     pub fn holding(bytes: usize) -> Self {
-        DistCache { entries: Vec::new(), bytes: 0, most: bytes.max(LEAST) }
+        DistCache { entries: Vec::new(), bytes: 0, most: bytes.max(MIN_BYTES) }
     }
 
-    /// Bytes of an entry, or more: the parameter, which it keeps from being freed, and the distribution.
+    /// The bytes of an entry, or more: the distribution, and the parameter, which the entry keeps alive.
     fn bytes_of(value: &Value<S>) -> usize {
         3 * value.own_bytes()
     }
 
-    /// Whether the distribution of that parameter may be in it.
+    /// Whether the distribution of a parameter may be in the cache.
     #[inline]
     pub fn is_room_for(&self, value: &Value<S>) -> bool {
         Self::bytes_of(value) <= self.most
     }
 
-    /// The entry for a value that has an address in memory: the one that has it, else the one to fill.
+    /// The index of the entry for a value with an address in memory: the entry of this value, else the entry to
+    /// fill.
     #[inline]
     pub fn index(&self, value: &Value<S>) -> Option<usize> {
         let address = match value {
@@ -60,7 +62,7 @@ impl<S: Scalar> DistCache<S> {
         }
     }
 
-    /// The neighbour of an entry that has another value, where the neighbour has this one or none.
+    /// The neighbour of an entry of another value, if the neighbour has this value or none.
     #[inline]
     fn beside(&self, first: usize, value: &Value<S>) -> usize {
         match &self.entries[first ^ 1] {
@@ -69,7 +71,7 @@ impl<S: Scalar> DistCache<S> {
         }
     }
 
-    /// Whether the entry at `index` is the distribution of that family with the value as its parameter.
+    /// Whether the entry at `index` has the distribution of a family with the value as its parameter.
     #[inline]
     pub fn holds(&self, index: usize, family: Family, value: &Value<S>) -> bool {
         match self.entries.get(index) {
@@ -78,14 +80,14 @@ impl<S: Scalar> DistCache<S> {
         }
     }
 
-    /// The distribution at `index`, where there is one.
+    /// The distribution at `index`, which must exist.
     #[inline]
     pub fn at(&self, index: usize) -> &Dist<S> {
-        let (.., dist) = self.entries[index].as_ref().expect("an entry that it holds");
+        let (.., dist) = self.entries[index].as_ref().expect("the entry is filled");
         dist
     }
 
-    /// Builds the distribution of that family with the value as its parameter, in the place of what was at `index`.
+    /// Builds the distribution of a family with the value as its parameter, in place of the entry at `index`.
     ///
     /// # Errors
     /// The value does not fit the family.
@@ -101,7 +103,7 @@ impl<S: Scalar> DistCache<S> {
             self.bytes = 0;
         }
         self.bytes += added;
-        // What was looked up before the last one makes room, and not the last one.
+        // The oldest of both entries makes room, not the last one.
         if let Some(before) = self.entries[index].take().filter(|(_, known, _)| !is_same(known, value)) {
             self.entries[index ^ 1] = Some(before);
         }

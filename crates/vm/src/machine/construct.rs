@@ -1,5 +1,5 @@
-//! Instructions that build or unpack an aggregate. They allocate, so a call costs them little; inside the loop of
-//! `interpret` they would take processor registers from every other instruction.
+//! Instructions that build or unpack an aggregate. They allocate, so a call costs them little. Inside of the
+//! loop of `interpret` they would take processor registers from all other instructions.
 
 use super::Machine;
 use super::budget::{self, Price};
@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Carries out an instruction that `interpret` leaves to this file.
+    /// Runs an instruction that `interpret` leaves to this file.
     #[inline(never)]
     pub(super) fn construct<K: Keep<S>>(
         &mut self,
@@ -78,11 +78,11 @@ impl<S: Scalar> Machine<'_, S> {
                     && tuple.items().len() == names.len()
                     && !names.contains(&from)
                 {
-                    // Read in place: none of its elements is written to that register.
+                    // The tuple is read in place: no element is written to its register.
                     for (k, o) in names.iter().enumerate() {
                         let Value::Tuple(tuple) = r.get(state, &self.scratch, from) else { continue };
                         match &tuple.items()[k] {
-                            // Most are numbers, and are copied as one word.
+                            // Most elements are numbers, which are copied as one word.
                             Value::Real(x) if !(K::KEEPS && o.is_node()) => {
                                 let x = *x;
                                 r.slot(state, &mut self.scratch, *o).store_real(x);
@@ -139,7 +139,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 return Ok(());
             }
-            other => unreachable!("`interpret` carries out {other:?} itself"),
+            other => unreachable!("`interpret` runs {other:?} itself"),
         };
         if !matches!(op, Op::Field { .. }) {
             self.charge(state, keep, Price { steps: 0, bytes: value.own_bytes() })?;

@@ -1,4 +1,4 @@
-//! Machine code as the interpreter runs it: registers go in, and what has changed comes back.
+//! The entry into machine code: registers go in, and changed registers come back.
 
 use super::registers::Registers;
 use super::state::State;
@@ -13,18 +13,18 @@ use niwaki_math::Scalar;
 use std::any::Any;
 use std::sync::Arc;
 
-/// Where the interpreter continues after machine code.
-pub(super) struct Onwards {
+/// The place where the interpreter continues after machine code.
+pub(super) struct Resumption {
     pub function: FunctionId,
     pub scratch: usize,
     pub pc: usize,
-    /// How many instructions were carried out.
-    pub done: u64,
+    /// The number of instructions that the code ran.
+    pub instructions: u64,
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Runs the machine code that begins here, if there is some for these registers. Where what registers of the activation
-    /// held is noted for each write, only code that leaves them alone runs.
+    /// Runs the machine code that begins here, if there is code for these registers. If every write to a
+    /// register of the activation must be recorded, only code without such writes runs.
     #[inline(never)]
     pub(super) fn enter(
         &mut self,
@@ -33,24 +33,24 @@ impl<S: Scalar> Machine<'_, S> {
         function: FunctionId,
         entry: &Entry,
         writes_plainly: bool,
-    ) -> Option<Onwards> {
+    ) -> Option<Resumption> {
         if !writes_plainly && entry.routines().any(|routine| routine.writes_node) {
             return None;
         }
         for routine in entry.routines() {
-            if self.give(state, r, routine) {
+            if self.load_inputs(state, r, routine) {
                 let [steps, bytes] = [words::STEPS, words::BYTES].map(|at| self.words[at]);
                 let exit = routine.run(&mut self.words);
                 state.steps += steps - self.words[words::STEPS];
                 state.charged += (bytes - self.words[words::BYTES]) as usize;
-                let done = self.words[words::INSTRUCTIONS];
-                entry.note(done + (bytes - self.words[words::BYTES]) / 8);
-                self.take_back(state, r, exit);
-                return Some(Onwards {
+                let instructions = self.words[words::INSTRUCTIONS];
+                entry.note(instructions + (bytes - self.words[words::BYTES]) / 8);
+                self.store_results(state, r, exit);
+                return Some(Resumption {
                     function: exit.function,
                     scratch: r.scratch + exit.base as usize,
                     pc: exit.pc as usize,
-                    done,
+                    instructions,
                 });
             }
         }
@@ -58,7 +58,7 @@ impl<S: Scalar> Machine<'_, S> {
             let program: &dyn Any = self.program;
             if let Some(program) = program.downcast_ref::<Program>() {
                 native::write(entry, program, function, &|reg| {
-                    let value: &dyn Any = self.held_by(state, r, reg)?;
+                    let value: &dyn Any = self.content(state, r, reg)?;
                     value.downcast_ref::<Value>()
                 });
             }
@@ -66,18 +66,19 @@ impl<S: Scalar> Machine<'_, S> {
         None
     }
 
-    /// What a register holds; nothing for one that the machine has not reserved yet.
+    /// The content of a register; `None` for a register that the machine has not reserved so far.
     #[inline]
-    fn held_by<'a>(&'a self, state: &'a State<S>, r: Registers<'_, S>, reg: Reg) -> Option<&'a Value<S>> {
+    fn content<'a>(&'a self, state: &'a State<S>, r: Registers<'_, S>, reg: Reg) -> Option<&'a Value<S>> {
         match reg {
-            Reg::Node(i) => state.registers.get(r.own + usize::from(i)),
+            Reg::Node(i) => state.registers.get(r.base + usize::from(i)),
             Reg::Outer(i) => state.registers.get(r.outer + usize::from(i)),
             Reg::Scratch(i) => self.scratch.get(r.scratch + i as usize),
         }
     }
 
-    /// Gives the code what it reads; false when a register is not of the kind that it was written for.
-    fn give(&mut self, state: &State<S>, r: Registers<'_, S>, routine: &Routine) -> bool {
+    /// Writes the inputs of the code to the words. Returns `false` if a register does not have the kind that
+    /// the code was written for.
+    fn load_inputs(&mut self, state: &State<S>, r: Registers<'_, S>, routine: &Routine) -> bool {
         if self.words.len() < routine.words {
             self.words.resize(routine.words, 0);
         }
@@ -90,7 +91,7 @@ impl<S: Scalar> Machine<'_, S> {
     fn fill(&self, state: &State<S>, r: Registers<'_, S>, routine: &Routine, words: &mut [u64]) -> bool {
         let address = |value: &Value<S>| std::ptr::from_ref(value) as u64;
         for &Input { reg, kind, word: at } in &routine.inputs {
-            let Some(value) = self.held_by(state, r, reg) else { return false };
+            let Some(value) = self.content(state, r, reg) else { return false };
             match (value, kind) {
                 (Value::Real(x), Kind::Real) => words[at] = x.value().to_bits(),
                 (Value::Int(n), Kind::Int) => words[at] = n.cast_unsigned(),
@@ -104,11 +105,12 @@ impl<S: Scalar> Machine<'_, S> {
                 _ => return false,
             }
         }
-        let is_free = |reg: &Reg| self.held_by(state, r, *reg).is_none_or(|value| !is_counted(*reg, value));
+        let is_free = |reg: &Reg| self.content(state, r, *reg).is_none_or(|value| !is_counted(*reg, value));
         let end = self.scratch.len().min(r.scratch + routine.scratch_end);
-        let (nodes, others) = routine.overwritten.split_at(routine.overwritten_nodes);
-        // Nearly always all registers of the machine are free, which is seen sooner of a whole row.
-        let are_free = self.scratch[r.scratch..end].iter().all(Value::is_plain) || others.iter().all(is_free);
+        let (nodes, scratch) = routine.overwritten.split_at(routine.overwritten_nodes);
+        // Nearly always all scratch registers are free, which is found sooner by testing a whole row.
+        let are_free =
+            self.scratch[r.scratch..end].iter().all(Value::is_plain) || scratch.iter().all(is_free);
         if !(are_free && nodes.iter().all(is_free)) {
             return false;
         }
@@ -121,10 +123,11 @@ impl<S: Scalar> Machine<'_, S> {
         true
     }
 
-    /// Writes the registers that the code has changed, and makes its calls of pure functions the machine's.
-    fn take_back(&mut self, state: &mut State<S>, r: Registers<'_, S>, exit: &Exit) {
+    /// Writes the registers that the code has changed, and turns its calls of pure functions into calls of the
+    /// machine.
+    fn store_results(&mut self, state: &mut State<S>, r: Registers<'_, S>, exit: &Exit) {
         if exit.has_objects {
-            // All are copied before any register is written: that may be where one is.
+            // All objects are copied before any register is written, because they may be in these registers.
             self.buffer.clear();
             let mut at = words::REGISTERS;
             for (_, kind) in &exit.registers {
@@ -139,7 +142,7 @@ impl<S: Scalar> Machine<'_, S> {
         let mut at = words::REGISTERS;
         for (reg, kind) in &exit.registers {
             let register = match *reg {
-                Reg::Node(i) | Reg::Outer(i) => &mut state.registers[r.own + usize::from(i)],
+                Reg::Node(i) | Reg::Outer(i) => &mut state.registers[r.base + usize::from(i)],
                 Reg::Scratch(i) => &mut self.scratch[r.scratch + i as usize],
             };
             let word = self.words[at];
@@ -175,7 +178,7 @@ impl<S: Scalar> Machine<'_, S> {
     }
 }
 
-/// A vector or tuple of the numbers in these words.
+/// A vector, tuple or range of the numbers in these words.
 fn build<S: Scalar>(form: FreshForm, parts: &[Option<Part>], words: &[u64]) -> Value<S> {
     let numbers = parts.iter().flatten().zip(words).map(|(part, word)| match part {
         Part::Bool => Value::Bool(*word != 0),
@@ -196,10 +199,10 @@ fn build<S: Scalar>(form: FreshForm, parts: &[Option<Part>], words: &[u64]) -> V
     }
 }
 
-/// A copy of the value at an address that the code gave back.
+/// Copies the value at an address that the code returned.
 #[allow(unsafe_code)]
 fn shared<S: Scalar>(address: u64) -> Value<S> {
-    // SAFETY: the code gives back only addresses that it was given, or those of parts of what is there; nothing has
-    // been written since.
+    // SAFETY: the code returns only addresses that it received, or addresses of parts of the values there.
+    // Nothing has been written since.
     unsafe { (*(address as *const Value<S>)).clone() }
 }

@@ -1,12 +1,12 @@
-//! Held choices: values that are given for choices of a run, which are then observed and not drawn.
+//! Held choices: choices of a run with fixed values, which are observed and not drawn.
 //!
-//! Where a run meets a held choice, its value is the given one, and its log density is a factor of the score. A run that
-//! ends without having met all of them is impossible: nothing may lose what is held. So the law of the runs is that of the
-//! program's, given that each held choice exists and has its value.
+//! When a run meets a held choice, the choice gets its held value, and its log density is a factor of the
+//! score. A run that ends without having met all held choices is impossible: no held choice may be lost. So the
+//! law of the runs is that of the program, under the condition that each held choice exists and has its value.
 //!
-//! A particle that has lost a held choice should not live on until its end, since what it lost may have been improbable, so
-//! that it weighs more than the others. Where an activation is left, all held choices below it must have been met; only those
-//! in futures that it created may come later.
+//! A particle that has lost a held choice should not live on until its end: the lost choice may have been
+//! improbable, so that the particle weighs more than the others. When an activation is left, all held choices
+//! below it must have been met. Only choices in futures that it created may come later.
 
 use super::address::{ROOT, iteration_key, join};
 use super::memos::{identity, path_of};
@@ -19,62 +19,62 @@ use std::collections::HashMap;
 /// Held choices, numbered.
 #[derive(Clone, Debug)]
 pub struct Held<S: Scalar = f64> {
-    /// The readable address and the value of each.
+    /// The readable address and the value of each choice.
     choices: Vec<(String, Value<S>)>,
-    /// Their numbers by address.
+    /// The numbers of the choices by address.
     numbers: HashMap<u128, u32>,
-    /// Those that are below an activation, by its path: all, and without those in futures below it.
+    /// The choices below an activation, by its path: all of them, and those that are not in futures below it.
     below: HashMap<u128, Vec<u32>>,
-    at_once: HashMap<u128, Vec<u32>>,
+    outside_futures: HashMap<u128, Vec<u32>>,
 }
 
 impl Held {
-    /// Holds choices of a program, given by their readable addresses.
+    /// Holds choices of a program; each is a readable address and a value.
     ///
     /// # Errors
-    /// The first of them that no run of the program can have.
+    /// The first address that no run of the program can have.
     pub fn new(program: &Program, choices: Vec<(String, Value)>) -> Result<Held, String> {
-        let (mut numbers, mut below, mut at_once) = (HashMap::new(), HashMap::new(), HashMap::new());
+        let (mut numbers, mut below, mut outside_futures) = (HashMap::new(), HashMap::new(), HashMap::new());
         let mut addresses = Addresses::new(program);
         for (number, (path, _)) in (0..).zip(&choices) {
             let found = addresses.find(path);
             if found.is_empty() {
                 return Err(path.clone());
             }
-            for (path, is_at_once) in addresses.common(&found) {
+            for (path, is_outside_futures) in addresses.common(&found) {
                 below.entry(path).or_insert_with(Vec::new).push(number);
-                if is_at_once {
-                    at_once.entry(path).or_insert_with(Vec::new).push(number);
+                if is_outside_futures {
+                    outside_futures.entry(path).or_insert_with(Vec::new).push(number);
                 }
             }
             numbers.extend(found.into_iter().map(|(address, _)| (address, number)));
         }
-        Ok(Held { choices, numbers, below, at_once })
+        Ok(Held { choices, numbers, below, outside_futures })
     }
 }
 
 impl<S: Scalar> Held<S> {
-    /// How many are held.
+    /// The number of held choices.
     pub fn len(&self) -> usize {
         self.choices.len()
     }
 
-    /// Whether none is held.
+    /// Whether no choice is held.
     pub fn is_empty(&self) -> bool {
         self.choices.is_empty()
     }
 
-    /// The number and the value of the choice at an address, where it is held.
+    /// The number and the value of the held choice at an address.
     #[inline]
     pub fn find(&self, address: u128) -> Option<(u32, &Value<S>)> {
         let number = *self.numbers.get(&address)?;
         Some((number, &self.choices[number as usize].1))
     }
 
-    /// The first of these choices that cannot be met any more when an activation with this path is left, where futures run at
-    /// once or not.
-    pub(crate) fn lost(&self, path: u128, unmet: &Numbers, depth_first: bool) -> Option<u32> {
-        let below = if depth_first { &self.below } else { &self.at_once };
+    /// The first held choice that can no longer be met when the activation with this path is left.
+    /// `depth_first` says whether futures run at once.
+    pub(crate) fn first_lost(&self, path: u128, unmet: &Numbers, depth_first: bool) -> Option<u32> {
+        let below = if depth_first { &self.below } else { &self.outside_futures };
         below.get(&path)?.iter().copied().find(|number| unmet.contains(*number))
     }
 
@@ -83,14 +83,14 @@ impl<S: Scalar> Held<S> {
         &self.choices[number as usize].0
     }
 
-    /// The same choices, their values over other numbers.
+    /// The choices with their values over another kind of number.
     pub fn convert<T: Scalar>(&self, number: &impl Fn(S) -> T) -> Held<T> {
         let choices = self.choices.iter().map(|(path, value)| (path.clone(), value.convert(number)));
         Held {
             choices: choices.collect(),
             numbers: self.numbers.clone(),
             below: self.below.clone(),
-            at_once: self.at_once.clone(),
+            outside_futures: self.outside_futures.clone(),
         }
     }
 }
@@ -244,12 +244,12 @@ impl<'p> Addresses<'p> {
     /// future is between them.
     fn common(&self, found: &[(u128, usize)]) -> Vec<(u128, bool)> {
         let Some(((_, first), others)) = found.split_first() else { return vec![] };
-        let (mut all, mut is_at_once) = (vec![], true);
+        let (mut all, mut is_outside_futures) = (vec![], true);
         for Activation { path, is_future, .. } in self.around(*first) {
             if others.iter().all(|(_, other)| self.around(*other).any(|around| around.path == path)) {
-                all.push((path, is_at_once));
+                all.push((path, is_outside_futures));
             }
-            is_at_once &= !is_future;
+            is_outside_futures &= !is_future;
         }
         all
     }

@@ -1,11 +1,11 @@
-//! The loop over instructions. It is long because it is one table.
+//! The loop over instructions. It is long because it is one table of all instructions.
 
 use super::answers::Answers;
 use super::budget::{self, Price};
 use super::buffers::make_room;
 use super::keep::{Keep, put};
 use super::operate;
-use super::outcome::After;
+use super::outcome::Continuation;
 use super::outcome::Halt;
 use super::outcome::Stop;
 use super::registers::Registers;
@@ -20,8 +20,8 @@ use crate::value::{Value, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Continues from an instruction of a node. `future` is the one that runs; where activations are kept there are
-    /// none.
+    /// Continues from an instruction of a node. `future` is the future that runs; where activations are kept
+    /// there are no futures.
     pub(super) fn interpret<A: Answers<S>, K: Keep<S>>(
         &mut self,
         state: &mut State<S>,
@@ -39,11 +39,11 @@ impl<S: Scalar> Machine<'_, S> {
             keep.enter(state, node);
         }
         let mut scratch = 0;
-        // First registers of this node, and of the loop node above an iteration.
-        let (mut own, mut outer) = self.bases(state, f, node);
+        // The first registers of this node, and of the loop node above an iteration.
+        let (mut base, mut outer) = self.bases(state, f, node);
         self.reserve(scratch + f.scratch_registers as usize);
         if f.mode == Mode::Pure {
-            // A pure function to begin with: its arguments and captures wait in the state.
+            // A run that begins with a pure function: its arguments and captures wait in the state.
             let args = usize::from(f.params) + usize::from(f.captures);
             for i in 0..args {
                 self.scratch[i] = state.registers[i].clone();
@@ -52,7 +52,7 @@ impl<S: Scalar> Machine<'_, S> {
 
         macro_rules! r {
             () => {
-                Registers { f, own, outer, scratch }
+                Registers { f, base, outer, scratch }
             };
         }
         macro_rules! get {
@@ -64,7 +64,7 @@ impl<S: Scalar> Machine<'_, S> {
             ($o:expr, $store:ident, $as:expr, $x:expr) => {{
                 let (o, x) = ($o, $x);
                 if K::KEEPS && o.is_node() {
-                    keep.write(state, own + o.index(), $as(x));
+                    keep.write(state, base + o.index(), $as(x));
                 } else {
                     r!().slot(state, &mut self.scratch, o).$store(x);
                 }
@@ -95,7 +95,7 @@ impl<S: Scalar> Machine<'_, S> {
                 r!().gather(state, &self.scratch, $args, &mut self.buffer)
             };
         }
-        // The answer to a question was not a value.
+        // Stops the run: the answer to a question was not a value.
         macro_rules! stop {
             ($halt:expr, $site:expr) => {
                 match $halt {
@@ -120,11 +120,11 @@ impl<S: Scalar> Machine<'_, S> {
             () => {{
                 state.steps += 1;
                 if state.steps > state.alarm {
-                    check!(self.look(state, keep));
+                    check!(self.check_limits(state, keep));
                 }
             }};
         }
-        // Machine code that begins there, if there is some, and on from where it leaves.
+        // Runs the machine code that begins there, if it exists, and continues where it leaves.
         macro_rules! native {
             ($pc:expr) => {
                 if let Some(entry) = f.native.at($pc)
@@ -132,7 +132,7 @@ impl<S: Scalar> Machine<'_, S> {
                     && let Some(on) = self.enter(state, r!(), id, entry, keep.writes_plainly())
                 {
                     if K::KEEPS {
-                        executed += on.done;
+                        executed += on.instructions;
                     }
                     id = on.function;
                     f = program.function(id);
@@ -157,7 +157,7 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
-        // Continue in another activation.
+        // Continues in another activation.
         macro_rules! enter {
             ($node:expr, $pc:expr) => {{
                 node = $node;
@@ -165,7 +165,7 @@ impl<S: Scalar> Machine<'_, S> {
                 f = program.function(id);
                 code = &f.code;
                 pc = $pc as usize;
-                (own, outer) = self.bases(state, f, node);
+                (base, outer) = self.bases(state, f, node);
                 self.reserve(scratch + f.scratch_registers as usize);
                 if K::KEEPS {
                     keep.enter(state, node);
@@ -174,8 +174,8 @@ impl<S: Scalar> Machine<'_, S> {
                 continue;
             }};
         }
-        // A value that was made.
-        macro_rules! made {
+        // Charges a new value.
+        macro_rules! charged {
             ($value:expr) => {{
                 let value = $value;
                 if !value.is_plain() {
@@ -185,7 +185,7 @@ impl<S: Scalar> Machine<'_, S> {
                 value
             }};
         }
-        // The compiler knows this operation, so it removes the cases of `operate` for the others.
+        // The compiler knows the operation, so it removes the cases of `operate` for the others.
         macro_rules! arithmetic {
             ($op:expr, $to:expr, $a:expr, $b:expr) => {{
                 let (a, b) = (get!($a), get!($b));
@@ -263,7 +263,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Neg { to, a } => {
                     let value = check!(ops::neg(get!(a)));
-                    put!(to, made!(value));
+                    put!(to, charged!(value));
                 }
                 Op::Not { to, a } => {
                     let value = check!(ops::truth(get!(a)));
@@ -310,20 +310,22 @@ impl<S: Scalar> Machine<'_, S> {
                             }
                         }
                         _ => match keep.suspend(self, state, r!(), node, number) {
-                            Ok(After::Next) => {}
-                            Ok(After::Enter(inner, at)) => {
+                            Ok(Continuation::Next) => {}
+                            Ok(Continuation::Enter(inner, at)) => {
                                 step!();
                                 enter!(inner, at);
                             }
-                            Ok(After::Goto(next)) => {
+                            Ok(Continuation::Goto(next)) => {
                                 pc = next as usize;
                                 continue;
                             }
-                            Ok(After::Pure { function, to, as_future }) => {
+                            Ok(Continuation::Pure { function, to, as_future }) => {
                                 call_pure!(function, to, as_future)
                             }
-                            Ok(After::Stop(stop)) => return Ok(stop),
-                            Ok(After::Entered) => unreachable!("only lanes enter a function by themselves"),
+                            Ok(Continuation::Stop(stop)) => return Ok(stop),
+                            Ok(Continuation::Entered) => {
+                                unreachable!("only lanes enter a function by themselves")
+                            }
                             Err(halt) => stop!(halt, site),
                         },
                     }
@@ -350,18 +352,22 @@ impl<S: Scalar> Machine<'_, S> {
                             enter!(inner, 0);
                         }
                         _ => match check!(self.suspend(state, answers, future, node, r!(), number, pc)) {
-                            After::Next => {}
-                            After::Enter(inner, at) => {
+                            Continuation::Next => {}
+                            Continuation::Enter(inner, at) => {
                                 step!();
                                 enter!(inner, at);
                             }
-                            After::Goto(next) => {
+                            Continuation::Goto(next) => {
                                 pc = next as usize;
                                 continue;
                             }
-                            After::Pure { function, to, as_future } => call_pure!(function, to, as_future),
-                            After::Stop(stop) => return Ok(stop),
-                            After::Entered => unreachable!("only lanes enter a function by themselves"),
+                            Continuation::Pure { function, to, as_future } => {
+                                call_pure!(function, to, as_future)
+                            }
+                            Continuation::Stop(stop) => return Ok(stop),
+                            Continuation::Entered => {
+                                unreachable!("only lanes enter a function by themselves")
+                            }
                         },
                     }
                     if native!(pc + 1) {
@@ -371,7 +377,7 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Builtin { to, id: builtin, args } => {
                     let builtin = builtins::builtin::<S>(builtin);
                     let answer = if let [a] = f.operands[args.range()] {
-                        // A single argument, as of `sqrt`, is read in place.
+                        // A single argument, as for `sqrt`, is read in place.
                         if !get!(a).is_plain() {
                             check!(self.charge_argument(state, keep, r!(), builtin, a));
                         }
@@ -398,10 +404,10 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Host { to, constant, args } => {
                     gather!(args);
                     for value in &self.buffer {
-                        check!(value.refuse_futures("given to what runs outside of the model"));
+                        check!(value.refuse_futures("passed to code outside of the model"));
                     }
                     let value = check!(answers.host(constant, &self.buffer, &mut state.steps));
-                    put!(to, made!(value));
+                    put!(to, charged!(value));
                 }
                 Op::CallPure { to, function, args } => {
                     gather!(args);
@@ -413,7 +419,7 @@ impl<S: Scalar> Machine<'_, S> {
                 }
                 Op::Next { to, over, index, length, target } => {
                     let (Value::Int(i), Value::Int(n)) = (get!(index), get!(length)) else {
-                        check!(Err(Fault::new("type-mismatch", "a loop lost its count")))
+                        check!(Err(Fault::new("type-mismatch", "the counter of a loop is not an int")))
                     };
                     let i = *i;
                     if i >= *n {
@@ -497,7 +503,8 @@ impl<S: Scalar> Machine<'_, S> {
                 Op::Pass { site, arg } => {
                     if K::KEEPS {
                         keep.at(pc);
-                        if let After::Enter(inner, at) = keep.pass(self, state, r!(), node, site, arg) {
+                        if let Continuation::Enter(inner, at) = keep.pass(self, state, r!(), node, site, arg)
+                        {
                             step!();
                             enter!(inner, at);
                         }
@@ -508,8 +515,8 @@ impl<S: Scalar> Machine<'_, S> {
                         if let Some((next, at)) = check!(keep.done(self, state, node)).place() {
                             let (this, that) = (&state.nodes[node.0 as usize], &state.nodes[next.0 as usize]);
                             if that.parent == this.parent && that.function == id {
-                                // The next iteration: the same code below the same loop.
-                                (node, pc, own) = (next, at as usize, that.registers as usize);
+                                // The next iteration has the same code below the same loop.
+                                (node, pc, base) = (next, at as usize, that.registers as usize);
                                 keep.enter(state, node);
                                 continue;
                             }
@@ -520,7 +527,7 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                 }
                 Op::Unpack { from, to } => {
-                    // Most are pairs of numbers.
+                    // Most unpacked values are pairs of numbers.
                     if let Value::Tuple(tuple) = get!(from)
                         && let [Value::Real(x), Value::Real(y)] = tuple.items()
                         && let [a, b] = f.operands[to.range()]
@@ -539,7 +546,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// Reserves that many scratch registers; whether the run is to be charged for more than before.
+    /// Reserves scratch registers, and returns whether the run must be charged for more than before.
     #[inline]
     pub(super) fn reserve(&mut self, registers: usize) -> bool {
         self.high < registers && self.grow_scratch(registers)

@@ -1,32 +1,35 @@
-//! Invalid runs: those outside of the model's support, which have probability zero in a search.
+//! Invalid runs: runs outside of the model's support, which have probability zero in a search.
 //!
-//! A run is *invalid* where a call has no result for its arguments, although they are of the right kinds:
+//! A run is *invalid* if a call has no result for its arguments, although they are of the right kinds. Such
+//! calls are:
 //!
 //! * a distribution, for parameters out of range;
-//! * a shape that cannot be: a size that is negative or no number, an empty mesh, a solid without an inside;
+//! * a shape that cannot exist: a size that is negative or not a number, an empty mesh, a solid without an
+//!   inside;
 //! * a host function that raises an exception.
 //!
-//! Whoever raises such a fault marks it with the call ([`Fault::of_call`](crate::fault::Fault::of_call)), and [`RunFault::is_invalid`]
-//! is where everybody asks. Any other fault is the program's, and ends a search: a value of another kind, a division by zero, a limit
-//! of steps or memory.
+//! The code that raises such a fault marks it with the call ([`Fault::of_call`](crate::fault::Fault::of_call)),
+//! and [`RunFault::is_invalid`] reads the mark. Any other fault belongs to the program and ends a search: a
+//! value of another kind, a division by zero, a limit of steps or memory.
 //!
-//! Invalid runs are counted by *place*: the file and line of the call, and what is called. A run ends at its first such call in
-//! program order, so it counts once. The example of a place is the shortest call, and of equally long ones the first by
-//! alphabet: it does not depend on the order in which threads meet them.
+//! Invalid runs are counted by *place*: the file and line of the call, and the name of the called function. A
+//! run ends at its first such call in program order, so it counts once. The example of a place is the shortest
+//! call, and among calls of the same length the first in alphabetical order. So it does not depend on the order
+//! in which threads meet the calls.
 
 use super::stack::RunFault;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// A call at which runs are invalid.
+/// A place with calls that make runs invalid.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Place {
-    /// Number of its source file.
+    /// The number of the source file.
     pub file: u32,
-    /// Its first line.
+    /// The first line of the call.
     pub line: u32,
-    /// What is called: a distribution's family, a shape, a host function.
+    /// The name of the called distribution family, shape or host function.
     pub name: String,
 }
 
@@ -39,11 +42,11 @@ impl std::fmt::Display for Place {
 /// Invalid runs at one place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
-    /// How many.
+    /// The number of runs.
     pub runs: u64,
-    /// The call of one of them, with its arguments.
+    /// The call of one of the runs, with its arguments.
     pub call: String,
-    /// Why that call has no result.
+    /// The reason why that call has no result.
     pub reason: String,
 }
 
@@ -60,12 +63,12 @@ impl Count {
 /// Invalid runs by place, in the order of files and lines.
 pub type Counts = Vec<(Place, Count)>;
 
-/// Counts of invalid runs by place. All threads that share it count together.
+/// Counts of invalid runs by place. All threads that share a table count together.
 #[derive(Debug, Default)]
 pub struct Invalid(Mutex<BTreeMap<Place, Count>>);
 
 impl Invalid {
-    /// Counts the run if the fault makes it invalid, and gives the place. `None` for any other fault.
+    /// Counts the run if the fault makes it invalid, and returns the place. Returns `None` for any other fault.
     #[cold]
     pub fn count(&self, met: &RunFault) -> Option<Place> {
         let place = met.invalid_place()?;
@@ -77,9 +80,9 @@ impl Invalid {
 
     /// Counts runs of another search, or of an earlier part of this one.
     pub fn add(&self, counts: impl IntoIterator<Item = (Place, Count)>) {
-        let mut own = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut places = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         for (place, count) in counts {
-            match own.entry(place) {
+            match places.entry(place) {
                 std::collections::btree_map::Entry::Vacant(entry) => drop(entry.insert(count)),
                 std::collections::btree_map::Entry::Occupied(mut entry) => entry.get_mut().add(count),
             }
@@ -94,7 +97,7 @@ impl Invalid {
 }
 
 impl RunFault {
-    /// Whether the run is invalid, and not the program at fault.
+    /// Whether the run is invalid. Otherwise the program is at fault.
     pub fn is_invalid(&self) -> bool {
         self.fault.invalid.is_some()
     }
@@ -109,7 +112,8 @@ impl RunFault {
 
 #[cfg(test)]
 mod tests {
-    //! The claim: runs are counted by place, and an example does not depend on the order in which they are met.
+    //! The claim: runs are counted by place, and the example does not depend on the order in which runs are
+    //! met.
     use super::*;
     use crate::fault::Fault;
     use crate::value::Value;

@@ -1,11 +1,11 @@
-//! Whether an activation is dropped when it returns, or kept as a node of the trace.
+//! The interface that decides whether an activation is dropped when it returns, or kept as a node of the trace.
 //!
-//! The loop over instructions is written once and compiled twice. With [`Dropped`] it runs particles and forward
-//! samples; with [`Kept`](super::kept::Kept) it also re-runs what a changed choice reaches.
+//! The loop over instructions is written once and compiled twice. With [`Dropped`] it runs particles and
+//! forward samples; with [`Kept`](super::kept::Kept) it also re-runs the part that a changed choice reaches.
 
 use super::Machine;
 use super::answers::Answers;
-use super::outcome::After;
+use super::outcome::Continuation;
 use super::outcome::Halt;
 use super::registers::Registers;
 use super::state::{NodeId, State};
@@ -14,28 +14,29 @@ use crate::fault::Fault;
 use crate::value::{Census, Value};
 use niwaki_math::Scalar;
 
-/// Where a run continues: at an instruction of an activation, or nowhere. One word, so that it fits a register.
+/// The place where a run continues: an instruction of an activation, or the end. It is one word, so that it
+/// fits a register.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Onward(u64);
+pub(super) struct Target(u64);
 
-impl Onward {
+impl Target {
     /// The run is over.
-    pub const END: Onward = Onward(u64::MAX);
+    pub const END: Target = Target(u64::MAX);
 
-    /// At that instruction.
+    /// Continues at an instruction.
     #[inline(always)]
-    pub fn at(node: NodeId, pc: u32) -> Onward {
-        Onward(u64::from(node.0) << 32 | u64::from(pc))
+    pub fn at(node: NodeId, pc: u32) -> Target {
+        Target(u64::from(node.0) << 32 | u64::from(pc))
     }
 
     /// The place, unless the run is over.
     #[inline(always)]
     pub fn place(self) -> Option<(NodeId, u32)> {
-        (self != Onward::END).then_some((NodeId((self.0 >> 32) as u32), self.0 as u32))
+        (self != Target::END).then_some((NodeId((self.0 >> 32) as u32), self.0 as u32))
     }
 }
 
-/// How activations are stored. Where they are dropped, only `KEEPS` is used.
+/// The storage of activations. Where they are dropped, only `KEEPS` is used.
 pub(super) trait Keep<S: Scalar>: Sized {
     /// Whether activations are kept.
     const KEEPS: bool;
@@ -43,16 +44,16 @@ pub(super) trait Keep<S: Scalar>: Sized {
     /// The machine continues in this activation.
     fn enter(&mut self, state: &State<S>, node: NodeId);
 
-    /// Whether registers of the current activation are written as they are, without a note of what they held.
+    /// Whether registers of the current activation are written without a record of their earlier contents.
     fn writes_plainly(&self) -> bool;
 
     /// Writes a register of the current activation.
     fn write(&mut self, state: &mut State<S>, place: usize, value: Value<S>);
 
-    /// The current instruction.
+    /// Records the current instruction.
     fn at(&mut self, pc: usize);
 
-    /// Carries out a choice: the instruction at which to continue.
+    /// Runs a choice, and returns the instruction at which to continue.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     fn choose<A: Answers<S>>(
         &mut self,
@@ -64,7 +65,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         number: SiteId,
     ) -> Result<usize, Halt>;
 
-    /// Carries out a factor.
+    /// Runs a factor.
     fn factor(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -74,7 +75,7 @@ pub(super) trait Keep<S: Scalar>: Sized {
         number: SiteId,
     ) -> Result<(), Halt>;
 
-    /// Carries out a site that is neither.
+    /// Runs a site that is neither a choice nor a factor.
     fn suspend(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -82,21 +83,21 @@ pub(super) trait Keep<S: Scalar>: Sized {
         r: Registers<'_, S>,
         node: NodeId,
         number: SiteId,
-    ) -> Result<After, Halt>;
+    ) -> Result<Continuation, Halt>;
 
-    /// Sites that are not on the path taken.
+    /// Clears sites that are not on the path taken.
     fn clear(&mut self, machine: &Machine<'_, S>, state: &mut State<S>, node: NodeId, from: u16, to: u16);
 
-    /// An activation returns: where to continue, unless the run is over.
+    /// Returns from an activation, and returns where to continue, unless the run is over.
     fn give_back(
         &mut self,
         machine: &Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Onward;
+    ) -> Target;
 
-    /// An iteration ends: where to continue, unless the run is over.
+    /// Ends an iteration, and returns where to continue, unless the run is over.
     fn end_iteration(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -105,9 +106,9 @@ pub(super) trait Keep<S: Scalar>: Sized {
         node: NodeId,
         exit: i64,
         carried: Args,
-    ) -> Result<Onward, Fault>;
+    ) -> Result<Target, Fault>;
 
-    /// A repeated call of which only that argument may have changed.
+    /// Repeats a call of which only the argument `arg` may have changed.
     fn pass(
         &mut self,
         machine: &Machine<'_, S>,
@@ -116,20 +117,21 @@ pub(super) trait Keep<S: Scalar>: Sized {
         node: NodeId,
         number: SiteId,
         arg: u16,
-    ) -> After;
+    ) -> Continuation;
 
-    /// An activation has the same results as before: where to continue, unless the run is over.
+    /// Ends an activation with the same results as before, and returns where to continue, unless the run is
+    /// over.
     fn done(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
-    ) -> Result<Onward, Fault>;
+    ) -> Result<Target, Fault>;
 
-    /// So many instructions were carried out.
+    /// Counts instructions that were run.
     fn count(&mut self, instructions: u64);
 
-    /// Counts the bytes of what is kept, beside nodes and registers.
+    /// Counts the bytes of the trace, without nodes and registers.
     fn count_bytes<'v>(&'v self, census: &mut Census<'v, S>);
 }
 
@@ -144,7 +146,7 @@ pub(super) fn put<S: Scalar, K: Keep<S>>(
     value: Value<S>,
 ) {
     if K::KEEPS && o.is_node() {
-        keep.write(state, r.own + o.index(), value);
+        keep.write(state, r.base + o.index(), value);
     } else {
         r.put(state, scratch, o, value);
     }
@@ -196,14 +198,14 @@ impl<S: Scalar> Keep<S> for Dropped {
         _: Registers<'_, S>,
         _: NodeId,
         _: SiteId,
-    ) -> Result<After, Halt> {
-        Ok(After::Next)
+    ) -> Result<Continuation, Halt> {
+        Ok(Continuation::Next)
     }
 
     fn clear(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: u16, _: u16) {}
 
-    fn give_back(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: Value<S>) -> Onward {
-        Onward::END
+    fn give_back(&mut self, _: &Machine<'_, S>, _: &mut State<S>, _: NodeId, _: Value<S>) -> Target {
+        Target::END
     }
 
     fn end_iteration(
@@ -214,8 +216,8 @@ impl<S: Scalar> Keep<S> for Dropped {
         _: NodeId,
         _: i64,
         _: Args,
-    ) -> Result<Onward, Fault> {
-        Ok(Onward::END)
+    ) -> Result<Target, Fault> {
+        Ok(Target::END)
     }
 
     fn pass(
@@ -226,12 +228,12 @@ impl<S: Scalar> Keep<S> for Dropped {
         _: NodeId,
         _: SiteId,
         _: u16,
-    ) -> After {
-        After::Next
+    ) -> Continuation {
+        Continuation::Next
     }
 
-    fn done(&mut self, _: &mut Machine<'_, S>, _: &mut State<S>, _: NodeId) -> Result<Onward, Fault> {
-        Ok(Onward::END)
+    fn done(&mut self, _: &mut Machine<'_, S>, _: &mut State<S>, _: NodeId) -> Result<Target, Fault> {
+        Ok(Target::END)
     }
 
     fn count(&mut self, _: u64) {}

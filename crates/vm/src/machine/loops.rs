@@ -1,9 +1,9 @@
-//! Lifted loops: a loop node that holds what the loop runs over, and one node for the iteration that runs.
+//! Lifted loops: a loop node that holds the sequence to run over, and one node for the current iteration.
 
 use super::Machine;
 use super::address::{iteration_key, join};
 use super::keep::Dropped;
-use super::outcome::After;
+use super::outcome::Continuation;
 use super::registers::Registers;
 use super::state::{FutureId, Node, NodeId, State};
 use crate::code::{Args, Loop, Site, SiteId, SiteKind, exit};
@@ -12,7 +12,7 @@ use crate::value::{Value, iter_get, iter_len};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Enters a loop, or passes one that has no iterations.
+    /// Enters a loop, or passes a loop without iterations.
     pub(super) fn begin_loop(
         &mut self,
         state: &mut State<S>,
@@ -21,13 +21,13 @@ impl<S: Scalar> Machine<'_, S> {
         site_id: SiteId,
         site: &Site,
         l: &Loop,
-    ) -> Result<After, Fault> {
+    ) -> Result<Continuation, Fault> {
         let over = l.over.map(|o| r.get(state, &self.scratch, o).clone());
         let first = match &over {
             Some(over) if iter_len(over)? == 0 => {
                 r.gather(state, &self.scratch, l.carried, &mut self.buffer);
                 self.leave_loop(state, node, site_id, exit::NEXT);
-                return Ok(After::Next);
+                return Ok(Continuation::Next);
             }
             Some(over) => Some(iter_get(over, 0)),
             None => None,
@@ -50,10 +50,10 @@ impl<S: Scalar> Machine<'_, S> {
         if state.places() > places {
             self.afford(state, &Dropped)?;
         }
-        Ok(After::Enter(inner, 0))
+        Ok(Continuation::Enter(inner, 0))
     }
 
-    /// Begins the next iteration in the node of the last one; false when that was the last of all.
+    /// Begins the next iteration in the node of the last one; returns `false` after the last iteration.
     #[inline(always)]
     pub(super) fn next_iteration(
         &mut self,
@@ -64,7 +64,7 @@ impl<S: Scalar> Machine<'_, S> {
     ) -> Result<bool, Fault> {
         let Node { parent: header, iteration, .. } = state.nodes[node.0 as usize];
         let i = iteration + 1;
-        // The loop node's first register is what the loop runs over.
+        // The loop node's first register has the sequence of the loop.
         let element = match &state.registers[r.outer] {
             Value::Range(range) if (i as usize) < range.len => Some(Value::Int(range.at(i as usize))),
             Value::Range(_) => return Ok(false),
@@ -76,11 +76,11 @@ impl<S: Scalar> Machine<'_, S> {
         let n = &mut state.nodes[node.0 as usize];
         (n.iteration, n.path) = (i, path);
         // All carried values are read before any is written: they may be exchanged.
-        let at = r.own + usize::from(element.is_some());
+        let at = r.base + usize::from(element.is_some());
         match r.f.operands[carried.range()] {
             [] => {}
-            [one] => {
-                let value = r.get(state, &self.scratch, one).clone();
+            [operand] => {
+                let value = r.get(state, &self.scratch, operand).clone();
                 state.registers[at].store(value);
             }
             _ => {
@@ -91,13 +91,13 @@ impl<S: Scalar> Machine<'_, S> {
             }
         }
         if let Some(element) = element {
-            state.registers[r.own].store(element);
+            state.registers[r.base].store(element);
         }
         Ok(true)
     }
 
-    /// The loop ends with an iteration that has its carried values (and a returned value) in the buffer. Gives where to
-    /// continue; `None` where the loop is a part that was run apart: then the future returns them.
+    /// Ends the loop after an iteration whose carried values (and returned value) are in the buffer. Returns
+    /// where to continue; `None` for a loop that runs apart: then the future returns the values.
     pub(super) fn end_loop(
         &mut self,
         state: &mut State<S>,
@@ -118,20 +118,20 @@ impl<S: Scalar> Machine<'_, S> {
         Some((above.parent, next))
     }
 
-    /// Writes the results of a loop, in the buffer, to the registers of its owner.
+    /// Writes the results of a loop, which are in the buffer, to the registers of its owner.
     fn leave_loop(&mut self, state: &mut State<S>, owner: NodeId, site: SiteId, kind: i64) -> u32 {
         let n = &state.nodes[owner.0 as usize];
-        let (f, own) = (self.program.function(n.function), n.registers as usize);
+        let (f, base) = (self.program.function(n.function), n.registers as usize);
         let site = &f.sites[site.0 as usize];
         if let SiteKind::Loop(l) = &site.kind {
             if let Some((how, value)) = l.exit {
                 if kind == exit::RETURN {
-                    state.registers[own + value.index()].store(self.buffer.pop().unwrap_or_default());
+                    state.registers[base + value.index()].store(self.buffer.pop().unwrap_or_default());
                 }
-                state.registers[own + how.index()].store(Value::Int(kind));
+                state.registers[base + how.index()].store(Value::Int(kind));
             }
             for (o, value) in f.operands[l.out.range()].iter().zip(self.buffer.drain(..)) {
-                state.registers[own + o.index()].store(value);
+                state.registers[base + o.index()].store(value);
             }
         }
         site.next

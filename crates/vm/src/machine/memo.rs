@@ -1,19 +1,20 @@
-//! Memoised functions: one activation for each value of the arguments in a run, whoever asks.
+//! Memoised functions: one activation for each value of the arguments in a run, whichever caller is first.
 //!
-//! A function value that `mem` gave has an identity ([`Memo`]): the address of the place where it was made, and the function. The address of
-//! a call is made of that identity and of the text of the arguments, `color(3)`, so it is the same in every order of running, and
-//! its choices have the same random numbers, whoever asks first. The first who asks runs the call as a part of its own future; those who ask
-//! while it runs wait for it as for a future; everybody else has the value at once.
+//! A function value from `mem` has an identity ([`Memo`]): the address of the place where it was made, and the
+//! function. The address of a call consists of that identity and of the text of the arguments, `color(3)`. So
+//! the address is the same in every order of running, and its choices have the same random numbers, whichever
+//! caller is first. The first caller runs the call as a part of its own future. Callers during that run wait
+//! for it as for a future; later callers have the value at once.
 //!
-//! Arguments are the same when they are written the same: numbers, truths, strings, `None`, and tuples and lists of
-//! them, by `repr`. So 1, 1.0 and `True` are three arguments.
+//! Arguments are equal if their texts by `repr` are equal: numbers, truth values, strings, `None`, and tuples
+//! and lists of them. So 1, 1.0 and `True` are three arguments.
 //!
 //! Source: `mem` of Church (Goodman et al. 2008, section 2.1). differs: the table belongs to the run and is copied with it.
 
 use super::Machine;
 use super::address::join;
 use super::memos::{identity, path_of};
-use super::outcome::{After, Stop};
+use super::outcome::{Continuation, Stop};
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
 use crate::code::{FunctionId, Program, Site, SiteId};
@@ -23,13 +24,13 @@ use crate::value::{Closure, Memo, Value, print};
 use niwaki_math::Scalar;
 use std::sync::Arc;
 
-/// So many characters of a call's address cost one step.
+/// The number of characters of a call's address that cost one step.
 pub(super) const TEXT: u64 = 64;
 
-/// The text of arguments, by which they are compared. No component of an address has a slash inside.
+/// The text of arguments, by which they are compared. No component of an address contains a slash.
 ///
 /// # Errors
-/// A value that cannot be an argument of a memoised function.
+/// A value cannot be an argument of a memoised function.
 fn text_of<S: Scalar>(args: &[Value<S>]) -> Result<String, Fault> {
     let mut work: Vec<Value<S>> = args.to_vec();
     while let Some(value) = work.pop() {
@@ -49,8 +50,8 @@ fn text_of<S: Scalar>(args: &[Value<S>]) -> Result<String, Fault> {
                 return Err(Fault::not_forced("a future cannot be an argument of a memoised function"));
             }
             other => {
-                let found = other.described();
-                let message = format!("{found} cannot be an argument of a memoised function");
+                let kind = other.described();
+                let message = format!("{kind} cannot be an argument of a memoised function");
                 return Err(Fault::new("memo-argument", message));
             }
         }
@@ -59,7 +60,7 @@ fn text_of<S: Scalar>(args: &[Value<S>]) -> Result<String, Fault> {
     Ok(format!("({})", texts.join(", ")).replace('/', "\\x2f"))
 }
 
-/// The address of a call of a memoised function with these arguments, and the readable one.
+/// The address of a call of a memoised function with these arguments, and its readable address.
 pub(super) fn call_of<S: Scalar>(memo: &Memo, args: &[Value<S>]) -> Result<(u128, String), Fault> {
     let text = text_of(args)?;
     Ok((path_of(memo.path, &text), memo.name.clone() + &text))
@@ -68,7 +69,7 @@ pub(super) fn call_of<S: Scalar>(memo: &Memo, args: &[Value<S>]) -> Result<(u128
 /// The memoised function of a function value.
 ///
 /// # Errors
-/// It is no function.
+/// The value is not a function.
 pub(super) fn memoised<S: Scalar>(
     state: &State<S>,
     program: &Program<S>,
@@ -78,8 +79,8 @@ pub(super) fn memoised<S: Scalar>(
     value: &Value<S>,
 ) -> Result<Value<S>, Fault> {
     let Value::Function(closure) = value else {
-        let found = value.described();
-        return Err(Fault::new("not-callable", format!("`mem` takes a function, found {found}")));
+        let kind = value.described();
+        return Err(Fault::new("not-callable", format!("`mem` takes a function, found {kind}")));
     };
     if closure.memo.is_some() {
         return Ok(value.clone());
@@ -103,15 +104,16 @@ pub(super) fn memoised<S: Scalar>(
     })))
 }
 
-/// The fault of a memoised call that needs its own value.
+/// The fault for a memoised call that needs its own value.
 pub(super) fn cycle(name: &str) -> Fault {
-    Fault::new("memo-cycle", format!("the memoised call `{name}` needs its own value"))
+    Fault::new("memo-cycle", format!("the memoised call `{name}` needs its base value"))
         .with_help("let it call itself only with other arguments, which end")
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// A call of a memoised function, its arguments and captures in the buffer: the value, where it is known; otherwise
-    /// the activation, or a wait for it. `deferred`: a future of the call is wanted, and whether its handle is read.
+    /// Calls a memoised function whose arguments and captures are in the buffer. The result is the value, if it
+    /// is known; otherwise the activation, or a wait for it. `deferred` is set if a future of the call is
+    /// needed, and says whether its handle is read.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     pub(super) fn recall(
         &mut self,
@@ -123,22 +125,22 @@ impl<S: Scalar> Machine<'_, S> {
         function: FunctionId,
         memo: &Memo,
         deferred: Option<bool>,
-    ) -> Result<After, Fault> {
+    ) -> Result<Continuation, Fault> {
         let deferred = deferred.filter(|_| !state.depth_first);
-        let place = r.own + site.to.index();
+        let place = r.base + site.to.index();
         let params = self.program.function(function).params as usize;
         let (path, name) = call_of(memo, &self.buffer[..params])?;
         state.steps = state.steps.saturating_add(name.len() as u64 / TEXT);
         if let Some(known) = state.memos.find(path) {
             if let Some(detached) = deferred {
                 state.registers[place].store(if detached { Value::None } else { Value::Future(known.0) });
-                return Ok(After::Next);
+                return Ok(Continuation::Next);
             }
             if let Status::Returned(value) = &state.futures[known.0 as usize].status {
                 let value = value.clone();
                 let value = if site.kind.gives_future() { Value::returned(value) } else { value };
                 state.registers[place].store(value);
-                return Ok(After::Next);
+                return Ok(Continuation::Next);
             }
             if state.depth_first || state.runs_inside(node, known) {
                 return Err(cycle(&name));
@@ -146,7 +148,7 @@ impl<S: Scalar> Machine<'_, S> {
             state.nodes[node.0 as usize].pc = pc as u32;
             state.futures[future.0 as usize].receives = place as u32;
             state.wait(future, node, known);
-            return Ok(After::Stop(Stop::Waiting));
+            return Ok(Continuation::Stop(Stop::Waiting));
         }
         let parent = if deferred.is_some() { NodeId::NONE } else { node };
         let created = state.new_node(self.program, function, parent, u32::from(site_id.0), path);
@@ -159,11 +161,11 @@ impl<S: Scalar> Machine<'_, S> {
         state.nodes[created.0 as usize].set_memo(id.0);
         state.memos.add(path, id, &name);
         self.afford(state, &Dropped)?;
-        let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
+        let Some(detached) = deferred else { return Ok(Continuation::Enter(created, 0)) };
         state.nodes[created.0 as usize].site = id.0;
         state.runnable.push(id);
         state.registers[place].store(if detached { Value::None } else { Value::Future(id.0) });
-        Ok(After::Next)
+        Ok(Continuation::Next)
     }
 }
 

@@ -10,11 +10,11 @@ use niwaki_math::Scalar;
 #[derive(Debug, Default)]
 pub(crate) struct Memos(Vec<Call>);
 
-/// One call.
+/// A memoised call.
 #[derive(Clone, Debug)]
 struct Call {
     path: u128,
-    /// Its number among the futures: whether it has returned, what, and who waits.
+    /// Its number among the futures: this future says whether the call has returned, its value, and who waits.
     future: FutureId,
     /// Its readable address.
     name: Name,
@@ -53,7 +53,7 @@ impl Memos {
         self.place(path).ok().map(|at| &*self.0[at].name)
     }
 
-    /// Notes the readable address of a call, in a trace: the call is there under another number.
+    /// Records the readable address of a call in a trace, where the call has another number.
     pub fn note(&mut self, path: u128, name: &str) {
         self.add(path, FutureId::NONE, name);
     }
@@ -65,7 +65,7 @@ impl Memos {
         }
     }
 
-    /// A hash of which calls there are.
+    /// A hash of the calls of the run.
     pub fn hash(&self, start: u128) -> u128 {
         self.0.iter().fold(start, |hash, call| join(join(hash, call.path), u128::from(call.future.0)))
     }
@@ -76,13 +76,13 @@ impl Memos {
     }
 }
 
-/// The identity of a memoised function, from the place where it was made and the function: one place may memoise one of
-/// several, as a choice decides.
+/// The identity of a memoised function, from the place where it was made and the function: one place may
+/// memoise different functions, as a choice decides.
 pub(crate) fn identity<S: Scalar>(place: u128, program: &Program<S>, called: FunctionId) -> u128 {
     join(place, site_key(&program.function(called).name, 0))
 }
 
-/// The address of a call, from the identity of the function and the text of the arguments in brackets.
+/// The address of a call, from the identity of the function and the text of the arguments in parentheses.
 pub(crate) fn path_of(function: u128, text: &str) -> u128 {
     join(join(ROOT, function), site_key(text, 0))
 }

@@ -1,23 +1,25 @@
 //! The machine: runs a program up to its next question.
 //!
-//! Its verbs are few: [`Machine::start`] a run, [`Machine::resume`] one of its futures, fork (a `clone` of the
-//! [`State`]). It never recurses on the host stack, draws no random numbers and does not know which algorithm uses it.
+//! The verbs are few: [`Machine::start`] a run, [`Machine::resume`] one of its futures, fork it (a `clone` of
+//! the [`State`]). The machine never recurses on the host stack, draws no random numbers and does not know
+//! which algorithm uses it.
 //!
-//! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices whose values are given, by `numbers`;
-//! * `workspace`: the machine itself; `outcome`: how a run stops, and how it goes on;
+//! * [`address`]: paths of sites as 128-bit hashes; [`held`]: choices with fixed values, by `numbers`;
+//! * `workspace`: the machine itself; `outcome`: how a run stops, and how it continues;
 //! * [`answers`]: the questions, and the trait of those who answer;
-//! * [`state`]: nodes, registers, futures, by their numbers (`ids`) and in vectors that are copied (`buffers`);
-//!   [`runnable`]: the futures that can run; `begin`: those of a run that has not begun;
-//! * `budget`: what an operation costs in steps and bytes, and the audit of a run's memory;
-//! * `parts`: what activations emitted last, for guides, in `boxes`;
-//! * [`kept`]: traces: kept activations, and re-running what changed;
-//! * [`lanes`]: many runs at the same place, an instruction at a time for all of them;
+//! * [`state`]: nodes, registers and futures, with their numbers (`ids`) and the copies of their vectors
+//!   (`buffers`); [`runnable`]: the futures that can run; `begin`: the state of a run that has not begun;
+//! * `budget`: the price of operations in steps and bytes, and the audit of a run's memory;
+//! * `parts`: the parts that activations emitted last, for guides, in `boxes`;
+//! * [`kept`]: traces: kept activations, and the re-running of changes;
+//! * [`lanes`]: many runs at the same place, one instruction at a time for all of them;
 //! * `interpret`: the loop over instructions; `registers`: from operands to values;
 //! * `cache`: a cache of distributions by their parameters;
-//! * `enter`: machine code, where there is some;
+//! * `enter`: the entry into machine code;
 //! * `operate`: operations of two operands; `construct`: instructions that build or unpack an aggregate;
-//! * `question`: choices and factors; `suspend`: what happens at any other site; `loops`: lifted loops;
-//!   `memo`: memoised functions, over `memos`, the calls that there are; `keep`: what is kept of an activation that returns;
+//! * `question`: choices and factors; `suspend`: all other sites; `loops`: lifted loops; `memo`: memoised
+//!   functions, over `memos`, the existing calls; `keep`: the interface to what is kept of an activation that
+//!   returns;
 //! * [`stack`]: the model's own call stack, for messages; [`invalid`]: faults of runs that are outside of the
 //!   model's support.
 
@@ -53,7 +55,7 @@ mod suspend;
 mod workspace;
 
 pub use outcome::Stop;
-pub use workspace::{Limits, Machine, Together};
+pub use workspace::{Limits, Machine, SharedSteps};
 
 use crate::fault::Fault;
 use crate::value::Value;
@@ -64,17 +66,17 @@ use stack::RunFault;
 use state::{FutureId, State, Status};
 
 impl<S: Scalar> Machine<'_, S> {
-    /// The state of a run that has not begun: one runnable future, the call of the entry function.
+    /// The state of a run that has not begun: it has one runnable future, the call of the entry function.
     ///
     /// With `depth_first`, futures run where they are created.
     ///
     /// # Errors
-    /// The wrong number of arguments.
+    /// The number of arguments is wrong.
     pub fn start(&self, args: &[Value<S>], depth_first: bool) -> Result<State<S>, Fault> {
         self.start_call(self.program.entry, &[], args, depth_first)
     }
 
-    /// Runs a runnable future until an answer pauses it, it returns, or it must wait.
+    /// Runs a runnable future until an answer pauses it, the future returns, or it must wait.
     ///
     /// # Errors
     /// A fault of the program, with the model's call stack. The state cannot be used afterwards.
@@ -89,7 +91,7 @@ impl<S: Scalar> Machine<'_, S> {
         self.set_ceiling(state);
         let Some(Status::Runnable(node)) = state.futures.get(future.0 as usize).map(|f| &f.status) else {
             return Err(Box::new(
-                self.report(state, Fault::new("not-runnable", "this future cannot run now")),
+                self.report(state, Fault::new("not-runnable", "the future cannot run now")),
             ));
         };
         let node = *node;

@@ -20,7 +20,7 @@ impl Numbers {
         (0..count as u32).collect()
     }
 
-    /// Whether a number is among them.
+    /// Whether a number is in the set.
     pub fn contains(&self, number: u32) -> bool {
         self.0.get(number as usize / 64).is_some_and(|word| word >> (number % 64) & 1 != 0)
     }
@@ -32,7 +32,7 @@ impl Numbers {
         }
     }
 
-    /// The least of them.
+    /// The least number in the set.
     pub fn first(&self) -> Option<u32> {
         let (at, word) = self.0.iter().enumerate().find(|(_, word)| **word != 0)?;
         Some(at as u32 * 64 + word.trailing_zeros())

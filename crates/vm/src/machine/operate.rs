@@ -1,14 +1,14 @@
 //! The operations of two operands that have an instruction of their own.
 //!
-//! Two numbers of one kind are handled first, in the loop over instructions, where the result is written directly to
-//! its register. Other kinds, and whatever may fail, are handled by a call.
+//! Two numbers of one kind are handled first, in the loop over instructions, where the result is written
+//! directly to its register. Other kinds, and all operations that may fail, are handled by a call.
 
 use crate::code::Binary;
 use crate::fault::Fault;
 use crate::value::{Value, equal, index, ops};
 use niwaki_math::Scalar;
 
-/// Two reals, where that cannot fail; `None` sends the caller to [`values`].
+/// Combines two reals, if that cannot fail; `None` sends the caller to [`values`].
 #[inline(always)]
 pub(super) fn reals<S: Scalar>(op: Binary, a: S, b: S) -> Option<S> {
     match op {
@@ -20,7 +20,8 @@ pub(super) fn reals<S: Scalar>(op: Binary, a: S, b: S) -> Option<S> {
     }
 }
 
-/// Two whole numbers, where the result is one and fits; `None` sends the caller to [`values`].
+/// Combines two whole numbers, if the result is a whole number that fits; `None` sends the caller to
+/// [`values`].
 #[inline(always)]
 pub(super) fn ints(op: Binary, a: i64, b: i64) -> Option<i64> {
     match op {
@@ -33,7 +34,7 @@ pub(super) fn ints(op: Binary, a: i64, b: i64) -> Option<i64> {
     }
 }
 
-/// Any two values.
+/// Combines any two values.
 #[inline(never)]
 pub(super) fn values<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<Value<S>, Fault> {
     match op {
@@ -56,7 +57,7 @@ pub(super) fn holds<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result
     match (a, b) {
         (Value::Int(a), Value::Int(b)) => Ok(ordered(op, a, b)),
         (Value::Real(a), Value::Real(b)) => Ok(ordered(op, a, b)),
-        _ => holds_of_others(op, a, b),
+        _ => holds_slow(op, a, b),
     }
 }
 
@@ -73,10 +74,10 @@ fn ordered<T: PartialOrd>(op: Binary, a: &T, b: &T) -> bool {
 }
 
 #[inline(never)]
-fn holds_of_others<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
+fn holds_slow<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<bool, Fault> {
     match op {
         Binary::Eq => equal(a, b),
-        Binary::Ne => equal(a, b).map(|same| !same),
+        Binary::Ne => equal(a, b).map(|is_equal| !is_equal),
         Binary::Lt => ops::lt(a, b).and_then(|v| ops::truth(&v)),
         Binary::Le => ops::le(a, b).and_then(|v| ops::truth(&v)),
         Binary::Gt => ops::gt(a, b).and_then(|v| ops::truth(&v)),
@@ -86,7 +87,7 @@ fn holds_of_others<S: Scalar>(op: Binary, a: &Value<S>, b: &Value<S>) -> Result<
 
 #[cfg(test)]
 mod tests {
-    //! The fast paths agree with the operators of values.
+    //! The claim: the fast paths agree with the operators of values.
     use super::*;
 
     const ARITHMETIC: [Binary; 6] =
@@ -119,11 +120,11 @@ mod tests {
         for op in COMPARISONS {
             for (a, b) in reals_.iter().flat_map(|a| reals_.iter().map(move |b| (*a, *b))) {
                 let (a, b) = (Value::Real(a), Value::Real(b));
-                assert_eq!(holds(op, &a, &b), holds_of_others(op, &a, &b), "{op:?} {a:?} {b:?}");
+                assert_eq!(holds(op, &a, &b), holds_slow(op, &a, &b), "{op:?} {a:?} {b:?}");
             }
             for (a, b) in ints_.iter().flat_map(|a| ints_.iter().map(move |b| (*a, *b))) {
                 let (a, b) = (Value::<f64>::Int(a), Value::Int(b));
-                assert_eq!(holds(op, &a, &b), holds_of_others(op, &a, &b), "{op:?} {a:?} {b:?}");
+                assert_eq!(holds(op, &a, &b), holds_slow(op, &a, &b), "{op:?} {a:?} {b:?}");
             }
         }
     }

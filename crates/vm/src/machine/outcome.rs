@@ -1,23 +1,24 @@
-//! How a run stops, and how it goes on after a question or a site.
+//! How a run stops, and how it continues after a question or a site.
 
 use super::ids::NodeId;
 use crate::code::{FunctionId, Operand};
 use crate::fault::Fault;
 
-/// Why a run stopped.
+/// The reason why a run stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The answer was to pause.
     Paused,
-    /// The future that ran has returned.
+    /// The running future has returned.
     Returned,
-    /// The future that ran waits for another.
+    /// The running future waits for another future.
     Waiting,
-    /// The score is minus infinity. Only where activations are kept: elsewhere the answers report it.
+    /// The score is minus infinity. Used only where activations are kept: elsewhere the answers report it.
     Impossible,
 }
 
-/// Why the run stops at a question. Two words with the `Ok` around it, so that it is returned in registers.
+/// The reason why a run stops at a question. It has two words with the `Ok` around it, so that it is returned
+/// in registers.
 pub(super) enum Halt {
     /// The answer was to pause.
     Paused,
@@ -25,7 +26,7 @@ pub(super) enum Halt {
     PausedAfter,
     /// The score is minus infinity.
     Impossible,
-    /// The question is not valid, or was answered by a fault.
+    /// The question is not valid, or the answer was a fault.
     Fault(Fault),
 }
 
@@ -36,17 +37,17 @@ impl From<Fault> for Halt {
     }
 }
 
-/// How to continue after a site.
-pub(super) enum After {
+/// The continuation after a site.
+pub(super) enum Continuation {
     /// At the next instruction.
     Next,
-    /// In another activation, at that instruction.
+    /// In another activation, at this instruction.
     Enter(NodeId, u32),
-    /// At another instruction of this one.
+    /// At another instruction of this activation.
     Goto(u32),
-    /// In a pure function, its arguments in the buffer.
+    /// In a pure function, whose arguments are in the buffer.
     Pure { function: FunctionId, to: Operand, as_future: bool },
-    /// In a pure function, which lanes have entered.
+    /// In a pure function that lanes have entered.
     Entered,
     /// The run stops here.
     Stop(Stop),

@@ -1,8 +1,9 @@
-//! The part that each activation emitted last, as a box: where a guide looks from in a model that does not say it.
+//! The part that each activation emitted last, as a box: the place where a guide looks from in a model without
+//! `look`.
 //!
-//! A part is the last shape of an `emit`, so that of a pair of wings it is one wing. Boxes are noted by node, beside the
-//! nodes and only in runs that ask for them, so that other runs neither copy nor write anything. A box belongs to the
-//! activation whose path it has: a node that is used again has another path.
+//! A part is the last shape of an `emit`: for a pair of wings it is one wing. Boxes are recorded by node,
+//! beside the nodes and only in runs that ask for them, so that other runs neither copy nor write anything. A
+//! box belongs to the activation whose path it has: a node that is used again has another path.
 
 use super::state::{NodeId, State};
 use crate::code::{Mode, Program};
@@ -10,31 +11,31 @@ use niwaki_geom::{Aabb, Shape};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> State<S> {
-    /// From now on the run notes the part that each activation emitted last.
+    /// Lets the run record the part that each activation emitted last.
     pub fn note_parts(&mut self) {
-        self.parts.noted = true;
+        self.parts.are_recorded = true;
     }
 
-    /// Notes the last of these shapes, which a node emits, for the activation of its function.
+    /// Records the last of the shapes that a node emits, for the activation of its function.
     #[inline]
     pub(super) fn note_part(&mut self, program: &Program<S>, node: NodeId, shapes: &[Shape]) {
-        if self.parts.noted
+        if self.parts.are_recorded
             && let Some(shape) = shapes.last()
         {
-            let mut own = node;
+            let mut owner = node;
             loop {
-                let n = &self.nodes[own.0 as usize];
+                let n = &self.nodes[owner.0 as usize];
                 let in_loop = matches!(program.function(n.function).mode, Mode::Iteration | Mode::Loop);
                 if !in_loop || n.parent == NodeId::NONE {
                     break;
                 }
-                own = n.parent;
+                owner = n.parent;
             }
-            self.put_part(own, *shape.aabb());
+            self.put_part(owner, *shape.aabb());
         }
     }
 
-    /// A future begins with the part that its creator sees.
+    /// Gives a future the part that its creator sees.
     #[inline]
     pub(super) fn inherit_part(&mut self, creator: NodeId, created: NodeId) {
         if let Some(part) = self.part(creator).copied() {
@@ -46,11 +47,11 @@ impl<S: Scalar> State<S> {
     #[inline]
     pub(super) fn part(&self, node: NodeId) -> Option<&Aabb> {
         let mut at = node;
-        while self.parts.noted && at != NodeId::NONE {
+        while self.parts.are_recorded && at != NodeId::NONE {
             let n = &self.nodes[at.0 as usize];
             match self.parts.boxes.get(at.0 as usize) {
                 Some((path, part)) if *path == n.path && !part.is_empty() => return Some(part),
-                // Who asks first for a memoised call is no part of it.
+                // The first caller of a memoised call does not belong to it.
                 _ if n.memo().is_some() => return None,
                 _ => at = n.parent,
             }

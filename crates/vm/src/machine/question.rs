@@ -1,7 +1,7 @@
-//! The most frequent questions of a run: choices and factors. Everything else that happens at a site is in `suspend`.
+//! The most frequent questions of a run: choices and factors. All other sites are in `suspend`.
 //!
-//! Each is one call from the loop over instructions, with all that it needs inlined. Inlined into the loop itself, they
-//! are no faster and slow down every other instruction.
+//! Each question is one call from the loop over instructions, with all that it needs inlined. Inlined into the
+//! loop itself, questions are no faster and slow down every other instruction.
 
 use super::Machine;
 use super::address::join;
@@ -17,7 +17,7 @@ use crate::fault::Fault;
 use crate::value::{Value, index, log_density, ops};
 use niwaki_math::{Dist, Family, Scalar};
 
-/// Bytes of a choice in a log: its address and value, and a share of the blocks that they are stored in.
+/// Bytes of a choice in a log: its address and value, and a share of the blocks that store them.
 pub(super) const LOGGED: usize = 36;
 
 #[cold]
@@ -51,7 +51,7 @@ pub(super) fn as_real<S: Scalar>(value: &Value<S>) -> Result<S, Fault> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// A distribution of a known family, from its parameters.
+    /// Builds a distribution of a known family from its parameters.
     #[inline(always)]
     fn dist_of_family(
         &mut self,
@@ -76,7 +76,7 @@ impl<S: Scalar> Machine<'_, S> {
         }
     }
 
-    /// The distribution of a choice or observation: the one in a register, or one built from the parameters `args`.
+    /// The distribution of a choice or observation: from a register, or built from the parameters `args`.
     #[inline(always)]
     pub(super) fn dist<'b>(
         &'b mut self,
@@ -84,7 +84,7 @@ impl<S: Scalar> Machine<'_, S> {
         r: Registers<'b, S>,
         site: &Site,
         args: Args,
-        owned: &'b mut Option<Dist<S>>,
+        built: &'b mut Option<Dist<S>>,
     ) -> Result<&'b Dist<S>, Fault> {
         macro_rules! get {
             ($i:expr) => {
@@ -109,16 +109,16 @@ impl<S: Scalar> Machine<'_, S> {
                         return self.cache.build(index, family, value);
                     }
                 }
-                Ok(owned.insert(self.dist_of_family(state, r, args, family)?))
+                Ok(built.insert(self.dist_of_family(state, r, args, family)?))
             }
             Source::Element => match index::index_ref(get!(0), get!(1)) {
                 Some(value) => as_dist(value),
-                None => Ok(owned.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
+                None => Ok(built.insert(as_dist(&index::index(get!(0), get!(1))?)?.clone())),
             },
         }
     }
 
-    /// Gets the value of a random choice and puts it into its register.
+    /// Runs a random choice: gets its value and stores it in its register.
     #[inline(never)]
     pub(super) fn choose<A: Answers<S>>(
         &mut self,
@@ -131,9 +131,9 @@ impl<S: Scalar> Machine<'_, S> {
         if let SiteKind::Sample(Source::Family(family)) = site.kind {
             self.charge_rows(state, &Dropped, r, site.args, family)?;
         }
-        let (program, mut owned) = (self.program, None);
+        let (program, mut built) = (self.program, None);
         let held = self.held;
-        let dist = self.dist(state, r, site, site.args, &mut owned)?;
+        let dist = self.dist(state, r, site, site.args, &mut built)?;
         if let Some(held) = held
             && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
         {
@@ -143,7 +143,7 @@ impl<S: Scalar> Machine<'_, S> {
             }
             let answer = answers.held(&At { site, function: r.f, node, state, program }, dist, value, log)?;
             state.unmet.remove(number);
-            state.registers[r.own + site.to.index()].store(value.clone());
+            state.registers[r.base + site.to.index()].store(value.clone());
             return if answer == Answer::Pause { Err(Halt::PausedAfter) } else { Ok(()) };
         }
         match answers.choice(&At { site, function: r.f, node, state, program }, dist)? {
@@ -154,7 +154,7 @@ impl<S: Scalar> Machine<'_, S> {
                 if !value.is_plain() {
                     self.charge_choice::<A>(state, &value)?;
                 }
-                state.registers[r.own + site.to.index()].store(value);
+                state.registers[r.base + site.to.index()].store(value);
                 Ok(())
             }
             Answer::Pause => Err(Halt::Paused),
@@ -173,12 +173,12 @@ impl<S: Scalar> Machine<'_, S> {
         self.afford(state, &Dropped)
     }
 
-    /// An activation is left: a held choice in it that was not met never will be.
+    /// Leaves an activation: a held choice in it that was not met never will be.
     #[inline(always)]
     pub(super) fn leave<A: Answers<S>>(&self, state: &State<S>, answers: &mut A, node: NodeId) {
         if let Some(held) = self.held
             && let Some(number) =
-                held.lost(state.nodes[node.0 as usize].path, &state.unmet, state.depth_first)
+                held.first_lost(state.nodes[node.0 as usize].path, &state.unmet, state.depth_first)
         {
             answers.unmet(held.name(number));
         }
@@ -207,21 +207,21 @@ impl<S: Scalar> Machine<'_, S> {
                 (Factor::Condition, S::from_f64(log))
             }
             _ => {
-                // The value of `observe` is the value observed, so that an observation can replace a choice.
+                // The result of `observe` is the observed value, so that an observation can replace a choice.
                 let value = get!(last).clone();
-                let mut owned = None;
+                let mut built = None;
                 let args = Args { len: last as u16, ..site.args };
                 if let SiteKind::Observe(Source::Family(family)) = site.kind {
                     self.charge_rows(state, &Dropped, r, args, family)?;
                 }
                 let program = self.program;
-                let dist = self.dist(state, r, site, args, &mut owned)?;
+                let dist = self.dist(state, r, site, args, &mut built)?;
                 if A::WATCHES {
                     answers.observes(&At { site, function: r.f, node, state, program }, dist);
                 }
                 let log = log_density(dist, &value)?;
                 if site.is_read {
-                    state.registers[r.own + site.to.index()].store(value);
+                    state.registers[r.base + site.to.index()].store(value);
                 }
                 (Factor::Observe, log)
             }

@@ -5,31 +5,31 @@ use crate::code::{Args, Function, Operand};
 use crate::value::Value;
 use niwaki_math::Scalar;
 
-/// Where the operands of an activation are. Small, and passed by value: the loop of `interpret` then keeps its
-/// fields in registers of the processor, which a reference to it would forbid.
+/// The places of an activation's operands. The struct is small and passed by value: so the loop of `interpret`
+/// keeps its fields in registers of the processor, which a reference would prevent.
 #[derive(Clone, Copy)]
 pub(super) struct Registers<'a, S: Scalar> {
     /// The function.
     pub f: &'a Function<S>,
-    /// Its first register in the state.
-    pub own: usize,
-    /// Of an iteration: the first register of the loop node above.
+    /// The first register of the activation in the state.
+    pub base: usize,
+    /// The first register of the loop node above an iteration.
     pub outer: usize,
-    /// Its first register on the machine's scratch stack; zero for every function that can suspend.
+    /// The first register on the machine's scratch stack; zero for all functions that can suspend.
     pub scratch: usize,
 }
 
 impl<'a, S: Scalar> Registers<'a, S> {
     /// The value of an operand.
-    // The most frequent cases are tested first: a `match` becomes a jump through a table, which the processor predicts
-    // worse. An operand of the first class is its own index.
+    // The most frequent cases are tested first: a `match` becomes a jump through a table, which the processor
+    // predicts less well. An operand of the first class is its own index.
     #[inline(always)]
     pub fn get<'b>(self, state: &'b State<S>, scratch: &'b [Value<S>], o: Operand) -> &'b Value<S>
     where
         'a: 'b,
     {
         if o.is_node() {
-            &state.registers[self.own + o.0 as usize]
+            &state.registers[self.base + o.0 as usize]
         } else if o.is_outer() {
             &state.registers[self.outer + o.index()]
         } else if o.is_constant() {
@@ -48,7 +48,7 @@ impl<'a, S: Scalar> Registers<'a, S> {
         o: Operand,
     ) -> &'b mut Value<S> {
         if o.is_node() {
-            &mut state.registers[self.own + o.0 as usize]
+            &mut state.registers[self.base + o.0 as usize]
         } else {
             &mut scratch[self.scratch + o.index()]
         }
@@ -60,26 +60,26 @@ impl<'a, S: Scalar> Registers<'a, S> {
         self.slot(state, scratch, o).store(value);
     }
 
-    /// Copies of a run of operands.
+    /// Copies a sequence of operands.
     #[inline(always)]
     pub fn gather(self, state: &State<S>, scratch: &[Value<S>], args: Args, into: &mut Vec<Value<S>>) {
-        let Registers { f, own, outer, .. } = self;
-        gather(f, own, outer, state, &scratch[self.scratch..], args, into);
+        let Registers { f, base, outer, .. } = self;
+        gather(f, base, outer, state, &scratch[self.scratch..], args, into);
     }
 }
 
-/// [`Registers::gather`], its fields one by one: see there.
+/// [`Registers::gather`] with separate fields: see there.
 #[inline(never)]
 fn gather<S: Scalar>(
     f: &Function<S>,
-    own: usize,
+    base: usize,
     outer: usize,
     state: &State<S>,
     scratch: &[Value<S>],
     args: Args,
     into: &mut Vec<Value<S>>,
 ) {
-    let r = Registers { f, own, outer, scratch: 0 };
+    let r = Registers { f, base, outer, scratch: 0 };
     into.clear();
     for o in &f.operands[args.range()] {
         into.push(r.get(state, scratch, *o).clone());

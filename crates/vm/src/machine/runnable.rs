@@ -1,45 +1,46 @@
-//! The futures that can run, in the order in which they became able to.
+//! The futures that can run, in the order in which they became runnable.
 //!
-//! An algorithm picks one by its place, and it leaves the order where it is. Few futures are a plain list. For many, each has
-//! a slot that it keeps, and a tree of counts finds the slot of a place: adding, removing and finding take a time that
-//! grows with the logarithm of their number, so that a program with a hundred thousand futures does not take its square.
+//! An algorithm picks a future by its place, and the order of the others stays. Few futures are a plain list.
+//! Of many futures, each keeps a slot, and a tree of counts finds the slot of a place. Adding, removing and
+//! finding take a time that grows with the logarithm of their number, so that a hundred thousand futures do not
+//! take the square of that time.
 //!
 //! Source: Fenwick, A new data structure for cumulative frequency tables, 1994.
 
 use super::buffers::copy;
 use super::ids::FutureId;
 
-/// Most futures in a plain list.
+/// The most futures in a plain list.
 const FEW: usize = 64;
 
-/// A slot whose future cannot run any more.
-const GONE: FutureId = FutureId(u32::MAX);
+/// The content of a slot whose future cannot run any more.
+const EMPTY: FutureId = FutureId(u32::MAX);
 
 /// An ordered set of futures.
 #[derive(Debug, Default)]
 pub struct Runnable {
     slots: Vec<FutureId>,
-    /// Of many futures: how many of the slots that each entry covers are filled.
+    /// For many futures, the number of filled slots that each entry of the tree covers.
     counts: Vec<u32>,
-    /// Of many futures: the slot of each, by its number.
+    /// For many futures, the slot of each future, by its number.
     places: Vec<u32>,
     len: usize,
 }
 
 impl Runnable {
-    /// How many there are.
+    /// The number of futures.
     #[inline]
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there is none.
+    /// Whether there is no future.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// The one at a place.
+    /// The future at a place.
     #[inline]
     pub fn get(&self, place: usize) -> Option<FutureId> {
         if self.counts.is_empty() {
@@ -48,18 +49,18 @@ impl Runnable {
         (place < self.len).then(|| self.slots[self.slot_of(place)])
     }
 
-    /// The first one.
+    /// The first future.
     #[inline]
     pub fn first(&self) -> Option<FutureId> {
         self.get(0)
     }
 
-    /// All of them, in order.
+    /// All futures, in order.
     pub fn iter(&self) -> impl Iterator<Item = FutureId> {
-        self.slots.iter().copied().filter(|id| *id != GONE)
+        self.slots.iter().copied().filter(|id| *id != EMPTY)
     }
 
-    /// Adds one at the end.
+    /// Adds a future at the end.
     pub(super) fn push(&mut self, id: FutureId) {
         self.slots.push(id);
         self.len += 1;
@@ -71,11 +72,11 @@ impl Runnable {
         }
     }
 
-    /// Removes one, if it is there.
+    /// Removes a future, if it is in the set.
     #[inline]
     pub(super) fn remove(&mut self, id: FutureId) {
         if self.counts.is_empty() {
-            if let Some(at) = self.slots.iter().position(|own| *own == id) {
+            if let Some(at) = self.slots.iter().position(|other| *other == id) {
                 self.slots.remove(at);
                 self.len -= 1;
             }
@@ -84,7 +85,7 @@ impl Runnable {
         }
     }
 
-    /// Becomes a copy, in place.
+    /// Becomes a copy of another set, in place.
     #[inline]
     pub(super) fn clone_from(&mut self, source: &Runnable) {
         copy(&mut self.slots, &source.slots);
@@ -101,7 +102,7 @@ impl Runnable {
         if self.slots.get(at) != Some(&id) {
             return;
         }
-        self.slots[at] = GONE;
+        self.slots[at] = EMPTY;
         self.len -= 1;
         let mut entry = at + 1;
         while entry <= self.counts.len() {
@@ -109,7 +110,7 @@ impl Runnable {
             entry += low_bit(entry);
         }
         if 2 * self.len < self.slots.len() {
-            self.slots.retain(|id| *id != GONE);
+            self.slots.retain(|id| *id != EMPTY);
             self.counts.clear();
             if self.len > FEW / 2 {
                 self.index();
@@ -117,7 +118,7 @@ impl Runnable {
         }
     }
 
-    /// Counts the slots anew; all are filled.
+    /// Builds the tree anew; all slots are filled.
     fn index(&mut self) {
         self.counts.clear();
         for at in 0..self.slots.len() {
@@ -144,7 +145,7 @@ impl Runnable {
         self.counts.push(count);
     }
 
-    /// The filled slot with so many filled ones before it.
+    /// The filled slot with `place` filled slots before it.
     fn slot_of(&self, place: usize) -> usize {
         let (mut before, mut left) = (0, place as u32);
         let mut width = self.counts.len().next_power_of_two();
@@ -168,9 +169,9 @@ fn low_bit(n: usize) -> usize {
 mod tests {
     use super::*;
 
-    /// Random pushes and removals around the size at which the list becomes a tree.
+    /// Pushes and removes at random, around the size at which the list becomes a tree.
     #[test]
-    fn it_agrees_with_a_plain_list() {
+    fn the_set_agrees_with_a_plain_list() {
         let mut dice: u64 = 5;
         let mut roll = |sides: usize| {
             dice = dice.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -197,9 +198,9 @@ mod tests {
         assert!(copied.iter().eq(plain.iter().copied()));
     }
 
-    /// Work is counted, not time: an entry of the tree for each power of two.
+    /// Work is counted, not time: one entry of the tree for each power of two.
     #[test]
-    fn slots_are_dropped_once_half_of_them_are_gone() {
+    fn slots_are_dropped_once_half_of_them_are_empty() {
         let mut set = Runnable::default();
         (0..100_000).for_each(|id| set.push(FutureId(id)));
         for id in 0..99_990 {

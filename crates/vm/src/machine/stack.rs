@@ -9,27 +9,27 @@ use crate::fault::Fault;
 use niwaki_math::Scalar;
 use std::collections::VecDeque;
 
-/// One call of a stack.
+/// A call of a stack.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Call {
     /// Qualified name of the function.
     pub function: Name,
-    /// Number of its source file.
+    /// The number of the source file.
     pub file: u32,
-    /// The call, or (last entry) the place of the fault.
+    /// The place of the call; for the last entry, the place of the fault.
     pub span: Span,
 }
 
-/// A fault and where it happened.
+/// A fault, and the place where it happened.
 #[derive(Clone, Debug)]
 pub struct RunFault {
-    /// What went wrong.
+    /// The fault.
     pub fault: Fault,
-    /// The calls in progress, outermost first. Of a deep stack, the two ends.
+    /// The calls in progress, outermost first. Of a deep stack, only both ends.
     pub stack: Vec<Call>,
-    /// How many calls were left out in the middle.
+    /// The number of calls that were left out in the middle.
     pub omitted: usize,
-    /// Readable path of the activation, for replaying; empty for a deep stack.
+    /// The readable path of the activation, for a replay; empty for a deep stack.
     pub path: String,
 }
 
@@ -43,7 +43,7 @@ impl std::fmt::Display for RunFault {
     }
 }
 
-/// Faults that a value of another kind may be the cause of.
+/// Faults that may be caused by a value of another kind.
 const OF_KIND: [&str; 10] = [
     "type-mismatch",
     "bad-argument",
@@ -57,28 +57,28 @@ const OF_KIND: [&str; 10] = [
     "not-a-distribution",
 ];
 
-/// Calls kept at each end of a deep stack.
+/// The number of calls that are kept at each end of a deep stack.
 const ENDS: usize = 8;
 
-/// The two ends of a stack. The calls of an endless recursion would take more memory than the run.
+/// Both ends of a stack. All calls of an endless recursion would take more memory than the run.
 #[derive(Default)]
 struct Ends {
     inner: Vec<Call>,
     outer: VecDeque<Call>,
     omitted: usize,
-    /// The last call added was a loop's body of this function.
+    /// The function of the call that was added last, if that call was the body of a loop.
     body_of: Option<Name>,
 }
 
 impl Ends {
-    /// Adds the call around the one added last.
+    /// Adds the call around the call that was added last.
     fn add(&mut self, call: Call) {
         let is_body = call.function.contains('/');
         let name = match call.function.split_once('/') {
             Some((name, _)) => Name::from(name),
             None => call.function.clone(),
         };
-        // A loop's body is no call of its own to the person who wrote it.
+        // For the author, the body of a loop is not a separate call.
         let inside = self.body_of.take().is_some_and(|inner| inner == name);
         self.body_of = is_body.then(|| name.clone());
         if inside {
@@ -95,21 +95,21 @@ impl Ends {
         self.outer.push_back(call);
     }
 
-    /// The calls, and how many were left out between them.
+    /// The calls, and the number of calls that were left out between them.
     fn outermost_first(self) -> (Vec<Call>, usize) {
         (self.outer.into_iter().rev().chain(self.inner.into_iter().rev()).collect(), self.omitted)
     }
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// The fault with the call stack at the place where the machine is.
+    /// The fault, with the call stack at the current place of the machine.
     pub(super) fn report(&self, state: &State<S>, fault: Fault) -> RunFault {
         let fault = self.of_future(state, fault);
         let call = |function: FunctionId, pc: usize| {
             let f = self.program.function(function);
             Call { function: f.name.clone(), file: f.file, span: f.spans.get(pc).copied().unwrap_or(f.span) }
         };
-        // Innermost first: pure calls, then activations up to the future's own.
+        // Innermost first: pure calls, then activations up to the first activation of the future.
         let mut calls = Ends::default();
         calls.add(call(self.here.function, self.here.pc));
         for pure in self.pure.iter().rev() {
@@ -134,7 +134,7 @@ impl<S: Scalar> Machine<'_, S> {
         RunFault { fault, stack, omitted, path }
     }
 
-    /// The same fault, as that of a future that is not forced where the instruction met one.
+    /// Turns the fault into that of a future that is not forced, if the instruction met such a future.
     fn of_future(&self, state: &State<S>, fault: Fault) -> Fault {
         let Here { node, function, pc, scratch } = self.here;
         let f = self.program.function(function);
@@ -142,7 +142,8 @@ impl<S: Scalar> Machine<'_, S> {
         else {
             return fault;
         };
-        // Operators, calls and indices look at their operands; built-in functions and questions look inside, too.
+        // Operators, calls and indices look at their operands; built-in functions and questions look inside of
+        // them as well.
         let looks_inside = match op {
             Op::Builtin { .. } | Op::Dist { .. } => true,
             Op::Site { site } => !matches!(
@@ -151,13 +152,13 @@ impl<S: Scalar> Machine<'_, S> {
             ),
             _ => false,
         };
-        let (own, outer) = if f.mode == Mode::Pure { (0, 0) } else { self.bases(state, f, node) };
-        let r = Registers { f, own, outer, scratch };
-        let met = f.reads(op).into_iter().any(|o| {
+        let (base, outer) = if f.mode == Mode::Pure { (0, 0) } else { self.bases(state, f, node) };
+        let r = Registers { f, base, outer, scratch };
+        let reads_future = f.reads(op).into_iter().any(|o| {
             let value = r.get(state, &self.scratch, o);
             if looks_inside { value.holds_future() } else { value.is_future() }
         });
-        if met { Fault::not_forced(fault.message.clone()) } else { fault }
+        if reads_future { Fault::not_forced(fault.message.clone()) } else { fault }
     }
 
     pub(super) fn out_of_steps(&self) -> Fault {

@@ -1,5 +1,5 @@
-//! The state of a run: nodes, registers and futures. Forking it is `clone` (or `clone_from`, into the buffers
-//! of a state that is no longer needed).
+//! The state of a run: nodes, registers and futures. A fork is `clone` (or `clone_from`, into the buffers of a
+//! state that is no longer needed).
 //!
 //! | node | |
 //! | --- | --- |
@@ -33,34 +33,36 @@ pub(crate) struct Node {
     pub path: u128,
     pub function: FunctionId,
     pub parent: NodeId,
-    /// Site in the parent's function; of the first node of a future: the future's number.
+    /// The site in the parent's function; for the first node of a future, the future's number.
     pub site: u32,
     pub registers: u32,
-    /// Of an iteration: which one. Of the activation of a memoised call: [`Node::memo`].
+    /// The number of an iteration; for the activation of a memoised call, see [`Node::memo`].
     pub iteration: u32,
-    /// Of a suspended activation: where it continues. Of a kept iteration: how it ended.
+    /// The place where a suspended activation continues; for a kept iteration, the kind of its exit.
     pub pc: u32,
-    /// Of a kept activation: its first slot; of a kept loop node: its number among the loops. Else see [`Node::LENT`].
+    /// The first slot of a kept activation, or the number of a kept loop node among the loops. Otherwise see
+    /// [`Node::LENT`].
     pub slots: u32,
-    /// Of a kept activation: the transaction that created it.
+    /// The transaction that created a kept activation.
     pub created: u32,
 }
 
 impl Node {
-    /// In [`Node::slots`], where activations are dropped: the registers are those of the activation that it called last.
+    /// The mark in [`Node::slots`] of a dropped activation whose registers now belong to the activation that it
+    /// called last.
     const LENT: u32 = u32::MAX - 1;
 
     /// The mark of a memoised call in [`Node::iteration`].
     const MEMO: u32 = 1 << 31;
 
-    /// Of the activation of a memoised call: its number, of its future or of its entry in a trace. Who called it first is
-    /// no part of its address.
+    /// The number of a memoised call: the number of its future, or of its entry in a trace. The first caller is
+    /// not a part of its address.
     #[inline(always)]
     pub fn memo(&self) -> Option<u32> {
         (self.iteration & Node::MEMO != 0).then_some(self.iteration & !Node::MEMO)
     }
 
-    /// Marks it as the activation of a memoised call.
+    /// Marks the node as the activation of a memoised call.
     pub fn set_memo(&mut self, number: u32) {
         self.iteration = Node::MEMO | number;
     }
@@ -69,15 +71,15 @@ impl Node {
 /// The state of a future.
 #[derive(Clone, Debug)]
 pub(crate) enum Status<S: Scalar> {
-    /// It can run, from this node.
+    /// The future can run, from this node on.
     Runnable(NodeId),
-    /// It waits at this node for another future.
+    /// The future waits at this node for another future.
     Waiting(NodeId, FutureId),
-    /// Of a memoised call: it runs from this node as a part of the future that asked first.
+    /// The memoised call runs from this node on, as a part of the future that requested it first.
     Inside(NodeId),
-    /// It has returned.
+    /// The future has returned this value.
     Returned(Value<S>),
-    /// Its number is free to be used again.
+    /// The number can be used again.
     Free,
 }
 
@@ -85,12 +87,13 @@ pub(crate) enum Status<S: Scalar> {
 #[derive(Clone, Debug)]
 pub(crate) struct Future<S: Scalar> {
     pub status: Status<S>,
-    /// The future that waits for it, and the next one that waits for the same: a list, `NONE` at its end.
+    /// The future that waits for this one, and the next future that waits for the same: a list that ends with
+    /// `NONE`.
     pub waiter: FutureId,
     pub next_waiter: FutureId,
-    /// No value holds its handle: its number is free once it has returned.
+    /// Whether no value holds its handle: its number is free once it has returned.
     pub detached: bool,
-    /// Where it waits for a memoised call: the register of the result. Elsewhere `u32::MAX`.
+    /// The register of the result, if the future waits for a memoised call; otherwise `u32::MAX`.
     pub receives: u32,
 }
 
@@ -105,32 +108,33 @@ impl<S: Scalar> Future<S> {
 pub struct State<S: Scalar = f64> {
     pub(crate) nodes: Vec<Node>,
     pub(crate) registers: Vec<Value<S>>,
-    /// First free node of each function; free nodes are linked by `parent`.
+    /// The first free node of each function; free nodes are linked by `parent`.
     pub(crate) free: Vec<NodeId>,
-    /// First free node without registers, linked likewise: its registers went to the activation that it called last.
+    /// The first free node without registers, linked likewise: its registers went to the activation that it
+    /// called last.
     pub(crate) bare: NodeId,
     pub(crate) futures: Vec<Future<S>>,
     pub(crate) free_futures: Vec<u32>,
     pub(crate) runnable: Runnable,
     pub(crate) unreturned: u32,
-    /// Futures run where they are created.
+    /// Whether futures run where they are created.
     pub(crate) depth_first: bool,
     pub(crate) steps: u64,
-    /// Bytes of values: those that the last audit found, and all that was made since.
+    /// Bytes of values: those that the last audit found, and all that were made since.
     pub(crate) charged: usize,
-    /// Bytes of the choices that were logged.
+    /// Bytes of the choices in the log.
     pub(crate) logged: usize,
     /// The next audit is due when [`State::bytes`] is above this.
     pub(crate) ceiling: usize,
-    /// The limits are looked at when more steps than these are taken.
+    /// The limits are checked when the steps exceed this number.
     pub(crate) alarm: u64,
-    /// What the run was given: it belongs to the caller, and is not counted.
-    pub(crate) given: Option<Arc<[Value<S>]>>,
+    /// The arguments and captures of the run: they belong to the caller, and are not counted.
+    pub(crate) inputs: Option<Arc<[Value<S>]>>,
     /// Held choices that the run has not met.
     pub(crate) unmet: Numbers,
-    /// Readable paths of the activations that futures began with, where they are kept.
+    /// Readable paths of the first activations of futures, if they are recorded.
     pub(crate) origins: Option<HashMap<NodeId, String>>,
-    /// What activations emitted last, where it is noted.
+    /// The parts that activations emitted last, if they are recorded.
     pub(crate) parts: Parts,
     /// The memoised calls.
     pub(crate) memos: Memos,
@@ -158,9 +162,9 @@ impl<S: Scalar> Clone for State<S> {
         self.logged = source.logged;
         self.ceiling = source.ceiling;
         self.alarm = source.alarm;
-        let address = |given: &Option<Arc<[Value<S>]>>| given.as_ref().map(Arc::as_ptr);
-        if address(&self.given) != address(&source.given) {
-            self.given.clone_from(&source.given);
+        let address = |values: &Option<Arc<[Value<S>]>>| values.as_ref().map(Arc::as_ptr);
+        if address(&self.inputs) != address(&source.inputs) {
+            self.inputs.clone_from(&source.inputs);
         }
         self.unmet.clone_from(&source.unmet);
         self.origins.clone_from(&source.origins);
@@ -187,7 +191,7 @@ impl<S: Scalar> State<S> {
             logged: 0,
             ceiling: 0,
             alarm: 0,
-            given: None,
+            inputs: None,
             unmet: Numbers::default(),
             origins: None,
             parts: Parts::default(),
@@ -195,7 +199,7 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// From now on futures remember where they were created, so that addresses below them are read from the root.
+    /// Lets futures record where they were created, so that addresses below them are read from the root.
     pub fn remember_origins(&mut self) {
         self.origins = Some(HashMap::new());
     }
@@ -210,7 +214,7 @@ impl<S: Scalar> State<S> {
         self.unreturned == 0
     }
 
-    /// The path of the activation in which a runnable future is suspended: an address for the choice of running it.
+    /// The path of the activation in which a runnable future is suspended: an address for the choice to run it.
     pub fn path_of(&self, future: FutureId) -> u128 {
         match self.futures[future.0 as usize].status {
             Status::Runnable(node) | Status::Waiting(node, _) => self.nodes[node.0 as usize].path,
@@ -218,8 +222,8 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// The function of the activation in which a runnable future is suspended; of one that has not begun, the function that
-    /// it calls.
+    /// The function of the activation in which a runnable future is suspended; for a future that has not begun,
+    /// the function that it calls.
     pub fn function_of(&self, future: FutureId) -> Option<FunctionId> {
         match self.futures.get(future.0 as usize)?.status {
             Status::Runnable(node) => Some(self.nodes[node.0 as usize].function),
@@ -227,15 +231,15 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// Whether a future has returned; another one may get its number.
+    /// Whether a future has returned; a new future may then have its number.
     pub fn has_returned(&self, future: FutureId) -> bool {
         matches!(
-            self.futures.get(future.0 as usize).map(|own| &own.status),
+            self.futures.get(future.0 as usize).map(|future| &future.status),
             Some(Status::Returned(_) | Status::Free)
         )
     }
 
-    /// What the program returned, once it has ended, with futures replaced by their values.
+    /// The value that the program returned, once it has ended, with futures replaced by their values.
     pub fn result(&self) -> Value<S> {
         match self.futures.first().map(|f| &f.status) {
             Some(Status::Returned(value)) => self.resolve(value),
@@ -243,13 +247,13 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// The value with every handle of a returned future replaced by that future's value.
+    /// Replaces every handle of a returned future in a value by that future's value.
     pub fn resolve(&self, value: &Value<S>) -> Value<S> {
-        let known = |id: u32| match self.futures.get(id as usize).map(|f| &f.status) {
+        let returned = |id: u32| match self.futures.get(id as usize).map(|f| &f.status) {
             Some(Status::Returned(v)) => Some(v.clone()),
             _ => None,
         };
-        value.replace_futures(&known)
+        value.replace_futures(&returned)
     }
 
     /// The state of a run that has ended with this value.
@@ -258,8 +262,9 @@ impl<S: Scalar> State<S> {
         State { futures: vec![root], ..State::empty() }
     }
 
-    /// A hash of where every future is: which activation is suspended where, and which waits for which. Two runs of
-    /// one program with equal hashes differ only in the values that their activations hold.
+    /// A hash of the places of all futures: the activation in which each is suspended, and the future that it
+    /// waits for. Two runs of one program with equal hashes differ only in the values that their activations
+    /// hold.
     pub fn suspension_hash(&self) -> u128 {
         let word = |a: u32, b: u32| u128::from(a) << 32 | u128::from(b);
         self.futures.iter().fold(self.memos.hash(self.futures.len() as u128), |hash, future| {
@@ -276,24 +281,25 @@ impl<S: Scalar> State<S> {
         })
     }
 
-    /// Steps taken so far: calls, iterations and backward jumps, and those of operations on many elements.
+    /// Steps taken so far: calls, iterations and backward jumps, and the steps of operations on many elements.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// Bytes that nodes, registers and values take, or more: values that were dropped since the last audit count, too.
+    /// Bytes of nodes, registers and values, or more: values that were dropped since the last audit count as
+    /// well.
     #[inline]
     pub fn bytes(&self) -> usize {
         self.own_bytes().saturating_add(self.charged).saturating_add(self.logged)
     }
 
-    /// Of [`State::bytes`], those of values and of logged choices.
+    /// The part of [`State::bytes`] that values and logged choices take.
     #[inline]
     pub fn value_bytes(&self) -> usize {
         self.charged + self.logged
     }
 
-    /// How many nodes and registers there are, free ones included: what may have to be afforded has grown where this has.
+    /// The number of nodes and registers, free ones included: when it has grown, the run must afford more.
     #[inline]
     pub(crate) fn places(&self) -> usize {
         self.nodes.len() + self.registers.len()
@@ -318,12 +324,12 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// What the run was given, which is not counted as what it holds.
-    pub fn leave_out_given(&self, census: &mut Census<'_, S>) {
-        self.given.iter().flat_map(|given| given.iter()).for_each(|value| census.leave_out(value));
+    /// Excludes the arguments and captures of the run from a census.
+    pub fn leave_out_inputs(&self, census: &mut Census<'_, S>) {
+        self.inputs.iter().flat_map(|inputs| inputs.iter()).for_each(|value| census.leave_out(value));
     }
 
-    /// A node for an activation of `function`; what its registers hold means nothing.
+    /// A node for an activation of `function`; the contents of its registers have no meaning.
     #[inline]
     pub(crate) fn new_node(
         &mut self,
@@ -356,14 +362,14 @@ impl<S: Scalar> State<S> {
         }
         let at = self.registers.len();
         let count = program.function(function).node_registers as usize;
-        let (taken, ceiling) = (self.bytes(), self.ceiling);
-        make_room(&mut self.registers, count, || ceiling.saturating_sub(taken));
+        let (used, ceiling) = (self.bytes(), self.ceiling);
+        make_room(&mut self.registers, count, || ceiling.saturating_sub(used));
         self.registers.resize(at + count, Value::None);
         self.add_node(Node { registers: at as u32, ..fresh })
     }
 
-    /// A node for an activation that `caller` calls last, of the same function. It takes over the registers of the caller, which
-    /// drop what they hold.
+    /// A node for an activation of the same function that `caller` calls last. It takes over the registers of
+    /// the caller, which drop their contents.
     pub(crate) fn new_node_in_place(
         &mut self,
         program: &Program<S>,
@@ -378,24 +384,24 @@ impl<S: Scalar> State<S> {
         self.add_node(fresh)
     }
 
-    /// Adds a node, in the place of a free one without registers if there is one.
+    /// Adds a node, in place of a free node without registers if there is one.
     fn add_node(&mut self, fresh: Node) -> NodeId {
         let id = self.bare;
         if id != NodeId::NONE {
             self.bare = std::mem::replace(&mut self.nodes[id.0 as usize], fresh).parent;
             return id;
         }
-        let (taken, ceiling) = (self.bytes(), self.ceiling);
-        make_room(&mut self.nodes, 1, || ceiling.saturating_sub(taken));
+        let (used, ceiling) = (self.bytes(), self.ceiling);
+        make_room(&mut self.nodes, 1, || ceiling.saturating_sub(used));
         self.nodes.push(fresh);
         NodeId((self.nodes.len() - 1) as u32)
     }
 
-    /// Releases a node. Its registers drop what is shared; numbers may stay until they are overwritten.
+    /// Releases a node. Its registers drop shared data; numbers may stay until they are overwritten.
     #[inline]
     pub(crate) fn release(&mut self, program: &Program<S>, id: NodeId) {
         let node = &mut self.nodes[id.0 as usize];
-        // Of registers that are lent the borrower was released just before: they are free.
+        // The borrower of lent registers was released just before, so they are free.
         let free = match node.slots {
             Node::LENT => &mut self.bare,
             _ => &mut self.free[node.function.0 as usize],
@@ -404,7 +410,7 @@ impl<S: Scalar> State<S> {
         self.drop_values(program, id);
     }
 
-    /// The registers of a node drop what is shared: nothing reads them any more.
+    /// Drops the shared data in the registers of a node, which nobody reads any more.
     #[inline]
     pub(crate) fn drop_values(&mut self, program: &Program<S>, id: NodeId) {
         let node = &self.nodes[id.0 as usize];
@@ -417,17 +423,17 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// A future stops at this instruction of this node, to continue there later.
+    /// Stops a future at an instruction of a node, to continue there later.
     #[inline(always)]
     pub(crate) fn pause(&mut self, future: FutureId, node: NodeId, pc: usize) {
         self.nodes[node.0 as usize].pc = pc as u32;
-        // A future that runs is marked as one that can run.
+        // A running future is marked as runnable.
         if let Status::Runnable(at) = &mut self.futures[future.0 as usize].status {
             *at = node;
         }
     }
 
-    /// A new future.
+    /// Adds a future.
     pub(crate) fn new_future(&mut self, status: Status<S>, detached: bool) -> FutureId {
         if !matches!(status, Status::Returned(_) | Status::Inside(_)) {
             self.unreturned += 1;
@@ -446,14 +452,14 @@ impl<S: Scalar> State<S> {
         FutureId(id)
     }
 
-    /// A future has returned: those that waited for it can run.
+    /// Records that a future has returned: futures that waited for it can run.
     pub(crate) fn returned(&mut self, id: FutureId, value: Value<S>) {
         self.unreturned -= 1;
         self.runnable.remove(id);
         self.settle(id, value);
     }
 
-    /// A future or a memoised call has its value.
+    /// Records the value of a future or a memoised call.
     pub(super) fn settle(&mut self, id: FutureId, value: Value<S>) {
         let future = &mut self.futures[id.0 as usize];
         let (waiter, detached) = (std::mem::replace(&mut future.waiter, FutureId::NONE), future.detached);
@@ -467,9 +473,9 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// Those that waited for this value can run: a list of futures, from the one that waited last.
+    /// Wakes the futures that waited for a value: a list of futures, from the one that waited last.
     fn wake(&mut self, mut waiter: FutureId, value: &Value<S>) {
-        // In the order of their numbers, whichever waited first.
+        // They are woken in the order of their numbers, not in the order in which they began to wait.
         let mut waiting = Vec::new();
         while waiter != FutureId::NONE {
             waiting.push(waiter);
@@ -482,7 +488,7 @@ impl<S: Scalar> State<S> {
                 future.status = Status::Runnable(node);
                 let receives = std::mem::replace(&mut future.receives, u32::MAX);
                 if receives != u32::MAX {
-                    // It waits at a call, which has its result now.
+                    // The future waits at a call, which has its result now.
                     self.registers[receives as usize].store(value.clone());
                     self.nodes[node.0 as usize].pc += 1;
                 }
@@ -491,17 +497,17 @@ impl<S: Scalar> State<S> {
         }
     }
 
-    /// A future stops at this node, to continue when another has returned.
-    pub(super) fn wait(&mut self, future: FutureId, node: NodeId, wanted: FutureId) {
-        let first = std::mem::replace(&mut self.futures[wanted.0 as usize].waiter, future);
-        let own = &mut self.futures[future.0 as usize];
-        own.next_waiter = first;
-        own.status = Status::Waiting(node, wanted);
+    /// Stops a future at a node, to continue when another future has returned.
+    pub(super) fn wait(&mut self, future: FutureId, node: NodeId, awaited: FutureId) {
+        let first = std::mem::replace(&mut self.futures[awaited.0 as usize].waiter, future);
+        let waiting = &mut self.futures[future.0 as usize];
+        waiting.next_waiter = first;
+        waiting.status = Status::Waiting(node, awaited);
         self.runnable.remove(future);
     }
 
-    /// The component of a loop's node in addresses, its iteration left open: that of its site, or, of a loop that is run
-    /// apart, its whole path.
+    /// The component of a loop's node in addresses, with the iteration left open. It is the component of the
+    /// loop's site; for a loop that runs apart, its whole path.
     fn loop_label(&self, program: &Program<S>, header: NodeId) -> String {
         let n = &self.nodes[header.0 as usize];
         if n.parent == NodeId::NONE {
@@ -512,7 +518,7 @@ impl<S: Scalar> State<S> {
         program.function(above.function).sites[n.site as usize].label.to_string()
     }
 
-    /// The readable path of a loop's node, its iteration left open.
+    /// The readable path of a loop's node, with the iteration left open.
     pub(crate) fn loop_path(&self, program: &Program<S>, header: NodeId) -> String {
         let above = self.path(program, self.nodes[header.0 as usize].parent);
         let label = self.loop_label(program, header);
@@ -536,7 +542,7 @@ impl<S: Scalar> State<S> {
             }
             let parent = &self.nodes[n.parent.0 as usize];
             if program.function(parent.function).mode == Mode::Loop {
-                // The component of a loop is made from the loop node's site and the iteration.
+                // The component of a loop consists of the loop node's site and the iteration.
                 let component = self.loop_label(program, n.parent);
                 parts.push(component.replacen("[]", &format!("[{}]", n.iteration), 1));
                 at = parent.parent;

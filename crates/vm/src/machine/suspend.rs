@@ -1,4 +1,4 @@
-//! What happens at a suspension site that is neither a choice nor a factor: calls, emits, queries, futures.
+//! The suspension sites that are neither choices nor factors: calls, emits, queries, futures.
 
 use super::Machine;
 use super::address::join;
@@ -6,7 +6,7 @@ use super::answers::{Answer, Answers, At};
 use super::budget;
 use super::keep::Dropped;
 use super::memo;
-use super::outcome::{After, Stop};
+use super::outcome::{Continuation, Stop};
 use super::registers::Registers;
 use super::state::{FutureId, NodeId, State, Status};
 use crate::code::{Function, FunctionId, Mode, Place, Site, SiteId, SiteKind};
@@ -15,42 +15,42 @@ use crate::value::{Closure, Memo, Value, index, iter_get, iter_len, ops};
 use niwaki_math::Scalar;
 use std::sync::Arc;
 
-/// Steps of an emission: a search takes about as long to add a primitive to its sketches.
+/// The steps of an emission: a search takes about as long to add a primitive to its sketches.
 const EMISSION: u64 = 256;
 
-/// What a function value is.
+/// The function in a function value.
 pub(super) struct Callee {
     pub function: FunctionId,
     pub pure: bool,
-    /// Which memoised function it is.
+    /// The identity of a memoised function.
     pub memo: Option<Arc<Memo>>,
 }
 
-/// The defaults of the parameters of a function value that a call with so many arguments leaves out.
+/// The defaults of the parameters that a call with `given` arguments leaves out.
 ///
 /// # Errors
-/// A call needs fewer arguments, or more.
+/// The number of arguments is too large or too small.
 pub(super) fn defaults<'a, S: Scalar>(
     f: &'a Function<S>,
     closure: &'a Closure<S>,
-    given: usize,
+    count: usize,
 ) -> Result<impl Iterator<Item = &'a Value<S>>, Fault> {
     let (needed, optional) = (f.params as usize, f.defaults.len());
-    if given > needed || given + optional < needed {
+    if count > needed || count + optional < needed {
         let plural = if needed == 1 { "" } else { "s" };
         return Err(Fault::new(
             "wrong-arity",
-            format!("`{}` takes {needed} argument{plural}, {given} given", f.name),
+            format!("`{}` takes {needed} argument{plural}, {count} given", f.name),
         ));
     }
-    Ok(f.defaults[given + optional - needed..].iter().map(move |default| match default.place() {
+    Ok(f.defaults[count + optional - needed..].iter().map(move |default| match default.place() {
         Place::Constant => &f.constants[default.index()],
         _ => &closure.captures[default.index() - needed],
     }))
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// First registers of a node and, for an iteration, of the loop node above it.
+    /// The first registers of a node and, for an iteration, of the loop node above it.
     #[inline]
     pub(super) fn bases(&self, state: &State<S>, f: &Function<S>, node: NodeId) -> (usize, usize) {
         let n = &state.nodes[node.0 as usize];
@@ -59,7 +59,7 @@ impl<S: Scalar> Machine<'_, S> {
         (n.registers as usize, outer)
     }
 
-    /// Carries out a site that is neither a choice nor a factor (those are in `question`).
+    /// Runs a site that is neither a choice nor a factor (those are in `question`).
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     #[inline(never)]
     pub(super) fn suspend<A: Answers<S>>(
@@ -71,7 +71,7 @@ impl<S: Scalar> Machine<'_, S> {
         r: Registers<'_, S>,
         site_id: SiteId,
         pc: usize,
-    ) -> Result<After, Fault> {
+    ) -> Result<Continuation, Fault> {
         let (program, f) = (self.program, r.f);
         let site = &f.sites[site_id.0 as usize];
         macro_rules! get {
@@ -89,16 +89,16 @@ impl<S: Scalar> Machine<'_, S> {
                 get!(0).refuse_futures("the key of a query")?;
                 get!(0).refuse_as_key()?;
                 answers.query(&at!(), get!(0), get!(1))?;
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Emit => {
                 self.collect_shapes(state, r, site)?;
                 state.note_part(program, node, &self.shapes);
                 match answers.emit(&at!(), &self.shapes)? {
-                    Answer::Go(()) => Ok(After::Next),
+                    Answer::Go(()) => Ok(Continuation::Next),
                     Answer::Pause => {
                         state.pause(future, node, site.resumes_at(pc));
-                        Ok(After::Stop(Stop::Paused))
+                        Ok(Continuation::Stop(Stop::Paused))
                     }
                 }
             }
@@ -106,7 +106,7 @@ impl<S: Scalar> Machine<'_, S> {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
                 let Callee { function, pure, memo } = self.unwrap_callee()?;
                 if pure {
-                    return Ok(After::Pure { function, to: site.to, as_future: false });
+                    return Ok(Continuation::Pure { function, to: site.to, as_future: false });
                 }
                 if let Some(memo) = memo {
                     return self.recall(state, future, r, (node, site_id, pc), site, function, &memo, None);
@@ -116,7 +116,7 @@ impl<S: Scalar> Machine<'_, S> {
             SiteKind::Future { function, detached } => {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
                 if program.function(*function).mode == Mode::Pure {
-                    return Ok(After::Pure { function: *function, to: site.to, as_future: !detached });
+                    return Ok(Continuation::Pure { function: *function, to: site.to, as_future: !detached });
                 }
                 self.call(state, node, site_id, site, *function, Some(*detached))
             }
@@ -124,7 +124,7 @@ impl<S: Scalar> Machine<'_, S> {
                 r.gather(state, &self.scratch, site.args, &mut self.buffer);
                 let Callee { function, pure, memo } = self.unwrap_callee()?;
                 if pure {
-                    return Ok(After::Pure { function, to: site.to, as_future: !detached });
+                    return Ok(Continuation::Pure { function, to: site.to, as_future: !detached });
                 }
                 if let Some(memo) = memo {
                     let deferred = Some(*detached);
@@ -142,7 +142,7 @@ impl<S: Scalar> Machine<'_, S> {
                 self.call(state, node, site_id, site, function, Some(*detached))
             }
             SiteKind::Force => {
-                let (wanted, value) = match get!(0) {
+                let (awaited, value) = match get!(0) {
                     Value::Future(id) => match &state.futures[*id as usize].status {
                         Status::Returned(value) => (*id, Some(value)),
                         _ => (*id, None),
@@ -151,42 +151,42 @@ impl<S: Scalar> Machine<'_, S> {
                     other => (0, Some(other)),
                 };
                 if let Some(value) = value.cloned() {
-                    state.registers[r.own + site.to.index()].store(value);
-                    return Ok(After::Next);
+                    state.registers[r.base + site.to.index()].store(value);
+                    return Ok(Continuation::Next);
                 }
                 state.nodes[node.0 as usize].pc = site.resumes_at(pc) as u32;
-                state.wait(future, node, FutureId(wanted));
-                Ok(After::Stop(Stop::Waiting))
+                state.wait(future, node, FutureId(awaited));
+                Ok(Continuation::Stop(Stop::Waiting))
             }
             SiteKind::Memoise { of } => {
                 let value = memo::memoised(state, program, node, site, *of, get!(0))?;
-                state.registers[r.own + site.to.index()].store(value);
-                Ok(After::Next)
+                state.registers[r.base + site.to.index()].store(value);
+                Ok(Continuation::Next)
             }
             SiteKind::Cell { .. } => {
                 let value = get!(0).clone();
-                state.registers[r.own + site.to.index()].store(value);
-                Ok(After::Next)
+                state.registers[r.base + site.to.index()].store(value);
+                Ok(Continuation::Next)
             }
             SiteKind::Append { .. } => {
                 let list = ops::append(get!(0).clone(), get!(1).clone())?;
                 state.charged += budget::of_append(&list);
                 self.afford(state, &Dropped)?;
-                state.registers[r.own + site.to.index()].store(list);
-                Ok(After::Next)
+                state.registers[r.base + site.to.index()].store(list);
+                Ok(Continuation::Next)
             }
             SiteKind::Read => {
                 let value = index::index(get!(0), get!(1))?;
-                state.registers[r.own + site.to.index()].store(value);
-                Ok(After::Next)
+                state.registers[r.base + site.to.index()].store(value);
+                Ok(Continuation::Next)
             }
             SiteKind::Loop(l) => self.begin_loop(state, r, node, site_id, site, l),
-            other => unreachable!("`interpret` carries out {other:?} itself"),
+            other => unreachable!("`interpret` runs {other:?} itself"),
         }
     }
 
-    /// The shapes of an `emit`: its arguments, with lists and tuples of them flattened. It costs the steps that a search
-    /// takes to add a primitive to its sketches.
+    /// Collects the shapes of an `emit`: its arguments, with lists and tuples of shapes flattened. It costs the
+    /// steps that a search takes to add a primitive to its sketches.
     pub(super) fn collect_shapes(
         &mut self,
         state: &mut State<S>,
@@ -206,20 +206,21 @@ impl<S: Scalar> Machine<'_, S> {
                     }
                 }
                 other => {
-                    let found = other.described();
-                    return Err(Fault::new("type-mismatch", format!("`emit` takes shapes, found {found}")));
+                    let kind = other.described();
+                    return Err(Fault::new("type-mismatch", format!("`emit` takes shapes, found {kind}")));
                 }
             }
         }
         Ok(())
     }
 
-    /// Takes the function value off the front of the buffer; adds its defaults and captures behind the arguments.
+    /// Takes the function value from the front of the buffer, and adds its defaults and captures after the
+    /// arguments.
     pub(super) fn unwrap_callee(&mut self) -> Result<Callee, Fault> {
         let callee = self.buffer.remove(0);
         let Value::Function(closure) = &callee else {
-            let found = callee.described();
-            return Err(Fault::new("not-callable", format!("{found} cannot be called")));
+            let kind = callee.described();
+            return Err(Fault::new("not-callable", format!("{kind} cannot be called")));
         };
         let id = FunctionId(closure.function);
         let f = self.program.function(id);
@@ -228,7 +229,7 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(Callee { function: id, pure: f.mode == Mode::Pure, memo: closure.memo.clone() })
     }
 
-    /// A call of a known function: its arguments go from register to register.
+    /// Calls a known function: its arguments go from register to register.
     #[inline]
     pub(super) fn call_known(
         &mut self,
@@ -276,7 +277,7 @@ impl<S: Scalar> Machine<'_, S> {
         Ok(created)
     }
 
-    /// A new activation with the arguments in the buffer: a call, or (`Some(detached)`) a future.
+    /// Creates an activation with the arguments in the buffer: a call, or (`Some(detached)`) a future.
     fn call(
         &mut self,
         state: &mut State<S>,
@@ -285,7 +286,7 @@ impl<S: Scalar> Machine<'_, S> {
         site: &Site,
         function: FunctionId,
         future: Option<bool>,
-    ) -> Result<After, Fault> {
+    ) -> Result<Continuation, Fault> {
         let n = state.nodes[node.0 as usize];
         let path = join(n.path, site.key);
         let deferred = future.filter(|_| !state.depth_first);
@@ -302,7 +303,7 @@ impl<S: Scalar> Machine<'_, S> {
         if site.is_tail && deferred.is_none() {
             state.drop_values(self.program, node);
         }
-        let Some(detached) = deferred else { return Ok(After::Enter(created, 0)) };
+        let Some(detached) = deferred else { return Ok(Continuation::Enter(created, 0)) };
         if state.origins.is_some() {
             let above = state.path(self.program, node);
             let origin =
@@ -313,16 +314,16 @@ impl<S: Scalar> Machine<'_, S> {
         let id = state.new_future(Status::Runnable(created), detached);
         state.nodes[created.0 as usize].site = id.0;
         state.runnable.push(id);
-        let own = n.registers as usize;
-        state.registers[own + site.to.index()].store(if detached {
+        let base = n.registers as usize;
+        state.registers[base + site.to.index()].store(if detached {
             Value::None
         } else {
             Value::Future(id.0)
         });
-        Ok(After::Next)
+        Ok(Continuation::Next)
     }
 
-    /// An activation returns. Gives where to continue, if its future continues.
+    /// Returns from an activation, and returns where to continue, if its future continues.
     #[inline]
     pub(super) fn give_back(
         &mut self,
@@ -343,15 +344,15 @@ impl<S: Scalar> Machine<'_, S> {
         if let Some(memo) = memo {
             state.settle(FutureId(memo), value.clone());
         }
-        let (function, own) = {
+        let (function, base) = {
             let parent = &state.nodes[above.0 as usize];
             (parent.function, parent.registers as usize)
         };
         let site = &self.program.function(function).sites[number];
         // Depth first, a future has returned before its handle exists.
         let value = if site.kind.gives_future() { Value::returned(value) } else { value };
-        let register = &mut state.registers[own + site.to.index()];
-        // A function that returns nothing, in a repeated call.
+        let register = &mut state.registers[base + site.to.index()];
+        // The most frequent case is a function that returns nothing, in a repeated call.
         if !matches!((&value, &register), (Value::None, Value::None)) {
             register.store(value);
         }

@@ -10,13 +10,13 @@ use niwaki_geom::Shape;
 use niwaki_math::{LastLog, Scalar};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How much a run may use.
+/// The limits of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Calls, iterations and backward jumps, of one run; an operation on many elements counts one for every 8 of
-    /// them, a primitive 256.
+    /// Calls, iterations and backward jumps of one run. An operation on many elements counts one step for every
+    /// 8 elements, and a primitive counts 256.
     pub steps: u64,
-    /// Bytes of nodes, registers and values, of one run.
+    /// Bytes of nodes, registers and values of one run.
     pub bytes: usize,
 }
 
@@ -26,51 +26,51 @@ impl Default for Limits {
     }
 }
 
-/// The steps that many runs may take together. Whether they are too many does not depend on the order of the runs.
+/// The steps that many runs share. Whether they are too many does not depend on the order of the runs.
 #[derive(Debug)]
-pub struct Together {
+pub struct SharedSteps {
     most: u64,
-    taken: AtomicU64,
+    used: AtomicU64,
 }
 
-impl Together {
-    /// That many steps.
+impl SharedSteps {
+    /// Allows `most` steps.
     pub fn new(most: u64) -> Self {
-        Together { most, taken: AtomicU64::new(0) }
+        SharedSteps { most, used: AtomicU64::new(0) }
     }
 
-    /// The steps taken so far.
-    pub fn taken(&self) -> u64 {
-        self.taken.load(Ordering::Relaxed)
+    /// The steps used so far.
+    pub fn used(&self) -> u64 {
+        self.used.load(Ordering::Relaxed)
     }
 
-    /// Whether more were taken than there were.
+    /// Whether more steps were used than allowed.
     pub fn is_spent(&self) -> bool {
-        self.taken() > self.most
+        self.used() > self.most
     }
 
     fn take(&self, steps: u64) {
-        self.taken.fetch_add(steps, Ordering::Relaxed);
+        self.used.fetch_add(steps, Ordering::Relaxed);
     }
 }
 
-/// A call of a pure function in progress: where to continue when it returns.
+/// A call of a pure function in progress: the place to continue when it returns.
 pub(super) struct PureCall {
     pub(super) caller: FunctionId,
     pub(super) pc: usize,
     pub(super) scratch: usize,
     pub(super) to: Operand,
-    /// The result is a future that has returned already.
+    /// Whether the result is wrapped in a future that has returned already.
     pub(super) as_future: bool,
 }
 
-/// Where the machine is, for the call stack of a fault.
+/// The place of the machine, for the call stack of a fault.
 #[derive(Clone, Copy)]
 pub(super) struct Here {
     pub(super) node: NodeId,
     pub(super) function: FunctionId,
     pub(super) pc: usize,
-    /// The first register of a pure function.
+    /// The first scratch register of a pure function.
     pub(super) scratch: usize,
 }
 
@@ -79,24 +79,24 @@ pub struct Machine<'p, S: Scalar = f64> {
     pub(super) program: &'p Program<S>,
     pub(super) limits: Limits,
     pub(super) held: Option<&'p Held<S>>,
-    pub(super) together: Option<&'p Together>,
+    pub(super) together: Option<&'p SharedSteps>,
     pub(super) scratch: Vec<Value<S>>,
-    /// How many scratch registers were used since they were emptied.
+    /// The number of scratch registers that were used since they were emptied.
     pub(super) high: usize,
     pub(super) pure: Vec<PureCall>,
     pub(super) buffer: Vec<Value<S>>,
-    /// What machine code and the machine exchange.
+    /// The words that machine code and the machine exchange.
     pub(super) words: Vec<u64>,
     pub(super) shapes: Vec<Shape>,
     pub(super) cache: DistCache<S>,
     pub(super) logs: LastLog<S>,
     pub(super) here: Here,
-    /// It runs many runs at once, which go apart where their memory would have to be counted.
+    /// Whether the machine runs many runs at once; these separate where their memory would have to be counted.
     pub(super) in_lanes: bool,
 }
 
 impl<'p, S: Scalar> Machine<'p, S> {
-    /// A machine for that program.
+    /// A machine for a program.
     pub fn new(program: &'p Program<S>, limits: Limits) -> Self {
         Machine {
             program,
@@ -116,17 +116,17 @@ impl<'p, S: Scalar> Machine<'p, S> {
         }
     }
 
-    /// The machine with choices held, where there are any.
+    /// The machine with held choices, if there are any.
     pub fn holding(self, held: Option<&'p Held<S>>) -> Self {
         Machine { held, ..self }
     }
 
-    /// The machine with steps that its runs share, where there are any.
-    pub fn within(self, together: Option<&'p Together>) -> Self {
+    /// The machine with steps that its runs share, if there is such a limit.
+    pub fn within(self, together: Option<&'p SharedSteps>) -> Self {
         Machine { together, ..self }
     }
 
-    /// Takes the steps of a part of a run from those that are shared.
+    /// Takes the steps of a part of a run from the shared steps.
     #[inline]
     pub(super) fn take_steps(&self, steps: u64) -> Result<(), Fault> {
         if let Some(together) = self.together {
@@ -138,7 +138,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         Ok(())
     }
 
-    /// The program that it runs.
+    /// The machine's program.
     pub fn program(&self) -> &'p Program<S> {
         self.program
     }

@@ -75,7 +75,7 @@ impl<S: Scalar> Value<S> {
                 && let Some(memo) = &closure.memo
             {
                 let message = format!(
-                    "the memoised function `{}` belongs to the run around, and is given away",
+                    "the memoised function `{}` belongs to the enclosing run and cannot leave it",
                     memo.name
                 );
                 return Err(Fault::new("memo-outside", message));

@@ -367,12 +367,12 @@ mod tests {
                         }
                         at += step;
                     }
-                    let found = slice(&list, &value(lo), &value(hi), &V::Int(step));
-                    assert_eq!(found, Ok(V::list(ints(expected.iter().copied()))), "[{lo:?}:{hi:?}:{step}]");
+                    let sliced = slice(&list, &value(lo), &value(hi), &V::Int(step));
+                    assert_eq!(sliced, Ok(V::list(ints(expected.iter().copied()))), "[{lo:?}:{hi:?}:{step}]");
                     let range = V::Range(Arc::new(Range::new(0, 10, 1).expect("a step of one")));
-                    let found =
+                    let sliced =
                         slice(&range, &value(lo), &value(hi), &V::Int(step)).and_then(|r| iter_all(&r));
-                    assert_eq!(found, Ok(ints(expected)), "range[{lo:?}:{hi:?}:{step}]");
+                    assert_eq!(sliced, Ok(ints(expected)), "range[{lo:?}:{hi:?}:{step}]");
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! A chain of single-site proposals from the prior, small enough to be read as its own specification.
+//! A chain of single-site proposals from the prior, which is small enough to be its own specification.
 
 use niwaki_geom::Shape;
 use niwaki_math::{Dist, Stream};
@@ -11,7 +11,7 @@ use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::value::Value;
 use std::collections::HashMap;
 
-/// Draws new choices from their priors, or takes them from a table.
+/// Draws new choices from their priors, or takes their values from a table.
 struct Draws {
     seed: u64,
     visit: u64,
@@ -92,7 +92,7 @@ impl<'p> Chain<'p> {
         let log_ratio = sum.value() + (backward - forward) + (before as f64 / choices as f64).ln();
         let mut after = self.trace.totals().clone();
         after.add(change);
-        let accept = became == Change::Same
+        let accept = became == Change::Unchanged
             || (became == Change::Done && self.pick(step, 2).ln() < log_ratio && !after.is_impossible());
         if accept {
             self.trace.commit(self.program);
@@ -102,8 +102,8 @@ impl<'p> Chain<'p> {
         }
         match became {
             Change::Impossible => "impossible".into(),
-            // All that decides, to the bit.
-            Change::Same => "same".into(),
+            // The text has everything that decides, to the bit.
+            Change::Unchanged => "same".into(),
             Change::Done => format!("{accept} {log_ratio:?} {after:?} {choices}"),
         }
     }
@@ -127,7 +127,7 @@ impl<'p> Chain<'p> {
         self.trace.rollback(self.program);
     }
 
-    /// Moves several numbers at once, each to a near value.
+    /// Moves several numbers at once, each to a nearby value.
     pub fn block(&mut self, step: u64) -> String {
         let mut changes = Vec::new();
         for choice in self.trace.numbers() {
@@ -147,7 +147,7 @@ impl<'p> Chain<'p> {
         self.decide(step, change)
     }
 
-    /// Log densities of proposing these changes and their reverse after a run; the changes are undone.
+    /// The log densities of proposing these changes and their reverse after a run; the changes are undone.
     pub fn forward_and_backward(&mut self, changes: Vec<Changed<f64>>) -> (f64, f64) {
         let mut draws = Draws { seed: self.seed, visit: 1, known: HashMap::new() };
         self.machine.change(&mut self.trace, changes, self.strategy, &mut draws).expect("a run");
@@ -156,18 +156,18 @@ impl<'p> Chain<'p> {
         both
     }
 
-    /// Everything that the trace holds, as text.
+    /// The contents of the trace, as text.
     pub fn dump(&self) -> String {
         let mut text = format!("{:?} {:?}\n", self.trace.result(), self.trace.totals());
         self.trace.visit(self.program, |place, item| {
-            let what = match item {
+            let text_of_item = match item {
                 Item::Choice(value, log) => format!("{value:?} {log:?}"),
                 Item::Held(value, log) => format!("held {value:?} {log:?}"),
                 Item::Factor(log) => format!("{log:?}"),
                 Item::Emit(primitive) => format!("{:?}", primitive.aabb()),
                 Item::Query(key, value) => format!("{key:?} = {value:?}"),
             };
-            text += &format!("{} {what}\n", place.path());
+            text += &format!("{} {text_of_item}\n", place.path());
         });
         for choice in self.trace.numbers() {
             text += &format!("{:x} ", self.trace.address(self.program, choice));
@@ -176,7 +176,7 @@ impl<'p> Chain<'p> {
     }
 }
 
-/// The sums of a fresh run with the chain's choices; its transaction is still open.
+/// The sums of a new run with the chain's choices; its transaction is still open.
 pub fn fresh_totals(program: &Program, chain: &Chain) -> Totals {
     let mut known = HashMap::new();
     chain.trace.visit(program, |place, item| {

@@ -1,5 +1,5 @@
-//! The claim: however much of a run is repeated, the trace is the same to the bit: four strategies agree, a rollback
-//! restores everything, and the sums are those of a fresh run with the same choices.
+//! The claim: the trace is the same to the bit, whichever part of a run is repeated. The four strategies agree,
+//! a rollback restores everything, and the sums equal those of a new run with the same choices.
 
 mod chain;
 mod programs;
@@ -35,22 +35,22 @@ fn four_strategies_make_the_same_chain() {
                     assert_eq!(&fresh, chains[3].trace.totals(), "{name}, seed {seed}, step {step}: sums");
                 }
             }
-            assert!(chains[0].accepted > 0, "{name}: nothing was ever accepted");
+            assert!(chains[0].accepted > 0, "{name}: no proposal was accepted");
         }
     }
 }
 
 #[test]
-fn to_keep_all_variables_changes_nothing() {
-    let mut kept = 0;
+fn readable_variables_do_not_change_a_chain() {
+    let mut visible = 0;
     for (name, text) in PROGRAMS {
         let plain = compiled(text);
-        let keeping =
+        let with_scope =
             compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
-        kept += keeping.functions.iter().map(|f| f.scope.len()).sum::<usize>();
+        visible += with_scope.functions.iter().map(|f| f.scope.len()).sum::<usize>();
         for seed in 0..3 {
             let mut rerun = Chain::start(&plain, Strategy::Rerun, seed);
-            let start = |strategy: &Strategy| Chain::start(&keeping, *strategy, seed);
+            let start = |strategy: &Strategy| Chain::start(&with_scope, *strategy, seed);
             let mut chains: Vec<Chain> = STRATEGIES.iter().map(start).collect();
             for step in 0..200 {
                 let outcome = rerun.step(step);
@@ -64,7 +64,7 @@ fn to_keep_all_variables_changes_nothing() {
             }
         }
     }
-    assert!(kept > 4 * PROGRAMS.len(), "{kept} variables");
+    assert!(visible > 4 * PROGRAMS.len(), "{visible} variables");
 }
 
 #[test]
@@ -83,9 +83,10 @@ fn a_block_of_changes_agrees_with_a_rerun() {
     }
 }
 
-/// A changed choice that the run no longer reaches does not count in the move's density; one that it reaches does.
+/// The claim: a changed choice that the run no longer reaches does not count in the move's density; a choice
+/// that it reaches does.
 #[test]
-fn what_is_not_met_again_was_not_proposed() {
+fn choices_that_are_not_reached_do_not_count_in_the_proposal() {
     let program = compiled(
         r#"(module (fn "m" (params) (set $b (sample (dist bernoulli 0.5)))
             (if $b (then (set $x (sample (dist gaussian 0.0 1.0))) (do (factor $x)))) (return $b)) (entry "m"))"#,
@@ -103,15 +104,15 @@ fn what_is_not_met_again_was_not_proposed() {
         };
         let moved = || change(x, Value::Real(0.25), -1.0, -2.0);
         assert_eq!(chain.forward_and_backward(vec![moved()]), (-1.0, -2.0));
-        let gone = vec![change(b, Value::Bool(false), -0.5, -0.25), moved()];
-        assert_eq!(chain.forward_and_backward(gone), (-0.5, -0.25));
+        let unreached = vec![change(b, Value::Bool(false), -0.5, -0.25), moved()];
+        assert_eq!(chain.forward_and_backward(unreached), (-0.5, -0.25));
     }
 }
 
-/// Mutants: a slice of a choice, of a call's result, or of an argument or capture that does change alone, which ends
-/// before one of its instructions.
+/// Each mutant is a slice of a choice, of a call's result, or of a single changed argument or capture. The
+/// slice ends before one of its instructions.
 #[test]
-fn a_slice_that_leaves_out_an_instruction_is_detected() {
+fn a_slice_without_one_instruction_is_detected() {
     let program = compiled(
         r#"(module
           (fn "line" (params $n $a0 $sy)
@@ -173,8 +174,8 @@ fn a_rollback_restores_everything() {
 }
 
 #[test]
-fn call_sites_that_never_pay_are_switched_off_and_nothing_else_changes() {
-    // The inner call gets a number that changes with every proposal of the first choice.
+fn call_sites_without_benefit_are_switched_off_without_other_effects() {
+    // The argument of the inner call changes with every proposal of the first choice.
     let program = compiled(
         r#"(module (fn "leaf" (params $x) (do (observe (dist gaussian $x 1.0) 0.5)) (return $x))
           (fn "m" (params) (set $x (sample (dist gaussian 0.0 1.0))) (set $y (call "leaf" $x)) (return $y)) (entry "m"))"#,
@@ -192,9 +193,9 @@ fn call_sites_that_never_pay_are_switched_off_and_nothing_else_changes() {
 }
 
 #[test]
-fn nothing_is_left_behind() {
-    // Programs that create and remove activations hold no more after a long run than after a short one, up to
-    // the largest that they were.
+fn a_long_run_holds_no_more_memory_than_a_short_one() {
+    // Programs that create and remove activations hold no more after a long run than after a short run, up to
+    // their largest size.
     let program = compiled(programs::GEOMETRIC);
     let mut chain = Chain::start(&program, Strategy::C3, 3);
     let mut largest = [0; 2];

@@ -1,11 +1,11 @@
-//! The machine keeps what it claims, for programs as users write them and for texts that nobody should.
+//! Tests of the machine, for programs as users write them and for broken texts.
 //!
-//! * `running`: results, suspension, budgets and stacks of calls;
-//! * `native`: machine code does what the interpreter does;
+//! * `running`: results, suspension, budgets and call stacks;
+//! * `native`: machine code agrees with the interpreter;
 //! * `parts`: the part that was emitted last on the call path of a choice;
-//! * `mutated`: a text that was changed at random is refused, or runs.
+//! * `mutated`: a text with random changes is refused, or runs.
 //!
-//! One program, because each would compile the machine again.
+//! The tests are one program, because each program would compile the machine again.
 
 mod mutated;
 mod native;

@@ -1,4 +1,4 @@
-//! The claim: a text that was changed at random is refused, or runs to a value or a fault. Nothing panics.
+//! The claim: a text with random changes is refused, or runs to a value or a fault. Nothing panics.
 
 #[path = "../kept/programs.rs"]
 mod programs;
@@ -13,7 +13,7 @@ use niwaki_vm::value::{Value, repr};
 use programs::{PROGRAMS, compiled};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Parts of core form that the programs do not have.
+/// Parts of core form that are not in the other programs.
 const MORE: &str = r#"(module (file 0 "m.py") (class 0 "P" ("x" "y") namedtuple) (const 0 (list (dist bernoulli 0.5) 1 "a"))
   (fn @1:1-1:2 "g" (file 0) (params $a $b) (defaults 2) (captures $c) (return (add $a (mul $b $c))))
   (fn "m" (file 0) (params)
@@ -33,7 +33,7 @@ const MORE: &str = r#"(module (file 0 "m.py") (class 0 "P" ("x" "y") namedtuple)
     (return (list (sum (to_list (range 3))) (sorted $v true) (zip $v $v) (round 2.5) (sqrt 2) $t $d)))
   (entry "m"))"#;
 
-/// Numbers that decide (splitmix64).
+/// A random number generator (splitmix64).
 struct Random(u64);
 
 impl Random {
@@ -45,22 +45,22 @@ impl Random {
     }
 }
 
-/// The words of a text; parentheses are words.
+/// The words of a text, with parentheses as words.
 fn words(text: &str) -> Vec<String> {
-    let (mut found, mut word, mut quoted) = (vec![], String::new(), false);
+    let (mut words, mut word, mut quoted) = (vec![], String::new(), false);
     for c in text.chars() {
         let ends = !quoted && (c.is_whitespace() || "()".contains(c));
         if ends && !word.is_empty() {
-            found.push(std::mem::take(&mut word));
+            words.push(std::mem::take(&mut word));
         }
         quoted ^= c == '"';
         if !ends {
             word.push(c);
         } else if !c.is_whitespace() {
-            found.push(c.to_string());
+            words.push(c.to_string());
         }
     }
-    found
+    words
 }
 
 /// The end of the list or the word at `at`.
@@ -141,10 +141,10 @@ fn mutated(text: &str, random: &mut Random) -> String {
     words.join(" ")
 }
 
-/// Answers choices with their first values, never pauses.
-struct First(u64);
+/// Answers choices with their values in turn, and never pauses.
+struct InTurn(u64);
 
-impl Answers<f64> for First {
+impl Answers<f64> for InTurn {
     fn choice(&mut self, _: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         self.0 += 1;
         let draw = match dist.enumerate() {
@@ -158,17 +158,17 @@ impl Answers<f64> for First {
     }
 }
 
-/// How far a text comes: 0 is no core form, 1 no program, 2 a fault, 3 a value.
+/// The stage that a text reaches: 0 is not core form, 1 is not a program, 2 is a fault, 3 is a value.
 fn stage(text: &str) -> usize {
     let Ok(module) = parse(text) else { return 0 };
-    assert!(parse(&niwaki_vm::core::print::print(&module)).is_ok(), "what is printed can be read");
+    assert!(parse(&niwaki_vm::core::print::print(&module)).is_ok(), "the printed text can be read");
     let Ok(program) = compile::<f64>(&module, vec![]) else { return 1 };
     let limits = Limits { steps: 20_000, bytes: 1 << 24 };
     let mut stage = 3;
     for depth_first in [true, false] {
         let mut machine = Machine::new(&program, limits);
         let Ok(mut state) = machine.start(&[], depth_first) else { return 2 };
-        match machine.finish(&mut state, &mut First(0)) {
+        match machine.finish(&mut state, &mut InTurn(0)) {
             Ok(()) => _ = repr(&state.result()),
             Err(_) => stage = 2,
         }
@@ -176,17 +176,17 @@ fn stage(text: &str) -> usize {
     stage
 }
 
-/// A panic, with its text.
+/// The message of a panic, if the text causes one.
 fn panics(text: &str) -> Option<String> {
-    let found = catch_unwind(AssertUnwindSafe(|| stage(text)));
-    found.err().map(|panic| {
-        let said = panic.downcast_ref::<String>().cloned();
-        said.or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string)).unwrap_or_default()
+    let outcome = catch_unwind(AssertUnwindSafe(|| stage(text)));
+    outcome.err().map(|panic| {
+        let message = panic.downcast_ref::<String>().cloned();
+        message.or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string)).unwrap_or_default()
     })
 }
 
 #[test]
-fn a_changed_text_does_not_panic() {
+fn a_mutated_text_does_not_panic() {
     let from = |name: &str, other| std::env::var(name).map_or(other, |text| text.parse().expect("a number"));
     let (seed, count) = (from("NIWAKI_SEED", 1), from("NIWAKI_MUTANTS", 4000));
     let mut random = Random(seed);
@@ -204,7 +204,7 @@ fn a_changed_text_does_not_panic() {
 }
 
 #[test]
-fn texts_that_once_panicked() {
+fn texts_that_once_panicked_are_refused() {
     assert_eq!(stage(MORE), 3);
     assert!(!compiled(MORE).functions.is_empty());
     for body in [
@@ -223,7 +223,7 @@ fn texts_that_once_panicked() {
 }
 
 #[test]
-fn the_compiler_takes_no_time_for_what_the_run_would() {
+fn the_compiler_leaves_long_computations_to_the_run() {
     for body in ["(to_list (range 1000000000000))", "(method \"a\" \"ljust\" 100000000000)"] {
         assert_eq!(
             stage(&format!("(module (fn \"m\" (params) (return {body})) (entry \"m\"))")),

@@ -1,5 +1,5 @@
-//! The claim: machine code gives the same values to the last bit, the same faults at the same place, and takes the same
-//! steps as the interpreter.
+//! The claim: machine code computes the same values to the last bit, raises the same faults at the same place,
+//! and takes the same steps as the interpreter.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 #[path = "../support/halves.rs"]
@@ -12,7 +12,7 @@ use niwaki_vm::machine::{Limits, Machine};
 use niwaki_vm::passes::compile;
 use niwaki_vm::value::repr;
 
-/// What a run gives, or the fault with its stack; its steps, and the bytes that it is charged.
+/// The result of a run, or the fault with its stack; the steps of the run, and the bytes that it is charged.
 fn outcome(program: &Program, limits: Limits) -> (String, u64, usize) {
     let mut machine = Machine::new(program, limits);
     let mut state = machine.start(&[], true).unwrap();
@@ -22,7 +22,8 @@ fn outcome(program: &Program, limits: Limits) -> (String, u64, usize) {
     }
 }
 
-/// The same with machine code and without, with all limits of steps up to a number. Gives the result.
+/// Checks that runs with and without machine code agree, with all limits of steps up to a number. Returns the
+/// result.
 fn agree(text: &str, most: u64) -> String {
     let program = compile::<f64>(&parse(text).unwrap(), vec![]).unwrap();
     let (plain, quick) = (program.clone().with_machine_code_after(0), program.with_machine_code_after(1));
@@ -33,7 +34,7 @@ fn agree(text: &str, most: u64) -> String {
     outcome(&quick, Limits::default()).0
 }
 
-/// Runs go on while their code is written; when it comes, it changes nothing in them.
+/// Runs continue while their code is written; the code changes nothing in them.
 #[test]
 fn a_run_does_not_wait_for_its_code() {
     if std::env::var_os("NIWAKI_JIT").is_some() {
@@ -44,9 +45,9 @@ fn a_run_does_not_wait_for_its_code() {
     );
     let program = compile::<f64>(&parse(&text).unwrap(), vec![]).unwrap();
     let expected = outcome(&program.clone().with_machine_code_after(0), Limits::default());
-    let begun = std::time::Instant::now();
+    let start = std::time::Instant::now();
     while program.machine_code() == 0 {
-        assert!(begun.elapsed().as_secs() < 120, "no code was made");
+        assert!(start.elapsed().as_secs() < 120, "no code was written");
         assert_eq!(outcome(&program, Limits::default()), expected);
     }
     assert_eq!(outcome(&program, Limits::default()), expected);
@@ -57,7 +58,7 @@ fn entry(body: &str) -> String {
 }
 
 #[test]
-fn loops_of_numbers() {
+fn loops_of_numbers_agree() {
     let sum = entry("(set $s 0) (for $i (range 1000) (body (set $s (add $s (mul $i 0.5))))) (return $s)");
     assert_eq!(agree(&sum, 40), "249750.0");
 }
@@ -73,7 +74,7 @@ fn a_variable_may_change_its_kind() {
 }
 
 #[test]
-fn a_whole_number_beyond_the_reals() {
+fn a_whole_number_without_an_exact_real_is_compared_exactly() {
     let text = entry(
         "(set $n 9007199254740993) (set $x 9007199254740992.0) (set $k 0) (for $i (range 9) (body (if (gt $n $x) (then (set $k (add $k 1)))))) (return $k)",
     );
@@ -92,7 +93,7 @@ fn whole_numbers_are_divided_as_python_does() {
 }
 
 #[test]
-fn faults_are_those_of_the_interpreter() {
+fn faults_agree_with_the_interpreter() {
     let cases = [
         (
             "(set $x 9) (while true (body (set $x (sub $x 1)) (set $y (div 1 $x)))) (return 0)",
@@ -117,8 +118,8 @@ fn faults_are_those_of_the_interpreter() {
         ),
     ];
     for (body, code) in cases {
-        let found = agree(&entry(body), 30);
-        assert!(found.contains(code), "{found}");
+        let outcome = agree(&entry(body), 30);
+        assert!(outcome.contains(code), "{outcome}");
     }
 }
 
@@ -128,12 +129,12 @@ fn a_call_in_progress_is_in_the_stack_of_a_fault() {
         (fn \"twice\" (params $x) (set $y (call \"half\" $x)) (return (mul 2 $y)))
         (fn \"m\" (params) (set $x 8) (while true (body (set $x (sub $x 1)) (set $z (call \"twice\" $x)))) (return 0))
         (entry \"m\"))";
-    let found = agree(text, 60);
-    assert!(["half", "twice", "division-by-zero"].iter().all(|word| found.contains(word)), "{found}");
+    let outcome = agree(text, 60);
+    assert!(["half", "twice", "division-by-zero"].iter().all(|word| outcome.contains(word)), "{outcome}");
 }
 
 #[test]
-fn elements_of_what_is_shared() {
+fn elements_of_shared_values_agree() {
     let text = entry(
         "(set $rows (list (tuple 1.5 2) (tuple 2.5 3) (tuple 3.5 4))) (set $s 0) (set $last none)
          (for $k (range 5) (body (for $row $rows (body (set $last $row) (set $s (add $s (mul (index $row 0) (index $row 1))))))))
@@ -147,27 +148,27 @@ fn elements_of_what_is_shared() {
 }
 
 #[test]
-fn fields_of_records_and_parts_that_stay() {
+fn fields_of_records_and_fresh_values_agree() {
     let text = "(module (class 0 \"P\" (\"x\" \"y\") namedtuple) (fn \"m\" (params)
         (set $ps (list (record 0 1.5 2) (record 0 2.5 (list 7)))) (set $s 0) (set $v (vec 1.0 2.0)) (set $w $v) (set $kept none)
         (for $k (range 6) (body (set $p (index $ps (mod $k 2))) (set $s (add $s (field $p \"x\")))
             (set $v (mul $v 0.5)) (set $w $v) (set $kept (tuple $s $k))
             (set $y (field $p \"y\"))))
         (return (tuple $s $v $w $kept $y $p))) (entry \"m\"))";
-    let found = agree(text, 30);
+    let outcome = agree(text, 30);
     assert!(
-        found.starts_with("(12.0, vec(0.015625, 0.03125), vec(0.015625, 0.03125), (12.0, 5), [7]"),
-        "{found}"
+        outcome.starts_with("(12.0, vec(0.015625, 0.03125), vec(0.015625, 0.03125), (12.0, 5), [7]"),
+        "{outcome}"
     );
 }
 
-/// A program at random: numbers, loops, branches, calls, elements; sometimes a fault.
+/// Writes random programs: numbers, loops, branches, calls, elements; sometimes a fault.
 struct Writer {
     dice: u64,
     text: String,
     depth: usize,
     loops: usize,
-    /// Whether functions make choices now.
+    /// Whether the function makes choices.
     chooses: bool,
 }
 
@@ -250,8 +251,8 @@ impl Writer {
                 }
                 6 if self.depth > 0 => {
                     let test = self.expression(1);
-                    let what = ["break", "continue"][self.roll(2) as usize];
-                    self.text += &format!("(if (lt {test} 0) (then ({what}))) ");
+                    let jump = ["break", "continue"][self.roll(2) as usize];
+                    self.text += &format!("(if (lt {test} 0) (then ({jump}))) ");
                 }
                 6 => self.text += "(set $t (tuple $a $b)) (unpack ($b $a) $t) ",
                 7 | 8 => {
@@ -313,11 +314,11 @@ impl Writer {
             let start = writer.text.len();
             writer.statements(1);
             writer.text += "(return (add $a $c))) ";
-            let own = writer.text.split_off(start);
+            let body = writer.text.split_off(start);
             writer.text += &if k == 0 {
-                own.replace("(call \"f0\"", "(add").replace("(call \"f1\"", "(sub")
+                body.replace("(call \"f0\"", "(add").replace("(call \"f1\"", "(sub")
             } else {
-                own.replace("(call \"f1\"", "(call \"f0\"")
+                body.replace("(call \"f1\"", "(call \"f0\"")
             };
         }
         writer.text += "(fn \"g\" (params $a $v) (set $b (sample (dist uniform 0.0 1.0))) (set $c 2) (set $d $a) (set $l (list 1 2 3 4.5)) (set $p (tuple $b 2)) (set $w $v) ";
@@ -334,7 +335,7 @@ impl Writer {
 }
 
 #[test]
-fn programs_at_random() {
+fn programs_at_random_agree() {
     let mut faults = 0;
     let seeds = std::env::var("SEEDS").ok().and_then(|n| n.parse().ok()).unwrap_or(400);
     for seed in 0..seeds {
@@ -346,9 +347,9 @@ fn programs_at_random() {
             [(60_000, 1 << 26), (7, 1 << 26), (300, 1 << 26), (60_000, 1 << 26), (60_000, 12_000)]
         {
             let limits = Limits { steps, bytes };
-            let (one, other) = (outcome(&plain, limits), outcome(&quick, limits));
-            faults += u32::from(one.0.contains("code:"));
-            assert_eq!(one, other, "seed {seed}, {steps} steps, {bytes} bytes: {text}");
+            let (interpreted, compiled) = (outcome(&plain, limits), outcome(&quick, limits));
+            faults += u32::from(interpreted.0.contains("code:"));
+            assert_eq!(interpreted, compiled, "seed {seed}, {steps} steps, {bytes} bytes: {text}");
         }
     }
     let all = 5 * seeds as u32;

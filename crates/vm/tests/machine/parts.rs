@@ -1,5 +1,5 @@
-//! The claim: a choice knows the box of the part that was emitted last on its call path, the same in every order of
-//! running, and a run that does not ask for it knows none.
+//! The claim: a choice knows the box of the part that was emitted last on its call path. The box is the same in
+//! every order of running, and a run that does not record parts has none.
 
 use niwaki_geom::{Aabb, Shape};
 use niwaki_math::Dist;
@@ -41,14 +41,15 @@ const PROGRAM: &str = r#"(module
     (set $k (sample (dist bernoulli 0.5)))
     (return 0)) (entry "m"))"#;
 
-/// The part at every choice, by the choice's address, and the labels in the order of running. Pauses at each `emit`.
+/// Records the part at every choice, by the choice's address, and the labels in the order of running. Pauses at
+/// each `emit`.
 #[derive(Default)]
-struct Noted {
+struct PartRecord {
     parts: BTreeMap<u128, (String, Option<Aabb>)>,
     order: Vec<(String, f64)>,
 }
 
-impl Answers<f64> for Noted {
+impl Answers<f64> for PartRecord {
     fn choice(&mut self, at: &At<'_, f64>, dist: &Dist) -> Result<Answer<Value>, Fault> {
         let (label, part) = (at.site.label.to_string(), at.part().copied());
         self.order.push((label.clone(), part.map_or(0.0, |part| part.center().x)));
@@ -63,38 +64,38 @@ impl Answers<f64> for Noted {
     }
 }
 
-/// Runs, each time the runnable future that `pick` names; goes on with a copy of the state after every pause.
-fn run(depth_first: bool, asks: bool, pick: impl Fn(usize) -> usize) -> Noted {
+/// Runs the futures in the order that `pick` chooses, and continues with a copy of the state after every pause.
+fn run(depth_first: bool, asks: bool, pick: impl Fn(usize) -> usize) -> PartRecord {
     let program = compile(&parse(PROGRAM).expect("core form"), vec![]).expect("a program");
-    let (mut machine, mut noted) = (Machine::new(&program, Limits::default()), Noted::default());
+    let (mut machine, mut record) = (Machine::new(&program, Limits::default()), PartRecord::default());
     let mut state = machine.start(&[], depth_first).expect("a start");
     if asks {
         state.note_parts();
     }
     while !state.has_ended() {
         let next = state.runnable().get(pick(state.runnable().len())).expect("a place");
-        if machine.resume(&mut state, next, &mut noted).expect("a run") == Stop::Paused {
+        if machine.resume(&mut state, next, &mut record).expect("a run") == Stop::Paused {
             let mut copy = State::clone(&state);
             copy.clone_from(&state);
             state = copy;
         }
     }
-    noted
+    record
 }
 
 #[test]
 fn a_choice_knows_the_last_part_on_its_call_path() {
-    let noted = run(true, true, |_| 0);
+    let record = run(true, true, |_| 0);
     let expected = [
         ("a", 0.0),
         ("b", 2.0),
-        // A future, and a call: both see what their caller had; what they emitted is theirs.
+        // A future and a call both see the part of their caller; the parts that they emit are their own.
         ("before", 2.0),
         ("after", 10.0),
         ("before", 2.0),
         ("after", 20.0),
         ("c", 2.0),
-        // Iterations hand it on, also those of the loop inside.
+        // Iterations pass the part on, also the iterations of an inner loop.
         ("d", 2.0),
         ("before", 30.0),
         ("after", 40.0),
@@ -108,9 +109,9 @@ fn a_choice_knows_the_last_part_on_its_call_path() {
         ("h", 61.0),
         ("k", 61.0),
     ];
-    let found: Vec<(&str, f64)> = noted.order.iter().map(|(label, x)| (&**label, *x)).collect();
-    assert_eq!(found, expected);
-    for part in noted.parts.values().filter_map(|(_, part)| *part) {
+    let parts_by_label: Vec<(&str, f64)> = record.order.iter().map(|(label, x)| (&**label, *x)).collect();
+    assert_eq!(parts_by_label, expected);
+    for part in record.parts.values().filter_map(|(_, part)| *part) {
         assert_eq!(part.extent().to_array(), [1.0, 2.0, 4.0]);
         assert_eq!(part.center().to_array()[1..], [0.0, 0.0]);
     }
@@ -125,15 +126,15 @@ fn the_order_of_running_does_not_matter() {
 }
 
 #[test]
-fn a_run_that_does_not_ask_knows_none() {
+fn a_run_that_does_not_record_parts_has_none() {
     assert!(run(false, false, |_| 0).parts.values().all(|(_, part)| part.is_none()));
 }
 
 #[test]
-fn a_kept_run_says_the_same() {
+fn a_kept_run_has_the_same_parts() {
     let program = compile(&parse(PROGRAM).expect("core form"), vec![]).expect("a program");
     let mut machine = Machine::new(&program, Limits::default());
-    let (mut trace, _) = machine.begin(&[], &mut Noted::default()).expect("a run");
+    let (mut trace, _) = machine.begin(&[], &mut PartRecord::default()).expect("a run");
     trace.commit(&program);
     let parts = run(true, true, |_| 0).parts;
     assert_eq!(trace.len(), parts.len());
@@ -144,28 +145,28 @@ fn a_kept_run_says_the_same() {
 }
 
 #[test]
-fn a_part_that_is_run_apart_says_the_same() {
+fn a_part_that_runs_separately_has_the_same_parts() {
     let program = compile(&parse(PROGRAM).expect("core form"), vec![]).expect("a program");
     let mut machine = Machine::new(&program, Limits::default());
-    let (mut trace, _) = machine.begin(&[], &mut Noted::default()).expect("a run");
+    let (mut trace, _) = machine.begin(&[], &mut PartRecord::default()).expect("a run");
     trace.commit(&program);
     let parts = run(true, true, |_| 0).parts;
-    let mut apart = vec![Part::WHOLE];
+    let mut parts_to_run = vec![Part::WHOLE];
     let mut seen = 0;
-    while let Some(part) = apart.pop() {
+    while let Some(part) = parts_to_run.pop() {
         trace.pieces(&program, part, |piece| {
             if let Piece::Part(below) = piece {
-                apart.push(below);
+                parts_to_run.push(below);
             }
         });
         let mut state = trace.start_part(&program, part, false);
         trace.note_parts(&program, part, &mut state);
-        let mut noted = Noted::default();
+        let mut record = PartRecord::default();
         while let Some(next) = state.runnable().first() {
-            machine.resume(&mut state, next, &mut noted).expect("a run");
+            machine.resume(&mut state, next, &mut record).expect("a run");
         }
-        for (address, own) in &noted.parts {
-            assert_eq!(parts[address], *own);
+        for (address, part) in &record.parts {
+            assert_eq!(parts[address], *part);
             seen += 1;
         }
     }

@@ -1,5 +1,5 @@
-//! The claim: a compiled program has the results of core form, suspends where it may, never uses the host stack,
-//! and stops at its budgets with the model's own call stack.
+//! The claim: a compiled program has the results of core form. It suspends where it may, never uses the host
+//! stack, and stops at its budgets with the model's own call stack.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_math::{Dist, Draw};
@@ -14,7 +14,8 @@ use niwaki_vm::passes::{Scope, compile, compile_with_scope};
 use niwaki_vm::value::{Value, repr};
 use std::collections::BTreeSet;
 
-/// Answers choices with 1, 2, 3, ... (or their least value), pauses at factors if set, and logs everything.
+/// Answers choices with 1, 2, 3, ... (or their values in turn), pauses at factors if `pause` is set, and logs
+/// everything.
 #[derive(Default)]
 struct Script {
     count: i64,
@@ -78,12 +79,12 @@ fn entry(body: &str) -> String {
     format!("(module (fn \"m\" (params) {body}) (entry \"m\"))")
 }
 
-/// A choice that nothing reads: makes the function around it effectful.
+/// A choice that nothing reads: it makes the function around it effectful.
 const EFFECT: &str = "(do (sample (dist bernoulli 0.5)))";
 
 #[test]
-fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
-    // Each body is run as it is (a plain loop) and with a choice in every iteration (a lifted loop).
+fn merges_loops_and_exits_do_not_depend_on_effects() {
+    // Each body runs as it is (a plain loop) and with a choice in every iteration (a lifted loop).
     let bodies = [
         (
             "(set $s 0) (for $i (range 5) (body EFFECT (set $s (add $s $i)))) (return (tuple $s $i))",
@@ -115,7 +116,7 @@ fn merges_loops_and_exits_are_the_same_with_and_without_effects() {
             "(set $n 0) (while true (body EFFECT (set $n (add $n 1)) (if (gt $n 6) (then (break)) (else (continue))))) (return $n)",
             "7",
         ),
-        // What only the test reads is carried.
+        // A variable that only the test reads is carried.
         (
             "(set $more true) (set $n 0) (while $more (body EFFECT (set $more (lt $n 3)) (set $n (add $n 1)))) (return $n)",
             "4",
@@ -142,7 +143,7 @@ fn a_variable_read_before_it_is_assigned_is_a_fault() {
 }
 
 #[test]
-fn closures_defaults_and_records() {
+fn closures_defaults_and_records_have_their_values() {
     let text = r#"(module (class 0 "P" ("x" "y")) (fn "add" (params $a $b) (defaults $k) (captures $k) (return (add (mul 100 $k) (add $a $b))))
         (fn "m" (params) (set $f (closure "add" 7)) (set $p (record 0 (apply $f 1) (apply $f 1 2)))
         (return (tuple (field $p "x") (field $p "y") (cond (and 1 0) 5 (or 0 6))))) (entry "m"))"#;
@@ -161,8 +162,8 @@ fn addresses_are_paths_of_sites() {
 }
 
 #[test]
-fn addresses_do_not_depend_on_which_variable_of_a_name_it_is() {
-    let found = |x: &str, y: &str| {
+fn addresses_do_not_depend_on_the_numbers_of_variables() {
+    let script_of = |x: &str, y: &str| {
         let text = format!(
             "(module (fn \"low\" (params) (set ${x} (sample (dist gaussian 0 1))) (return ${x}))
             (fn \"m\" (params) (for ${y} (range 2) (body (set ${x} (call \"low\")) (set $f (closure \"low\"))
@@ -171,11 +172,11 @@ fn addresses_do_not_depend_on_which_variable_of_a_name_it_is() {
         let (_, script) = run_with(&text, Limits::default()).unwrap_or_else(|f| panic!("{f}"));
         (script.paths, script.addresses)
     };
-    assert_eq!(found("x", "i"), found("x%1", "i%2"));
+    assert_eq!(script_of("x", "i"), script_of("x%1", "i%2"));
 }
 
 #[test]
-fn two_hundred_thousand_calls_deep_runs_and_is_dropped() {
+fn a_stack_of_200000_calls_runs_and_is_dropped() {
     for effect in ["", EFFECT] {
         let text = format!(
             r#"(module (fn "down" (params $n) {effect} (if (eq $n 0) (then (return (tuple 0 none))))
@@ -187,7 +188,7 @@ fn two_hundred_thousand_calls_deep_runs_and_is_dropped() {
 }
 
 #[test]
-fn budgets_stop_what_does_not_end_and_show_the_stack() {
+fn budgets_stop_endless_runs_and_show_the_stack() {
     let steps = Limits { steps: 100_000, ..Limits::default() };
     let memory = Limits { bytes: 10 << 20, ..Limits::default() };
     let endless = entry("(set $n 0) (while true (body (set $n (add $n 1))))");
@@ -199,37 +200,37 @@ fn budgets_stop_what_does_not_end_and_show_the_stack() {
             r#"(module (fn "f" (params $n) {effect} (return (add 1 (call @7:3-7:9 "f" (add $n 1)))))
                (fn "m" (params) (return (call @9:1-9:5 "f" 0))) (entry "m"))"#
         );
-        let found = fault(&text, memory);
-        assert_eq!(found.fault.code, "memory-budget");
-        assert!(found.omitted > 1000);
-        assert_eq!((&*found.stack[0].function, found.stack[0].span.line), ("m", 9));
-        assert_eq!((&*found.stack[1].function, found.stack[1].span.line), ("f", 7));
+        let report = fault(&text, memory);
+        assert_eq!(report.fault.code, "memory-budget");
+        assert!(report.omitted > 1000);
+        assert_eq!((&*report.stack[0].function, report.stack[0].span.line), ("m", 9));
+        assert_eq!((&*report.stack[1].function, report.stack[1].span.line), ("f", 7));
     }
 }
 
 #[test]
-fn values_count_while_they_are_held_and_what_does_not_fit_is_refused() {
+fn values_count_while_they_are_held_and_large_values_are_refused() {
     let bytes = |bytes| Limits { bytes, ..Limits::default() };
-    let kept = |made: &str| {
+    let kept = |element: &str| {
         entry(&format!(
-            "(set $xs (list)) (for $i (range 100000) (body (set $xs (add $xs (list {made}))))) (return (len $xs))"
+            "(set $xs (list)) (for $i (range 100000) (body (set $xs (add $xs (list {element}))))) (return (len $xs))"
         ))
     };
     let dropped = entry(
         "(set $n 0) (for $i (range 20000) (body (set $n (add $n (len (mul (list $i) 1000)))))) (return $n)",
     );
-    for made in [
+    for element in [
         "(mul (list $i) 100)",
         "(mul \"text \" (add 100 (mod $i 100)))",
         "(tuple $i $i $i $i $i)",
         "(vec $i 2.0 3.0)",
     ] {
-        assert_eq!(fault(&kept(made), bytes(2 << 20)).fault.code, "memory-budget", "{made}");
+        assert_eq!(fault(&kept(element), bytes(2 << 20)).fault.code, "memory-budget", "{element}");
     }
-    // 320 MB in all, 16 kB at a time.
+    // The loop makes 320 MB in all, but holds 16 kB at a time.
     assert_eq!(run_with(&dropped, bytes(1 << 20)).map(|(value, _)| value).ok().as_deref(), Some("20000000"));
-    let found = fault(&entry("(return (len (mul (list 1) 60000000)))"), bytes(100 << 20));
-    assert!(found.fault.message.contains("100 MB"), "{found}");
+    let report = fault(&entry("(return (len (mul (list 1) 60000000)))"), bytes(100 << 20));
+    assert!(report.fault.message.contains("100 MB"), "{report}");
     let below = entry("(return (len (mul (list 1) 4000000)))");
     assert!(run_with(&below, bytes(100 << 20)).is_ok());
 }
@@ -238,12 +239,12 @@ fn values_count_while_they_are_held_and_what_does_not_fit_is_refused() {
 fn an_operation_takes_a_step_for_every_eight_elements() {
     let text = entry("(set $xs (mul (list 1) 80000)) (return (sum $xs))");
     assert!(run_with(&text, Limits { steps: 20_000, ..Limits::default() }).is_ok());
-    let found = fault(&text, Limits { steps: 19_999, ..Limits::default() });
-    assert_eq!(found.fault.code, "step-budget");
+    let report = fault(&text, Limits { steps: 19_999, ..Limits::default() });
+    assert_eq!(report.fault.code, "step-budget");
 }
 
 #[test]
-fn a_paused_run_goes_on_where_it_was_and_forks_apart() {
+fn a_paused_run_resumes_at_its_place_and_its_fork_is_separate() {
     let text = r#"(module (fn "m" (params) (set $xs (list)) (for $i (range 4) (body
         (set $x (sample (dist gaussian 0 1))) (do (factor $x)) (set $xs (append $xs $x)))) (return $xs)) (entry "m"))"#;
     let program = program(text);
@@ -288,22 +289,22 @@ fn futures_wait_for_each_other_and_a_cycle_is_a_fault() {
 }
 
 #[test]
-fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
-    // Which future runs next: the first that can, the last, or each in turn. Every one stops at a factor, so that
-    // those who force it wait, and others run in between.
+fn a_force_that_waits_reads_its_future_again() {
+    // The next future is the first runnable one, the last, or each in turn. Every future stops at a factor, so
+    // that forces wait and other futures run in between.
     let helpers = r#"(fn "leaf" (params $k) (do (factor 0.0)) (return (mul $k 10)))
         (fn "pair" (params $k) (return (tuple (future "leaf" $k) (future "leaf" (add $k 1)))))
         (fn "late" (params $f) (do (factor 0.0)) (return (add 1 (force $f))))
         (fn "get" (params) (captures $fs) (return (force (index $fs 1))))
         (fn "nested" (params $k) (return (future "leaf" $k)))"#;
     let bodies = [
-        // Chosen by a branch.
+        // A future that a branch chooses.
         ("(set $f (cond (eq 1 1) (future \"leaf\" 7) none)) (return (force $f))", "70"),
         ("(set $f none) (if (eq 1 1) (then (set $f (future \"leaf\" 7)))) (return (force $f))", "70"),
-        // Unpacked, and two in one expression.
+        // Futures from an unpacked tuple, and two in one expression.
         ("(unpack ($a $b) (call \"pair\" 1)) (return (sub (force $a) (force $b)))", "-10"),
         ("(return (sub (force (future \"leaf\" 3)) (force (future \"leaf\" 1))))", "20"),
-        // In a list, a tuple, a dictionary.
+        // Futures in a list, a tuple and a dictionary.
         (
             "(set $fs (list (future \"leaf\" 1) (future \"leaf\" 2))) (set $s 0) (for $i (range 2) (body (set $s (add (mul 100 $s) (force (index $fs $i)))))) (return $s)",
             "1020",
@@ -316,13 +317,13 @@ fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
             "(set $d (dict (\"a\" \"b\") (future \"leaf\" 1) (future \"leaf\" 2))) (return (add (force (index $d \"b\")) (force (index $d \"a\"))))",
             "30",
         ),
-        // Handed to a call, to another future, and captured.
+        // Futures as arguments of a call and of a future, and in a capture.
         (
             "(set $f (future \"late\" (future \"leaf\" 5))) (return (add (force $f) (call \"late\" (future \"leaf\" 6))))",
             "112",
         ),
         ("(set $g (closure \"get\" (call \"pair\" 8))) (return (apply $g))", "90"),
-        // A future that returns one.
+        // A future that returns a future.
         ("(return (force (force (future \"nested\" 3))))", "30"),
     ];
     for (body, expected) in bodies {
@@ -343,10 +344,11 @@ fn a_force_that_waits_reads_its_future_again_wherever_that_lies() {
     }
 }
 
-/// The claim: whatever reads a future that is not forced is a fault with one code, whether the future may still run
-/// (orders that are not depth first), has returned (depth first), or is kept (chains), its function pure or not.
+/// The claim: every read of a future that is not forced is a fault with one code. The future may still run
+/// (orders that are not depth first), have returned (depth first), or be kept (chains); its function may be
+/// pure or not.
 #[test]
-fn a_look_at_a_future_that_is_not_forced_is_a_fault() {
+fn a_read_of_a_future_that_is_not_forced_is_a_fault() {
     let helpers = r#"
         (fn "leaf" (params $k) (do (factor 0.1)) (return (mul 10 $k)))
         (fn "now" (params $k) (return (mul 10 $k)))"#;
@@ -388,13 +390,13 @@ fn a_look_at_a_future_that_is_not_forced_is_a_fault() {
         let (deep, wide) = (ran(true), ran(false));
         let kept =
             machine.begin(&[], &mut Script::default()).map(|_| "an answer").map_err(|met| met.fault.code);
-        for found in [deep, wide, kept] {
-            assert_eq!(found, Err("future-not-forced"), "{leaf}: {look}");
+        for outcome in [deep, wide, kept] {
+            assert_eq!(outcome, Err("future-not-forced"), "{leaf}: {look}");
         }
     }
 }
 
-/// At every choice: what is visible, and the x of the place that the program looks from.
+/// Records the visible variables at every choice, and the x of the place that the program looks from.
 #[derive(Default)]
 struct Scopes {
     count: i64,
@@ -419,7 +421,7 @@ impl Answers<f64> for Scopes {
     }
 }
 
-/// What all choices of a program see.
+/// The records at all choices of a program.
 fn scopes(text: &str) -> Vec<(String, String, Option<f64>)> {
     let program =
         compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
@@ -430,7 +432,7 @@ fn scopes(text: &str) -> Vec<(String, String, Option<f64>)> {
 }
 
 #[test]
-fn choices_see_what_every_path_has_assigned_in_the_order_of_assignment() {
+fn choices_see_the_variables_that_every_path_has_assigned() {
     let seen = scopes(
         r#"(module
           (fn "part" (params $p $q) (captures $c)
@@ -461,12 +463,12 @@ fn choices_see_what_every_path_has_assigned_in_the_order_of_assignment() {
         ("y", "a=3 s=True v=False b=9 gone=11"),
         ("u", "c=3 q=2 p=4"),
     ];
-    let found: Vec<(&str, &str)> = seen.iter().map(|(label, names, _)| (&**label, &**names)).collect();
-    assert_eq!(found, expected);
+    let visible: Vec<(&str, &str)> = seen.iter().map(|(label, names, _)| (&**label, &**names)).collect();
+    assert_eq!(visible, expected);
 }
 
 #[test]
-fn the_frame_that_was_assigned_last_is_looked_from() {
+fn the_program_looks_from_the_frame_that_was_assigned_last() {
     let seen = scopes(
         r#"(module (class 0 "Frame" ("center" "forward" "up" "radius")) (class 1 "Other" ("center"))
           (fn "m" (params)
@@ -483,22 +485,22 @@ fn the_frame_that_was_assigned_last_is_looked_from() {
             (set $g (sample (dist bernoulli 0.5)))
             (return none)) (entry "m"))"#,
     );
-    let found: Vec<(&str, Option<f64>)> = seen.iter().map(|(label, _, look)| (&**label, *look)).collect();
+    let looks: Vec<(&str, Option<f64>)> = seen.iter().map(|(label, _, look)| (&**label, *look)).collect();
     let expected = [
         ("a", None),
         ("b", Some(1.0)),
-        // The arm that looks is not taken.
+        // The arm with `look` is not taken.
         ("c", Some(1.0)),
         ("d", Some(1.0)),
         ("d", Some(3.0)),
         ("e", Some(4.0)),
         ("g", Some(5.0)),
     ];
-    assert_eq!(found, expected);
+    assert_eq!(looks, expected);
     assert!(seen.iter().all(|(_, names, _)| !names.contains("look") && !names.contains(" =")));
 }
 
-/// Of each function: the variables and choices that are angles, and those that are not.
+/// For each function, the variables and choices that are angles, and those that are not.
 fn angles(text: &str) -> Vec<(String, String, String)> {
     let program =
         compile_with_scope(&parse(text).expect("core form"), vec![], Scope::All).expect("a program");
@@ -516,8 +518,8 @@ fn angles(text: &str) -> Vec<(String, String, String)> {
 }
 
 #[test]
-fn an_angle_is_what_flows_into_one_or_comes_from_one() {
-    // As the vines are written.
+fn angles_are_values_that_flow_into_or_come_from_angles() {
+    // The model of vines.
     let vines = r#"(module
       (fn "vines" (params $x $y $ahead)
         (set $start_angle (sample #start_angle (dist gaussian (atan2 (index $ahead 1) (index $ahead 0)) 0.5)))
@@ -543,7 +545,8 @@ fn an_angle_is_what_flows_into_one_or_comes_from_one() {
             row("branch", "angle leaf_angle ~leaf ~turn", "end_x end_y side width x y ~on ~side"),
         ]
     );
-    // Through a loop's values, a capture, a returned value, an argument of a pure function, and from one only.
+    // The values pass through a loop, a capture, a returned value and an argument of a pure function; some only
+    // come from an angle.
     let ways = r#"(module
       (fn "turned" (params $t) (return (sub 3.0 $t)))
       (fn "drawn" (params $m) (set $d (sample #d (dist uniform $m 2.0))) (set $n (sample #n (dist bernoulli 0.5)))
@@ -571,7 +574,7 @@ fn an_angle_is_what_flows_into_one_or_comes_from_one() {
     );
 }
 
-/// A memoised coin that two functions ask for, directly and by a future, and that a choice selects.
+/// A memoised coin that two functions request, directly and by a future, and that a choice selects.
 const MEMOISED: &str = r#"(module
   (fn "coin" (params $i) (set $x (sample (dist uniform 0.0 1.0))) (do (factor 1.0)) (return $x))
   (fn "one" (params $i) (return (apply (mem (closure "coin") "coin") $i)))
@@ -583,11 +586,11 @@ const MEMOISED: &str = r#"(module
   (entry "m"))"#;
 
 #[test]
-fn a_memoised_call_is_one_activation_whoever_asks_first() {
+fn a_memoised_call_is_one_activation_for_all_callers() {
     let program = program(MEMOISED);
     let mut addresses = BTreeSet::new();
     for depth_first in [true, false] {
-        // Every order of running futures, one by one: always the first, always the last, and a mixture.
+        // Futures run one by one in many orders: always the first, always the last, and mixtures.
         for rule in 0..6_u64 {
             let mut machine = Machine::new(&program, Limits::default());
             let mut state = machine.start(&[], depth_first).unwrap();
@@ -608,9 +611,9 @@ fn a_memoised_call_is_one_activation_whoever_asks_first() {
             }
             assert_eq!(repr(&state.result()).unwrap(), "(True, True, True, False, False)", "rule {rule}");
             assert_eq!(script.score, 3.0, "a call is scored once");
-            let own: BTreeSet<u128> = script.addresses.iter().copied().collect();
-            assert_eq!(own.len(), 3);
-            addresses.insert(own);
+            let run_addresses: BTreeSet<u128> = script.addresses.iter().copied().collect();
+            assert_eq!(run_addresses.len(), 3);
+            addresses.insert(run_addresses);
         }
     }
     assert_eq!(addresses.len(), 1, "addresses do not depend on the order");

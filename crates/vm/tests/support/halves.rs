@@ -5,7 +5,7 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::{Answer, Answers, At};
 use niwaki_vm::value::Value;
 
-/// Every choice is a half.
+/// Answers every choice with a half.
 pub struct Halves;
 
 impl Answers<f64> for Halves {

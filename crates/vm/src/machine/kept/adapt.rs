@@ -1,8 +1,8 @@
-//! Call sites where reuse does not pay: when a call is reached often and never skipped, its arguments are no longer
-//! compared.
+//! Call sites where reuse does not pay: when a call is reached often and never skipped, its arguments are no
+//! longer compared.
 //!
-//! Source: dissertation 3.3.4. A site is switched off when, after some proposals, it has been reached so many times
-//! without one call being skipped on entry or unchanged on return. It changes time only. Here a
+//! Source: dissertation 3.3.4. After some proposals, a site is switched off when it has been reached `reached`
+//! times without one call being skipped on entry or unchanged on return. This changes time only. Here a
 //! proposal counts once, however often it reaches the site.
 
 use super::super::state::{NodeId, State};
@@ -11,12 +11,12 @@ use super::trace::{Kept, Trace};
 use crate::code::{FunctionId, Mode, Program, SiteKind};
 use niwaki_math::Scalar;
 
-/// When a call site is switched off.
+/// The setting that decides when a call site is switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adaptation {
-    /// Proposals before any site is switched off.
+    /// The number of proposals before any site is switched off.
     pub proposals: u32,
-    /// Consecutive proposals that reached it without a benefit.
+    /// The number of consecutive proposals that reach a site without a benefit.
     pub reached: u32,
 }
 
@@ -27,14 +27,15 @@ impl Default for Adaptation {
     }
 }
 
-/// What each call site has saved so far.
+/// The benefits of each call site so far.
 #[derive(Debug)]
 pub(crate) struct Sites {
-    /// `None`: all sites stay on.
+    /// The setting; `None` if all sites stay on.
     adaptation: Option<Adaptation>,
-    /// Number of each function's first site.
+    /// The number of each function's first site.
     first: Vec<u32>,
-    /// Consecutive proposals that reached a site without a benefit, and the last of them; `OFF` when switched off.
+    /// The number of consecutive proposals that reached a site without a benefit, and the last of them; `OFF`
+    /// for a site that is switched off.
     reached: Vec<(u32, u32)>,
 }
 
@@ -56,13 +57,13 @@ impl Sites {
         self.first[function.0 as usize] as usize + site as usize
     }
 
-    /// Whether the arguments of calls at that site are compared.
+    /// Whether the arguments of calls at a site are compared.
     #[inline]
     pub fn is_on(&self, function: FunctionId, site: u32) -> bool {
         self.reached[self.at(function, site)].0 != OFF
     }
 
-    /// A call at that site was skipped, or left nothing changed.
+    /// Records that a call at a site was skipped, or left nothing changed.
     #[inline]
     pub fn paid(&mut self, function: FunctionId, site: u32) {
         let at = self.at(function, site);
@@ -71,13 +72,13 @@ impl Sites {
         }
     }
 
-    /// A call at that site had to be entered, in that proposal.
+    /// Records that a call at a site had to be entered in a proposal.
     #[inline]
     pub fn missed(&mut self, function: FunctionId, site: u32, proposal: u32) {
         let Some(adaptation) = self.adaptation else { return };
         let at = self.at(function, site);
         let (reached, last) = &mut self.reached[at];
-        // A proposal that changes what all calls read reaches a site many times, and counts once.
+        // A proposal that changes an input of all calls reaches a site many times, and counts once.
         if *last == proposal {
             return;
         }
@@ -91,12 +92,12 @@ impl Sites {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// From now on call sites where reuse does not pay are switched off, or (`None`) all are on.
+    /// Switches off call sites where reuse does not pay, or (`None`) switches all sites on.
     pub fn adapt(&mut self, program: &Program<S>, adaptation: Option<Adaptation>) {
         self.kept.sites = Sites::new(program, adaptation);
     }
 
-    /// How many calls are kept, and how many of them are at sites whose arguments are compared.
+    /// The number of kept calls, and the number of those at sites whose arguments are compared.
     pub fn cached_calls(&self, program: &Program<S>) -> (usize, usize) {
         let (mut calls, mut cached) = (0, 0);
         let mut work = vec![NodeId(0)];
@@ -128,7 +129,7 @@ impl<S: Scalar> Trace<S> {
 }
 
 impl<S: Scalar> Kept<S> {
-    /// The call site of an activation: of which function, and its number.
+    /// The call site of an activation: the calling function, and the number of the site.
     #[inline]
     pub(super) fn caller(state: &State<S>, node: NodeId) -> (FunctionId, u32) {
         let n = &state.nodes[node.0 as usize];

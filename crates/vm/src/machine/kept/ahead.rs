@@ -1,5 +1,5 @@
-//! Prefetches the memory that the next proposals will need, while this one runs. In a long chain the activation of a
-//! choice is in no cache, and each access that leads to it would wait for the one before.
+//! Prefetches the memory that the next proposals will need, while the current one runs. In a long chain the
+//! activation of a choice is in no cache, and each access on the way to it would wait for the one before.
 #![allow(unsafe_code)] // The processor's prefetch, which reads nothing and accepts any address.
 
 use super::super::address::join;
@@ -13,7 +13,7 @@ fn fetch<T>(items: &[T], at: usize) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a hint, which changes nothing and cannot fail; it is part of every x86-64.
+        // SAFETY: this is a hint, which changes nothing and cannot fail; it is part of every x86-64.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(items.as_ptr().wrapping_add(at).cast()) }
     }
     #[cfg(not(target_arch = "x86_64"))]
@@ -21,8 +21,8 @@ fn fetch<T>(items: &[T], at: usize) {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// A proposal to that choice comes soon: prefetches what its activation, and the iteration after it, hold. Gives the
-    /// address of the choice.
+    /// Prepares a proposal to a choice: prefetches the registers and slots of its activation and of the
+    /// iteration after it. Returns the address of the choice.
     #[inline]
     pub fn approach(&self, program: &Program<S>, choice: usize) -> u128 {
         let ChoiceAt { node, site } = self.kept.choices[choice];
@@ -35,7 +35,7 @@ impl<S: Scalar> Trace<S> {
         if f.mode == Mode::Iteration {
             let header = &self.state.nodes[n.parent.0 as usize];
             fetch(&self.kept.loops[header.slots as usize], n.iteration as usize + 1);
-            // Iterations that were created one after the other are adjacent in memory.
+            // Iterations that were created one after another are adjacent in memory.
             fetch(&self.state.nodes, node.0 as usize + 1);
             fetch(&self.state.registers, registers + 8);
             fetch(&self.kept.slots, slots + 4);

@@ -13,11 +13,11 @@ use crate::value::{Closure, Value};
 use niwaki_math::Scalar;
 
 impl<'p, S: Scalar> Machine<'p, S> {
-    /// Runs the program from the start and keeps its activations. The transaction that created them is open; a start
-    /// that reached a score of minus infinity cannot be used.
+    /// Runs the program from the start and keeps its activations. The transaction that created them is open
+    /// afterwards. A start with a score of minus infinity cannot be used.
     ///
     /// # Errors
-    /// The wrong number of arguments, or a fault of the program.
+    /// The number of arguments is wrong, or the program has a fault.
     pub fn begin<A: Answers<S>>(
         &mut self,
         args: &[Value<S>],
@@ -26,7 +26,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         self.begin_call(self.program.entry, &[], args, answers)
     }
 
-    /// As [`Machine::begin`], of a closure of the program.
+    /// Like [`Machine::begin`], for a closure of the program.
     ///
     /// # Errors
     /// As for [`Machine::begin`].
@@ -51,7 +51,7 @@ impl<'p, S: Scalar> Machine<'p, S> {
         let mut trace = Trace { state: State::empty(), kept: Kept::new(self.program) };
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         state.depth_first = true;
-        state.given = template.given;
+        state.inputs = template.inputs;
         kept.unmet = self.held.map_or(0, Held::len);
         kept.met = vec![0; kept.unmet];
         kept.open();

@@ -1,9 +1,9 @@
-//! Calls of kept activations: entered, skipped, created, removed.
+//! Calls of kept activations: entered, skipped, created and removed.
 
 use super::super::Machine;
 use super::super::address::join;
-use super::super::keep::Onward;
-use super::super::outcome::After;
+use super::super::keep::Target;
+use super::super::outcome::Continuation;
 use super::super::outcome::Halt;
 use super::super::registers::Registers;
 use super::super::state::{Node, NodeId, State};
@@ -18,7 +18,7 @@ use crate::value::{Value, identical};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
-    /// A call of a known function. The callee is skipped when it exists with the same arguments.
+    /// Calls a known function. The callee is skipped if it exists with the same arguments.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     pub(super) fn call_known(
         &mut self,
@@ -29,11 +29,11 @@ impl<S: Scalar> Kept<S> {
         number: SiteId,
         site: &Site,
         function: FunctionId,
-    ) -> Result<After, Halt> {
+    ) -> Result<Continuation, Halt> {
         if machine.program.function(function).mode == Mode::Pure {
-            // A future of a pure function.
+            // The site is a future of a pure function.
             r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
-            return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
+            return Ok(Continuation::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
@@ -69,7 +69,7 @@ impl<S: Scalar> Kept<S> {
         Ok(self.call_again(state, child, changed))
     }
 
-    /// A call of a function value. A different function means a new activation.
+    /// Calls a function value. A different function means a new activation.
     pub(super) fn apply(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -78,20 +78,20 @@ impl<S: Scalar> Kept<S> {
         node: NodeId,
         number: SiteId,
         site: &Site,
-    ) -> Result<After, Halt> {
+    ) -> Result<Continuation, Halt> {
         r.gather(state, &machine.scratch, site.args, &mut machine.buffer);
         let Callee { function, pure, memo } = machine.unwrap_callee()?;
         if pure {
             self.vacate(machine.program, state, node, number.0);
-            return Ok(After::Pure { function, to: site.to, as_future: site.kind.gives_future() });
+            return Ok(Continuation::Pure { function, to: site.to, as_future: site.kind.gives_future() });
         }
         if let Some(memo) = memo {
             return self.recall(machine, state, r, (node, number), site, function, &memo);
         }
         let at = Kept::slot_at(state, node, number.0 as usize);
         let held = self.slots[at].held;
-        let own = |n: &Node| n.function == function && n.memo().is_none();
-        if held != Slot::NOTHING && own(&state.nodes[held as usize]) {
+        let is_reusable = |n: &Node| n.function == function && n.memo().is_none();
+        if held != Slot::NOTHING && is_reusable(&state.nodes[held as usize]) {
             let to = state.nodes[held as usize].registers as usize;
             let mut changed = Entry::Unchanged;
             let inputs = &machine.program.function(function).inputs;
@@ -129,15 +129,15 @@ impl<S: Scalar> Kept<S> {
         Ok(created)
     }
 
-    /// A repeated call: entered, unless it can be skipped. Its result is in the caller's register.
+    /// Repeats a call: enters it, unless it can be skipped. Its result is in the caller's register.
     #[inline]
-    pub(super) fn call_again(&mut self, state: &State<S>, child: NodeId, changed: Entry) -> After {
+    pub(super) fn call_again(&mut self, state: &State<S>, child: NodeId, changed: Entry) -> Continuation {
         let (function, site) = Kept::caller(state, child);
         if changed == Entry::Unchanged && self.reuse && !self.is_marked(child) {
             self.sites.paid(function, site);
             self.counters.skipped += 1;
             self.note(Step::Skipped(child));
-            return After::Next;
+            return Continuation::Next;
         }
         if self.reuse {
             self.sites.missed(function, site, self.now);
@@ -146,23 +146,23 @@ impl<S: Scalar> Kept<S> {
     }
 
     #[inline]
-    pub(super) fn enter_call(&mut self, child: NodeId, at: u32) -> After {
+    pub(super) fn enter_call(&mut self, child: NodeId, at: u32) -> Continuation {
         self.leaves_its_activation();
         self.depth += 1;
         self.returns.push(self.pc + 1);
         self.counters.entered += 1;
         self.note(Step::Entered(child));
-        After::Enter(child, at)
+        Continuation::Enter(child, at)
     }
 
-    /// An activation returns. The run ends when none of its results has changed.
+    /// Returns from an activation. The run ends when no result has changed.
     pub(super) fn return_to_caller(
         &mut self,
         program: &Program<S>,
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Onward {
+    ) -> Target {
         self.note(Step::Unwound(node));
         let (parent, number, memo) = {
             let n = &state.nodes[node.0 as usize];
@@ -171,20 +171,20 @@ impl<S: Scalar> Kept<S> {
         if let Some(memo) = memo
             && !self.settle(memo, &value)
         {
-            return Onward::END;
+            return Target::END;
         }
         if parent == NodeId::NONE {
             if !identical(&value, &self.result) {
                 let old = std::mem::replace(&mut self.result, value);
                 self.result_before.get_or_insert(old);
             }
-            return Onward::END;
+            return Target::END;
         }
         let above = &state.nodes[parent.0 as usize];
-        let (own, is_new) = (above.registers as usize, above.created == self.now);
+        let (base, is_new) = (above.registers as usize, above.created == self.now);
         let site = &program.function(above.function).sites[number];
         let value = if site.kind.gives_future() { Value::returned(value) } else { value };
-        let changed = self.write_to(state, is_new, own + site.to.index(), value);
+        let changed = self.write_to(state, is_new, base + site.to.index(), value);
         if !changed {
             let (function, site) = Kept::caller(state, node);
             self.sites.paid(function, site);
@@ -192,18 +192,18 @@ impl<S: Scalar> Kept<S> {
         if self.depth > 0 {
             self.depth -= 1;
             let next = self.returns.pop().unwrap_or(site.next);
-            return Onward::at(parent, if changed { site.next } else { next });
+            return Target::at(parent, if changed { site.next } else { next });
         }
         if self.early && !changed {
-            return Onward::END;
+            return Target::END;
         }
         self.leaves_its_activation();
         self.counters.entered += 1;
         self.note(Step::Entered(parent));
-        Onward::at(parent, if self.early { site.again } else { site.next })
+        Target::at(parent, if self.early { site.again } else { site.next })
     }
 
-    /// The site is not on the path taken: what its slot holds is removed.
+    /// Removes the contents of a site's slot: the site is not on the path taken.
     pub(super) fn vacate(&mut self, program: &Program<S>, state: &mut State<S>, node: NodeId, site: u16) {
         let at = Kept::slot_at(state, node, site as usize);
         let slot = self.slots[at];
@@ -222,7 +222,7 @@ impl<S: Scalar> Kept<S> {
         self.write_slot(self.is_new(state, node), at, Slot::EMPTY);
     }
 
-    /// Removes an activation with all below it. Its nodes stay as they are until the commit.
+    /// Removes an activation and all activations below it. The nodes stay as they are until the commit.
     pub(super) fn remove(&mut self, program: &Program<S>, state: &State<S>, node: NodeId) {
         self.leaves_its_activation();
         let from = self.journal.more.removed.len();

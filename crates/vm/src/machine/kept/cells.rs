@@ -1,12 +1,12 @@
-//! Collections: elements that are stored in registers, and their readers.
+//! Collections: elements in registers, and their readers.
 //!
-//! A read subscribes to its element. When the element changes, its readers are *woken*: a run that starts at the root
-//! marks them and the activations above them; a run that started at a choice (C3) runs them one by one when
-//! the rest has ended.
+//! A read subscribes to its element. When the element changes, its readers are *woken*. A run from the root
+//! marks them and the activations above them. A run from a choice (C3) runs them one by one when the rest has
+//! ended.
 //!
-//! C3 runs readers in any order. That is right as long as none of them does more than score again: no activation is
-//! entered or returns changed, no choice is added or removed, no element changes while other readers wait. Where that
-//! does not hold the run is *tangled*: it is undone and repeated from the root, in program order.
+//! C3 runs readers in any order. That is correct as long as each of them only scores again: no activation is
+//! entered or returns changed, no choice is added or removed, and no element changes while other readers wait.
+//! Otherwise the run is *tangled*: it is undone and repeated from the root, in program order.
 
 use super::super::Machine;
 use super::super::answers::Answers;
@@ -25,7 +25,7 @@ use crate::value::{Cell, List, Value, index, ops};
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
-    /// An element is created, or computed again.
+    /// Creates an element, or computes it again.
     pub(super) fn cell(
         &mut self,
         state: &mut State<S>,
@@ -36,13 +36,13 @@ impl<S: Scalar> Kept<S> {
         content: Operand,
     ) {
         let value = r.get(state, scratch, r.f.operands[site.args.start as usize]).clone();
-        if let Some(cell) = self.element(state, value, at, r.own + content.index(), 0.0) {
-            self.write_to(state, self.quiet, r.own + site.to.index(), Value::Cell(cell));
+        if let Some(cell) = self.element(state, value, at, r.base + content.index(), 0.0) {
+            self.write_to(state, self.quiet, r.base + site.to.index(), Value::Cell(cell));
         }
     }
 
-    /// An element is appended to a list, or once more. The slot's log is the list's address in memory: as long as the
-    /// list is the same, so is the longer one.
+    /// Appends an element to a list, for the first time or again. The slot's log is the list's address in
+    /// memory: while the list is the same, the longer list is the same as well.
     pub(super) fn append(
         &mut self,
         state: &mut State<S>,
@@ -61,11 +61,11 @@ impl<S: Scalar> Kept<S> {
         };
         let slot = self.slots[at];
         if slot.is_filled() && slot.log.to_bits() == address.to_bits() {
-            self.element(state, value, at, r.own + content.index(), address);
+            self.element(state, value, at, r.base + content.index(), address);
             return Ok(());
         }
         let list = list.clone();
-        let cell = match self.element(state, value, at, r.own + content.index(), address) {
+        let cell = match self.element(state, value, at, r.base + content.index(), address) {
             Some(cell) => cell,
             None => {
                 self.write_slot(self.quiet, at, Slot { log: address, ..slot });
@@ -74,11 +74,12 @@ impl<S: Scalar> Kept<S> {
         };
         let longer = ops::append(list, Value::Cell(cell))?;
         state.charged += budget::of_append(&longer) + size_of::<Reader>();
-        self.write_to(state, self.quiet, r.own + site.to.index(), longer);
+        self.write_to(state, self.quiet, r.base + site.to.index(), longer);
         Ok(())
     }
 
-    /// Puts an element into its register; a reference to it, when the site is met for the first time.
+    /// Stores an element in its register, and returns a reference to it when the site is met for the first
+    /// time.
     #[inline]
     fn element(
         &mut self,
@@ -113,7 +114,7 @@ impl<S: Scalar> Kept<S> {
         Some(Cell { register, readers: id })
     }
 
-    /// An element is read, or read again.
+    /// Reads an element, for the first time or again.
     #[inline]
     pub(super) fn read(
         &mut self,
@@ -139,8 +140,8 @@ impl<S: Scalar> Kept<S> {
         if before.held != held {
             let reader = Reader { node, site: number, slot: slot as u32 };
             if before.is_filled() {
-                // Which list contains it matters when an element changes, and at a commit: most transactions are
-                // not.
+                // The list that contains a reader matters only when an element changes, and at a commit: most
+                // transactions are not committed.
                 if before.mark & Slot::MOVING == 0 {
                     self.journal.moves.push((reader, before.held));
                 }
@@ -150,12 +151,11 @@ impl<S: Scalar> Kept<S> {
                 self.subscribe(reader, held);
             }
         }
-        self.write_to(state, self.quiet, r.own + site.to.index(), value);
+        self.write_to(state, self.quiet, r.base + site.to.index(), value);
         Ok(())
     }
 
-    /// Readers that read another element than before leave their lists and enter those of their
-    /// elements.
+    /// Moves readers that now read another element from their old lists to the lists of their elements.
     pub(super) fn move_readers(&mut self) {
         for i in 0..self.journal.moves.len() {
             let (reader, before) = self.journal.moves[i];
@@ -168,7 +168,7 @@ impl<S: Scalar> Kept<S> {
         self.journal.moves.clear();
     }
 
-    /// A reader leaves its list and enters another; `held` may mean that there is none.
+    /// Moves a reader from its list to another; `held` may stand for no list.
     pub(super) fn subscribe(&mut self, reader: Reader, held: u32) {
         let slot = self.slots[reader.slot as usize];
         if slot.held < Slot::UNWATCHED {
@@ -188,7 +188,7 @@ impl<S: Scalar> Kept<S> {
         self.slots[reader.slot as usize] = Slot { held, mark, log: 0.0 };
     }
 
-    /// An element has changed.
+    /// Wakes the readers of a changed element.
     fn wake(&mut self, state: &State<S>, id: usize) {
         self.move_readers();
         if !self.reuse || self.readers[id].all.is_empty() {
@@ -201,18 +201,19 @@ impl<S: Scalar> Kept<S> {
             }
             return;
         }
-        self.tangled |= self.taken < self.woken.len();
+        self.tangled |= self.woken_done < self.woken.len();
         self.woken.extend_from_slice(&self.readers[id].all);
         self.confined = true;
     }
 
-    /// A run that must stay within one activation does not: its result cannot be used.
+    /// Records that the run leaves the current activation: a run that must stay within it cannot be used then.
     #[inline(always)]
     pub(super) fn leaves_its_activation(&mut self) {
         self.tangled |= self.confined;
     }
 
-    /// The elements themselves, of a value that may be a collection, with the values of futures.
+    /// Replaces the cells of a value by their elements, and futures by their values. The value may be a
+    /// collection.
     // Tuples that hold collections are no deeper than the program's text.
     pub(super) fn resolved(&self, state: &State<S>, value: &Value<S>) -> Value<S> {
         let value = &value.replace_futures(&|_| None);
@@ -234,8 +235,8 @@ impl<S: Scalar> Kept<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Scores a reader here if it does nothing but score; false where it does more, and where
-    /// scoring fails: then it has to be run.
+    /// Scores a reader here if it only scores. Returns `false` if it does more, or if scoring fails: then it
+    /// must be run.
     #[inline(always)]
     fn scores_alone(&mut self, state: &mut State<S>, kept: &mut Kept<S>, node: NodeId, pc: usize) -> bool {
         let f = self.program.function(state.nodes[node.0 as usize].function);
@@ -246,9 +247,9 @@ impl<S: Scalar> Machine<'_, S> {
         if !matches!(site.kind, SiteKind::Observe(_)) {
             return false;
         }
-        let (own, outer) = self.bases(state, f, node);
+        let (base, outer) = self.bases(state, f, node);
         kept.enter(state, node);
-        if kept.factor(self, state, Registers { f, own, outer, scratch: 0 }, node, number).is_err() {
+        if kept.factor(self, state, Registers { f, base, outer, scratch: 0 }, node, number).is_err() {
             return false;
         }
         kept.counters.entered += 1;
@@ -258,16 +259,16 @@ impl<S: Scalar> Machine<'_, S> {
         true
     }
 
-    /// Runs the readers that were woken; `None` when the run is tangled.
-    pub(super) fn take_up_readers<A: Answers<S>>(
+    /// Runs the woken readers; `None` when the run is tangled.
+    pub(super) fn run_readers<A: Answers<S>>(
         &mut self,
         trace: &mut Trace<S>,
         answers: &mut A,
     ) -> Result<Option<Change>, Box<RunFault>> {
-        while trace.kept.taken < trace.kept.woken.len() {
+        while trace.kept.woken_done < trace.kept.woken.len() {
             let (state, kept) = (&mut trace.state, &mut trace.kept);
-            let Reader { node, site, slot } = kept.woken[kept.taken];
-            kept.taken += 1;
+            let Reader { node, site, slot } = kept.woken[kept.woken_done];
+            kept.woken_done += 1;
             let Some(readers) = kept.readers.get(kept.slots[slot as usize].held as usize) else { continue };
             let n = &state.nodes[node.0 as usize];
             let site = &self.program.function(n.function).sites[site as usize];

@@ -1,4 +1,4 @@
-//! What an open transaction did to the choices: which were added, removed or drawn again in place; and the
+//! The effects of an open transaction on the choices: added, removed, and drawn again in place. Also the
 //! transaction that draws choices again.
 
 use super::super::Machine;
@@ -19,12 +19,12 @@ impl<S: Scalar> Trace<S> {
         self.kept.journal.more.births.iter().map(|birth| self.place_at(program, birth.node, birth.site))
     }
 
-    /// Numbers of the choices that a commit will remove, in no order. What they hold can still be read.
+    /// The numbers of the choices that a commit will remove, in no order. Their values can still be read.
     pub fn deaths(&self) -> &[u32] {
         &self.kept.journal.more.deaths
     }
 
-    /// Choices that the open transaction drew again in place: address, and the value before.
+    /// The choices that the open transaction drew again in place: the address, and the value before.
     pub fn drawn_anew(&self) -> &[(u128, Value<S>)] {
         &self.kept.journal.more.anew
     }
@@ -36,8 +36,8 @@ impl<S: Scalar> Trace<S> {
         Family::ALL.iter().copied().find(|family| *family as u32 == mark)
     }
 
-    /// The activation that is `levels` calls or iterations above a choice's own (0: its own; at most the root, or the
-    /// memoised call that it belongs to).
+    /// The activation that is `levels` calls or iterations above a choice's activation. It is at most the root,
+    /// or the memoised call that the choice belongs to.
     pub fn activation(&self, choice: usize, levels: usize) -> NodeId {
         let mut node = self.kept.choices[choice].node;
         for _ in 0..levels {
@@ -50,8 +50,9 @@ impl<S: Scalar> Trace<S> {
         node
     }
 
-    /// Visits the choices at and below an activation, in no order: each with its place, its number (`None` where the
-    /// open transaction added it) and how many levels it is below. Memoised calls that are asked for are not below.
+    /// Visits the choices at and below an activation, in no order. Each comes with its place, its number and
+    /// its level below the activation. The number is `None` for choices that the open transaction added.
+    /// Memoised calls that are requested below are not visited.
     pub fn below(
         &self,
         program: &Program<S>,
@@ -85,8 +86,9 @@ impl<S: Scalar> Trace<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Draws choices again from their distributions, in program order, and runs. The transaction is open afterwards;
-    /// its fresh and stale log densities are those of the values drawn and of the values that they replace.
+    /// Draws choices again from their distributions, in program order, and runs. The transaction is open
+    /// afterwards; its fresh and stale log densities belong to the drawn values and to the values that they
+    /// replace.
     ///
     /// # Errors
     /// A fault of the program.
@@ -100,13 +102,13 @@ impl<S: Scalar> Machine<'_, S> {
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         kept.open();
         if choices.is_empty() {
-            return Ok(Change::Same);
+            return Ok(Change::Unchanged);
         }
         kept.prepare(if strategy.reuses() { Strategy::Cache } else { Strategy::Rerun });
         for choice in choices {
             let ChoiceAt { node, site } = kept.choices[*choice];
             let at = Kept::slot_at(state, node, site as usize);
-            // No family has this number: the held value does not fit, whatever the distribution.
+            // No family has this number, so the old value fits no distribution.
             kept.write_slot(false, at, Slot { mark: Slot::FAMILY, ..kept.slots[at] });
             kept.mark_above(state, node);
         }

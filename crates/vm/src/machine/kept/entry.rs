@@ -1,20 +1,20 @@
-//! Where an activation is entered.
+//! The place where an activation is entered.
 
-/// Where an activation is entered, depending on which inputs have changed.
+/// The place where an activation is entered, by the inputs that have changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Entry {
-    /// Nothing: it need not be entered.
+    /// No input has changed: the activation need not be entered.
     Unchanged,
-    /// One input, of which this is the slice.
-    One(u32),
-    /// More than one.
+    /// One input has changed: the start of its slice.
+    Slice(u32),
+    /// Several inputs have changed: the start of the whole code.
     Whole,
 }
 
 impl Entry {
-    /// An input has changed whose slice begins there.
+    /// Adds a changed input, by the start of its slice.
     #[inline(always)]
     pub fn add(&mut self, slice: u32) {
-        *self = if *self == Entry::Unchanged { Entry::One(slice) } else { Entry::Whole };
+        *self = if *self == Entry::Unchanged { Entry::Slice(slice) } else { Entry::Whole };
     }
 }

@@ -1,4 +1,4 @@
-//! What a trace holds, in program order: choices, primitives, queries, with readable paths.
+//! The contents of a trace, in program order: choices, primitives and queries, with readable paths.
 
 use super::super::address::join;
 use super::super::state::NodeId;
@@ -9,17 +9,17 @@ use niwaki_geom::{Aabb, Primitive};
 use niwaki_math::Scalar;
 use std::collections::HashSet;
 
-/// One thing that a trace holds.
+/// An item of a trace.
 pub enum Item<'a, S: Scalar> {
-    /// A choice: its value and log density, nats.
+    /// A choice: its value and log density in nats.
     Choice(&'a Value<S>, f64),
-    /// A held choice: its value and log density, nats.
+    /// A held choice: its value and log density in nats.
     Held(&'a Value<S>, f64),
-    /// A factor or an observation, nats.
+    /// A factor or an observation, in nats.
     Factor(f64),
     /// A primitive of the scene.
     Emit(&'a Primitive),
-    /// What a query wrote: key and value.
+    /// The key and the value of a query.
     Query(&'a Value<S>, &'a Value<S>),
 }
 
@@ -35,7 +35,7 @@ pub struct Place<'a, S: Scalar> {
 }
 
 impl<S: Scalar> Place<'_, S> {
-    /// How many calls are above it (iterations of loops do not count).
+    /// The number of calls above the item (iterations of loops do not count).
     pub fn depth(&self) -> usize {
         self.trace.depth_of(self.program, self.node)
     }
@@ -55,24 +55,24 @@ impl<S: Scalar> Place<'_, S> {
     }
 }
 
-/// An activation of a trace, named.
+/// A named activation of a trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Activation {
-    /// The hash of its path: the same in every run.
+    /// The hash of its path, which is the same in every run.
     pub key: u128,
-    /// The key of its caller; the caller of a loop's iterations is the activation with the loop.
+    /// The key of its caller; for an iteration of a loop, the activation with the loop.
     pub parent: u128,
     /// Its name: the component of an address, or the function's name for the root.
     pub label: String,
     /// The function.
     pub function: String,
-    /// How many calls and iterations are above it.
+    /// The number of calls and iterations above it.
     pub depth: usize,
 }
 
 impl<S: Scalar> Trace<S> {
-    /// The activations in program order, callers first. A loop is not an activation, its iterations are. A memoised call is
-    /// listed at its first caller.
+    /// The activations in program order, callers first. A loop is not an activation, but its iterations are. A
+    /// memoised call is listed at its first caller.
     pub fn outline(&self, program: &Program<S>) -> Vec<Activation> {
         let mut activations = Vec::new();
         let mut work = vec![(NodeId(0), 0, 0usize)];
@@ -102,7 +102,7 @@ impl<S: Scalar> Trace<S> {
         activations
     }
 
-    /// Whether one activation was called, directly or indirectly, from another.
+    /// Whether an activation was called, directly or indirectly, from another.
     pub fn is_below(&self, node: NodeId, above: NodeId) -> bool {
         let mut at = node;
         while at != NodeId::NONE && at != above {
@@ -117,9 +117,10 @@ impl<S: Scalar> Trace<S> {
         (program.function(n.function).mode != Mode::Loop).then_some(n.path)
     }
 
-    /// Visits everything that the trace holds, in program order; a memoised call at its first caller.
+    /// Visits all items of the trace, in program order; a memoised call at its first caller.
     pub fn visit(&self, program: &Program<S>, mut each: impl FnMut(Place<'_, S>, Item<'_, S>)) {
-        // What is still to be visited, the next last: a node from one of its sites on, or a whole activation.
+        // The rest of the visit, with the next entry last: a node from one of its sites on, or a whole
+        // activation.
         let mut work = vec![(NodeId(0), 0usize)];
         let mut seen = HashSet::new();
         while let Some((node, from)) = work.pop() {
@@ -140,9 +141,9 @@ impl<S: Scalar> Trace<S> {
                     continue;
                 }
                 let place = Place { site, function: f, node, trace: self, program };
-                let own = n.registers as usize;
+                let base = n.registers as usize;
                 let value = |o: crate::code::Operand| match o.place() {
-                    crate::code::Place::Node => &self.state.registers[own + o.index()],
+                    crate::code::Place::Node => &self.state.registers[base + o.index()],
                     crate::code::Place::Outer => {
                         let outer = self.state.nodes[n.parent.0 as usize].registers as usize;
                         &self.state.registers[outer + o.index()]
@@ -174,10 +175,10 @@ impl<S: Scalar> Trace<S> {
                         }
                     }
                     SiteKind::Query => {
-                        let [key, written] = f.operands[site.args.range()] else { continue };
+                        let [key, value_operand] = f.operands[site.args.range()] else { continue };
                         each(
                             place,
-                            Item::Query(value(key), &self.kept.resolved(&self.state, value(written))),
+                            Item::Query(value(key), &self.kept.resolved(&self.state, value(value_operand))),
                         );
                     }
                     SiteKind::Force | SiteKind::Memoise { .. } => {}
@@ -187,8 +188,8 @@ impl<S: Scalar> Trace<S> {
         }
     }
 
-    /// The box of the part that was emitted last on the call path of a choice, before it in program order: what
-    /// [`At::part`](crate::machine::answers::At::part) says in a run that begins.
+    /// The box of the part that was emitted last on the call path of a choice, before it in program order. It
+    /// is the result of [`At::part`](crate::machine::answers::At::part) in a run that begins.
     pub fn part(&self, program: &Program<S>, choice: usize) -> Option<Aabb> {
         let at = self.kept.choices[choice];
         self.part_before(program, at.node, at.site as usize)
@@ -211,7 +212,7 @@ impl<S: Scalar> Trace<S> {
             }
             let parent = &self.state.nodes[n.parent.0 as usize];
             if program.function(parent.function).mode == Mode::Loop {
-                // An iteration: those before it, then what is before the loop.
+                // For an iteration: first the earlier iterations, then the sites before the loop.
                 let children = &self.kept.loops[parent.slots as usize];
                 let earlier =
                     children.iter().position(|child| *child == node).map_or(&[][..], |i| &children[..i]);
@@ -226,7 +227,7 @@ impl<S: Scalar> Trace<S> {
         }
     }
 
-    /// The box of the part that an activation, with its loops, emitted last at its first sites.
+    /// The box of the part that an activation, with its loops, emitted last within its first `sites` sites.
     fn last_part(&self, program: &Program<S>, node: NodeId, sites: usize) -> Option<Aabb> {
         let n = &self.state.nodes[node.0 as usize];
         let all = program.function(n.function).sites.iter().enumerate().take(sites);
@@ -276,7 +277,7 @@ impl<S: Scalar> Trace<S> {
         (self.state.nodes[at.node.0 as usize].function, at.site)
     }
 
-    /// The value of a choice and its log density, nats.
+    /// The value of a choice, and its log density in nats.
     pub fn choice(&self, program: &Program<S>, choice: usize) -> (&Value<S>, f64) {
         let at = self.kept.choices[choice];
         let n = &self.state.nodes[at.node.0 as usize];
@@ -285,7 +286,7 @@ impl<S: Scalar> Trace<S> {
         (&self.state.registers[n.registers as usize + site.to.index()], slot.log)
     }
 
-    /// How many calls are above a choice (iterations of loops do not count).
+    /// The number of calls above a choice (iterations of loops do not count).
     pub fn depth(&self, program: &Program<S>, choice: usize) -> usize {
         self.depth_of(program, self.kept.choices[choice].node)
     }
@@ -301,7 +302,7 @@ impl<S: Scalar> Trace<S> {
         depth - 1
     }
 
-    /// The choices of the trace by number, in the order of the table; it changes when choices are added or removed.
+    /// The numbers of the trace's choices. They change when choices are added or removed.
     pub fn numbers(&self) -> std::ops::Range<usize> {
         0..self.kept.choices.len()
     }

@@ -1,7 +1,8 @@
-//! The journal: what a transaction has overwritten, created and removed.
+//! The journal: the data that a transaction has overwritten, created and removed.
 //!
-//! An entry is a place and what it held before. Undoing takes them last first, so that a place that was written twice
-//! gets its first value back. An activation created in the transaction needs no entries: it is removed as a whole.
+//! An entry is a place and its earlier content. Undoing reads the entries backwards, so that a place that was
+//! written twice gets its first content back. An activation created in the transaction needs no entries: it is
+//! removed as a whole.
 
 use super::super::state::NodeId;
 use super::readers::Reader;
@@ -9,7 +10,7 @@ use super::slot::Slot;
 use crate::value::Value;
 use niwaki_math::Scalar;
 
-/// What an open transaction can undo.
+/// The changes of an open transaction that can be undone.
 #[derive(Debug)]
 pub(crate) struct Journal<S: Scalar> {
     pub registers: Vec<(u32, Value<S>)>,
@@ -18,41 +19,41 @@ pub(crate) struct Journal<S: Scalar> {
     pub reads: Vec<(Reader, u32)>,
     /// Reads of another element than before, and the list that still contains them.
     pub moves: Vec<(Reader, u32)>,
-    /// What most transactions do not do.
+    /// The changes that most transactions do not make.
     pub more: More<S>,
-    /// Whether there may be some of that.
+    /// Whether `more` may have entries.
     has_more: bool,
 }
 
-/// What changes the activations, the choices that there are, or the scene.
+/// The changes of the activations, of the set of choices, or of the scene.
 #[derive(Debug)]
 pub(crate) struct More<S: Scalar> {
-    /// How an iteration had ended.
+    /// The earlier kinds of exit of iterations.
     pub ends: Vec<(NodeId, u32)>,
-    /// Number of a loop, and how many iterations it had before some were removed or added.
+    /// The changes of the iterations of loops.
     pub loops: Vec<Cut>,
     pub created: Vec<NodeId>,
     pub removed: Vec<NodeId>,
-    /// Numbers of primitives that were added to the scene, and of those removed.
+    /// Numbers of primitives that were added to the scene, and of primitives that were removed.
     pub emitted: Vec<u32>,
     pub retracted: Vec<u32>,
     pub births: Vec<Birth>,
     pub deaths: Vec<u32>,
-    /// Lists of readers of cells that were created, and of those removed.
+    /// Lists of readers of cells that were created, and of cells that were removed.
     pub cells: Vec<u32>,
     pub dead_cells: Vec<u32>,
-    /// Held choices that came into the trace (1) or left it (-1).
+    /// Held choices that entered the trace (1) or left it (-1).
     pub met: Vec<(u32, i32)>,
-    /// Choices that were drawn again in place: address, and the value before.
+    /// Choices that were drawn again in place: the address, and the value before.
     pub anew: Vec<(u128, Value<S>)>,
 }
 
-/// A change of the iterations that a loop has.
+/// A change of the iterations of a loop: the loop's number, and the number of its iterations that stayed.
 #[derive(Debug)]
 pub(crate) struct Cut {
     pub number: u32,
     pub len: u32,
-    /// The iterations from `len` on, where some were removed.
+    /// The removed iterations, from `len` on.
     pub removed: Vec<NodeId>,
 }
 
@@ -84,30 +85,30 @@ impl<S: Scalar> Default for Journal<S> {
     }
 }
 
-/// Bytes that are counted for each activation that was created, beside what is stored.
+/// Bytes that are counted for each created activation, beside its stored data.
 pub(crate) const MOVING: usize = 32;
 
 impl<S: Scalar> Journal<S> {
-    /// What most transactions do not do, to note some of it.
+    /// The changes that most transactions do not make, to add some.
     #[inline]
     pub fn more(&mut self) -> &mut More<S> {
         self.has_more = true;
         &mut self.more
     }
 
-    /// Whether something of that may have been noted.
+    /// Whether changes of [`Journal::more`] may have been recorded.
     #[inline(always)]
     pub fn has_more(&self) -> bool {
         self.has_more
     }
 
-    /// Puts a value into a register, by its number, and notes what was there.
+    /// Stores a value in a register, by its number, and records the earlier value.
     #[inline(always)]
     pub fn set(&mut self, register: &mut Value<S>, place: usize, value: Value<S>) {
         self.registers.push((place as u32, std::mem::replace(register, value)));
     }
 
-    /// Bytes of its entries, without what values hold.
+    /// Bytes of the entries, without the data behind values.
     pub fn bytes(&self) -> usize {
         fn of<T>(entries: &[T]) -> usize {
             size_of_val(entries)
@@ -134,7 +135,7 @@ impl<S: Scalar> Journal<S> {
             + of(&more.anew)
     }
 
-    /// Forgets everything.
+    /// Forgets all entries.
     #[inline(always)]
     pub fn clear(&mut self) {
         // Most values are numbers: there is nothing to drop, but the compiler does not know that.

@@ -1,12 +1,12 @@
-//! Kept loops: a loop node with its iterations, each an activation of its own.
+//! Kept loops: a loop node with its iterations, each of which is an activation of its own.
 //!
-//! When an iteration passes on the same values as before, and neither what the loop runs over nor what its
-//! iterations capture has changed, all later iterations are unchanged.
+//! If an iteration passes on the same values as before, and neither the loop's sequence nor the captures of its
+//! iterations have changed, all later iterations are unchanged.
 
 use super::super::Machine;
 use super::super::address::{iteration_key, join};
-use super::super::keep::Onward;
-use super::super::outcome::After;
+use super::super::keep::Target;
+use super::super::outcome::Continuation;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::entry::Entry;
@@ -19,20 +19,20 @@ use crate::fault::Fault;
 use crate::value::{Value, identical, iter_get, iter_len};
 use niwaki_math::Scalar;
 
-/// The carried values that an iteration gets.
+/// The source of the carried values that an iteration gets.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Carried {
-    /// The same as the last time.
+    /// The values are the same as the last time.
     Unchanged,
-    /// What is in the machine's buffer.
+    /// The values are in the machine's buffer.
     Buffer,
 }
 
-/// Where a loop continues.
+/// The place where a loop continues.
 pub(super) enum Next {
-    /// In this iteration, at that instruction.
+    /// In this iteration, at this instruction.
     Enter(NodeId, u32),
-    /// It has ended, with the same results as before or with others.
+    /// After the loop, with the same results as before or with others.
     Ended { changed: bool },
 }
 
@@ -48,7 +48,7 @@ impl<S: Scalar> Kept<S> {
         number: SiteId,
         site: &Site,
         l: &Loop,
-    ) -> Result<After, Fault> {
+    ) -> Result<Continuation, Fault> {
         let at = Kept::slot_at(state, node, number.0 as usize);
         macro_rules! over {
             () => {
@@ -104,13 +104,13 @@ impl<S: Scalar> Kept<S> {
                 self.active.push(active);
                 self.depth += 1;
                 self.returns.push(self.pc + 1);
-                Ok(After::Enter(child, at))
+                Ok(Continuation::Enter(child, at))
             }
             Next::Ended { changed } => Ok(self.after(r.f, site, changed)),
         }
     }
 
-    /// Continues with iteration `i` of a loop: to the first that must be entered, or to its end.
+    /// Continues with iteration `i` of a loop, up to the first iteration that must be entered, or to the end.
     pub(super) fn iterate(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -136,8 +136,9 @@ impl<S: Scalar> Kept<S> {
                 let element = element(state);
                 self.leaves_its_activation();
                 if carried == Carried::Unchanged {
-                    // The loop has more iterations: the results of its last iteration were those of the loop.
-                    self.gather_left(machine, state, header);
+                    // The loop gets more iterations: the results of its last iteration were the results of the
+                    // loop.
+                    self.gather_results(machine, state, header);
                 }
                 let (owner, number) = {
                     let n = &state.nodes[header.0 as usize];
@@ -198,7 +199,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// An iteration ends. The run ends when none of its results has changed.
+    /// Ends an iteration. The run ends when no result has changed.
     pub(super) fn end_of_iteration(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -207,7 +208,7 @@ impl<S: Scalar> Kept<S> {
         node: NodeId,
         kind: i64,
         carried: Args,
-    ) -> Result<Onward, Fault> {
+    ) -> Result<Target, Fault> {
         self.note(Step::Unwound(node));
         let n = state.nodes[node.0 as usize];
         let (header, i) = (n.parent, n.iteration as usize);
@@ -227,7 +228,7 @@ impl<S: Scalar> Kept<S> {
             && kind == exit::NEXT
             && i64::from(n.pc) == kind
         {
-            // The frequent case: only carried values, or what all iterations capture, can have changed.
+            // The frequent case: only carried values, or captures of all iterations, can have changed.
             let mut changed = active.captures;
             if !operands.is_empty() {
                 let first = usize::from(!matches!(state.registers[above.registers as usize], Value::None));
@@ -245,27 +246,27 @@ impl<S: Scalar> Kept<S> {
                 self.leaves_its_activation();
                 self.counters.entered += 1;
                 self.note(Step::Entered(next));
-                return Ok(Onward::at(next, self.entry(changed)));
+                return Ok(Target::at(next, self.entry(changed)));
             }
             if is_base {
-                return Ok(Onward::END);
+                return Ok(Target::END);
             }
             if !self.is_marked(header) {
-                return Ok(self.go_on(machine, state, header, false, false));
+                return Ok(self.continue_owner(machine, state, header, false, false));
             }
         }
-        let mut unchanged = !is_new && i64::from(n.pc) == kind;
-        if unchanged {
+        let mut is_unchanged = !is_new && i64::from(n.pc) == kind;
+        if is_unchanged {
             let value = |k: usize| r.get(state, &machine.scratch, operands[k]);
-            unchanged = match next {
+            is_unchanged = match next {
                 Some(next) => {
                     let to = state.nodes[next.0 as usize].registers as usize
                         + usize::from(self.is_for(state, header));
                     (0..operands.len()).all(|k| identical(value(k), &state.registers[to + k]))
                 }
                 None => {
-                    let (own, left) = left(machine, state, header, kind);
-                    left.enumerate().all(|(k, o)| identical(value(k), &state.registers[own + o.index()]))
+                    let (base, results) = loop_results(machine, state, header, kind);
+                    results.enumerate().all(|(k, o)| identical(value(k), &state.registers[base + o.index()]))
                 }
             };
         }
@@ -275,12 +276,12 @@ impl<S: Scalar> Kept<S> {
             }
             state.nodes[node.0 as usize].pc = kind as u32;
         }
-        if unchanged && self.reuse {
+        if is_unchanged && self.reuse {
             if is_base && self.early {
-                return Ok(Onward::END);
+                return Ok(Target::END);
             }
             if !is_base && active.captures == Entry::Unchanged && !active.over && !self.is_marked(header) {
-                return Ok(self.go_on(machine, state, header, is_base, false));
+                return Ok(self.continue_owner(machine, state, header, is_base, false));
             }
         }
         r.gather(state, &machine.scratch, carried, &mut machine.buffer);
@@ -290,20 +291,20 @@ impl<S: Scalar> Kept<S> {
             self.end(machine, state, header, i + 1, kind, Carried::Buffer)
         };
         Ok(match next {
-            Next::Enter(child, at) => Onward::at(child, at),
-            Next::Ended { changed } => self.go_on(machine, state, header, is_base, changed),
+            Next::Enter(child, at) => Target::at(child, at),
+            Next::Ended { changed } => self.continue_owner(machine, state, header, is_base, changed),
         })
     }
 
-    /// The loop has ended: its owner continues, unless nothing has changed for it.
-    pub(super) fn go_on(
+    /// Continues the owner of a loop that has ended, unless nothing has changed for it.
+    pub(super) fn continue_owner(
         &mut self,
         machine: &Machine<'_, S>,
         state: &State<S>,
         header: NodeId,
         is_base: bool,
         changed: bool,
-    ) -> Onward {
+    ) -> Target {
         let n = &state.nodes[header.0 as usize];
         let owner = &state.nodes[n.parent.0 as usize];
         let site = &machine.program.function(owner.function).sites[n.site as usize];
@@ -311,15 +312,15 @@ impl<S: Scalar> Kept<S> {
             self.depth -= 1;
             self.active.pop();
             let next = self.returns.pop().unwrap_or(site.next);
-            return Onward::at(n.parent, if changed { site.next } else { next });
+            return Target::at(n.parent, if changed { site.next } else { next });
         }
         if self.early && !changed {
-            return Onward::END;
+            return Target::END;
         }
         self.leaves_its_activation();
         self.counters.entered += 1;
         self.note(Step::Entered(n.parent));
-        Onward::at(n.parent, if self.early { site.again } else { site.next })
+        Target::at(n.parent, if self.early { site.again } else { site.next })
     }
 
     fn is_for(&self, state: &State<S>, header: NodeId) -> bool {
@@ -327,7 +328,7 @@ impl<S: Scalar> Kept<S> {
         !matches!(state.registers[at], Value::None)
     }
 
-    /// The loop ends before iteration `i`: later ones are removed, and its owner gets the results.
+    /// Ends the loop before iteration `i`: later iterations are removed, and the owner gets the results.
     fn end(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -343,7 +344,7 @@ impl<S: Scalar> Kept<S> {
         if shrunk {
             if carried == Carried::Unchanged {
                 // The loop's results are the values that iteration `i` got.
-                self.gather_handed(machine, state, header, i);
+                self.gather_inputs(machine, state, header, i);
             }
             let removed = self.loops[list].split_off(i);
             for child in &removed {
@@ -357,16 +358,16 @@ impl<S: Scalar> Kept<S> {
         Next::Ended { changed }
     }
 
-    /// Into the buffer: the loop's results in its owner.
-    fn gather_left(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId) {
-        let (own, left) = left(machine, state, header, exit::NEXT);
-        let values: Vec<Value<S>> = left.map(|o| state.registers[own + o.index()].clone()).collect();
+    /// Copies the loop's results in its owner to the buffer.
+    fn gather_results(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId) {
+        let (base, loop_results) = loop_results(machine, state, header, exit::NEXT);
+        let values: Vec<Value<S>> = loop_results.map(|o| state.registers[base + o.index()].clone()).collect();
         machine.buffer.clear();
         machine.buffer.extend(values);
     }
 
-    /// Into the buffer: the carried values that iteration `i` got.
-    fn gather_handed(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId, i: usize) {
+    /// Copies the carried values that iteration `i` got to the buffer.
+    fn gather_inputs(&self, machine: &mut Machine<'_, S>, state: &State<S>, header: NodeId, i: usize) {
         let child = self.loops[state.nodes[header.0 as usize].slots as usize][i];
         let n = &state.nodes[child.0 as usize];
         let f = machine.program.function(n.function);
@@ -376,7 +377,8 @@ impl<S: Scalar> Kept<S> {
         machine.buffer.extend(state.registers[at + first..at + f.params as usize].iter().cloned());
     }
 
-    /// Writes the results of a loop, in the buffer, to the registers of its owner; whether anything changed.
+    /// Writes the results of a loop, which are in the buffer, to the registers of its owner. Returns whether a
+    /// register changed.
     fn leave(
         &mut self,
         machine: &mut Machine<'_, S>,
@@ -386,27 +388,27 @@ impl<S: Scalar> Kept<S> {
         kind: i64,
     ) -> bool {
         let n = &state.nodes[owner.0 as usize];
-        let (f, own, is_new) =
+        let (f, base, is_new) =
             (machine.program.function(n.function), n.registers as usize, n.created == self.now);
         let SiteKind::Loop(l) = &f.sites[number.0 as usize].kind else { return false };
         let mut changed = false;
         if let Some((how, value)) = l.exit {
             if kind == exit::RETURN {
                 let returned = machine.buffer.pop().unwrap_or_default();
-                changed |= self.write_to(state, is_new, own + value.index(), returned);
+                changed |= self.write_to(state, is_new, base + value.index(), returned);
             }
-            changed |= self.write_to(state, is_new, own + how.index(), Value::Int(kind));
+            changed |= self.write_to(state, is_new, base + how.index(), Value::Int(kind));
         }
         for (o, value) in f.operands[l.out.range()].iter().zip(machine.buffer.drain(..)) {
-            changed |= self.write_to(state, is_new, own + o.index(), value);
+            changed |= self.write_to(state, is_new, base + o.index(), value);
         }
         changed
     }
 }
 
-/// Where a loop's last iteration wrote its carried values (and, by `return`, its value): first register of the owner,
-/// and the operands.
-fn left<'a, S: Scalar>(
+/// The registers where a loop's last iteration wrote its carried values (and, by `return`, its value): the
+/// first register of the owner, and the operands.
+fn loop_results<'a, S: Scalar>(
     machine: &Machine<'a, S>,
     state: &State<S>,
     header: NodeId,

@@ -1,22 +1,25 @@
 //! Memoised calls of a trace: activations with several callers.
 //!
-//! A call of a memoised function is an activation that no caller owns: its address is made of the function and the
-//! arguments (`machine::memo`). Each site that asks for it is a *reader*, and its slot has the activation's node. In a transaction
+//! A call of a memoised function is an activation that no caller owns: its address consists of the function and
+//! the arguments (`machine::memo`). Each site that requests it is a *reader*, whose slot has the activation's
+//! node. In a transaction
 //!
 //! * a reader with other arguments leaves one call and joins another, which may exist;
-//! * a call is run again at the first reader in program order, if at all: when what it captures has changed, or when a
-//!   changed choice is below it. Every later reader gets the value;
-//! * a choice below a call may be read at many places, so a run that changes one starts at the root; what is marked to be entered
-//!   are all readers with those above them ([`Kept::mark_above`]). What no mark reaches cannot change: the arguments of a
-//!   call are its address, and what it captures is in the function value that each reader has;
-//! * a call without readers is removed at the end of the run, not when the last one leaves: one that joins later in the same
-//!   run finds the choices, as the reverse of this transaction would.
+//! * a call runs again at its first reader in program order, if at all: when its captures have changed, or when
+//!   a changed choice is below it. All later readers get the value;
+//! * a choice below a call may be read at many places, so a run that changes such a choice starts at the root.
+//!   All readers and the activations above them are marked to be entered ([`Kept::mark_above`]). Nothing
+//!   without a mark can change: the arguments of a call are its address, and its captures are in the function
+//!   value that each reader has;
+//! * a call without readers is removed at the end of the run, not when the last reader leaves: a reader that
+//!   joins later in the same run finds the choices, as the reverse of this transaction would.
 //!
-//! While a call runs, the parent of its node is the reader for which it runs; at any other time that field means nothing.
+//! While a call runs, the parent of its node is the reader for which it runs; at other times that field has no
+//! meaning.
 
 use super::super::Machine;
 use super::super::memo::{TEXT, call_of, cycle};
-use super::super::outcome::After;
+use super::super::outcome::Continuation;
 use super::super::outcome::Halt;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
@@ -29,8 +32,8 @@ use crate::value::{Memo, Value, identical};
 use niwaki_math::Scalar;
 use std::collections::{BTreeSet, HashMap};
 
-/// A site that asks for a call: its activation, and its number.
-type Asks = (u32, u16);
+/// A site that requests a call: its activation, and its number.
+type ReaderSite = (u32, u16);
 
 /// A memoised call.
 #[derive(Debug)]
@@ -39,8 +42,8 @@ struct Call<S: Scalar> {
     name: String,
     node: NodeId,
     value: Value<S>,
-    readers: BTreeSet<Asks>,
-    /// The transaction in which it was last run.
+    readers: BTreeSet<ReaderSite>,
+    /// The transaction in which the call ran last.
     ran: u32,
 }
 
@@ -50,21 +53,21 @@ pub(crate) struct Memos<S: Scalar> {
     calls: Vec<Option<Call<S>>>,
     free: Vec<u32>,
     by_path: HashMap<u128, u32>,
-    /// Calls that a reader left, in the open transaction.
+    /// Calls that a reader left in the open transaction.
     left: Vec<u32>,
-    /// Calls that run, the outermost first.
+    /// Calls that run, outermost first.
     running: Vec<u32>,
     journal: Vec<Event<S>>,
 }
 
-/// What the open transaction did to the calls.
+/// An effect of the open transaction on the calls.
 #[derive(Debug)]
 enum Event<S: Scalar> {
-    Made(u32),
-    Joined(u32, Asks),
-    Left(u32, Asks),
-    /// It gave another value: that before.
-    Gave(u32, Value<S>),
+    Created(u32),
+    Joined(u32, ReaderSite),
+    Left(u32, ReaderSite),
+    /// The call returned another value; its value before.
+    Revalued(u32, Value<S>),
     Removed(u32),
 }
 
@@ -82,20 +85,20 @@ impl<S: Scalar> Default for Memos<S> {
 }
 
 impl<S: Scalar> Memos<S> {
-    /// Whether there are none.
+    /// Whether there are no calls.
     pub fn is_empty(&self) -> bool {
         self.by_path.is_empty()
     }
 
-    /// A run begins.
+    /// Prepares a run.
     pub fn prepare(&mut self) {
         self.running.clear();
     }
 
-    /// The values that it holds, and those of the journal.
+    /// The values of the calls, and the values in the journal.
     pub fn values(&self) -> impl Iterator<Item = &Value<S>> {
         let before = self.journal.iter().filter_map(|event| match event {
-            Event::Gave(_, value) => Some(value),
+            Event::Revalued(_, value) => Some(value),
             _ => None,
         });
         self.calls.iter().flatten().map(|call| &call.value).chain(before)
@@ -106,7 +109,7 @@ impl<S: Scalar> Memos<S> {
         let readers: usize =
             self.calls.iter().flatten().map(|call| call.readers.len() + call.name.len()).sum();
         self.calls.len() * (size_of::<Option<Call<S>>>() + 32)
-            + readers * 2 * size_of::<Asks>()
+            + readers * 2 * size_of::<ReaderSite>()
             + self.journal.len() * size_of::<Event<S>>()
     }
 
@@ -120,25 +123,25 @@ impl<S: Scalar> Memos<S> {
         call.into_iter().flat_map(|call| call.readers.iter().map(|(node, _)| NodeId(*node)))
     }
 
-    fn join(&mut self, number: u32, reader: Asks) {
+    fn join(&mut self, number: u32, reader: ReaderSite) {
         self.at(number).readers.insert(reader);
         self.journal.push(Event::Joined(number, reader));
     }
 
-    /// A reader asks no more.
-    pub fn leave(&mut self, number: u32, reader: Asks) {
+    /// Removes a reader from a call.
+    pub fn leave(&mut self, number: u32, reader: ReaderSite) {
         self.at(number).readers.remove(&reader);
         self.left.push(number);
         self.journal.push(Event::Left(number, reader));
     }
 
-    /// Whether the open transaction may have changed a call, or who reads it.
+    /// Whether the open transaction may have changed a call, or its readers.
     #[inline(always)]
     pub fn has_changed(&self) -> bool {
         !self.journal.is_empty() || !self.left.is_empty()
     }
 
-    /// The transaction is committed.
+    /// Commits the transaction.
     pub fn commit(&mut self) {
         for event in std::mem::take(&mut self.journal) {
             if let Event::Removed(number) = event {
@@ -149,11 +152,11 @@ impl<S: Scalar> Memos<S> {
         self.left.clear();
     }
 
-    /// The transaction is undone.
+    /// Undoes the transaction.
     pub fn undo(&mut self, state: &mut State<S>) {
         while let Some(event) = self.journal.pop() {
             match event {
-                Event::Made(number) => {
+                Event::Created(number) => {
                     let path = self.at(number).path;
                     self.by_path.remove(&path);
                     state.memos.forget(path);
@@ -166,7 +169,7 @@ impl<S: Scalar> Memos<S> {
                 Event::Left(number, reader) => {
                     self.at(number).readers.insert(reader);
                 }
-                Event::Gave(number, before) => self.at(number).value = before,
+                Event::Revalued(number, before) => self.at(number).value = before,
                 Event::Removed(number) => {
                     let call = self.at(number);
                     let (path, name) = (call.path, call.name.clone());
@@ -180,7 +183,7 @@ impl<S: Scalar> Memos<S> {
 }
 
 impl<S: Scalar> Kept<S> {
-    /// A call of a memoised function, its arguments and captures in the machine's buffer.
+    /// Calls a memoised function whose arguments and captures are in the machine's buffer.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     pub(super) fn recall(
         &mut self,
@@ -191,16 +194,16 @@ impl<S: Scalar> Kept<S> {
         site: &Site,
         function: FunctionId,
         memo: &Memo,
-    ) -> Result<After, Halt> {
+    ) -> Result<Continuation, Halt> {
         let params = machine.program.function(function).params as usize;
         let (path, name) = call_of(memo, &machine.buffer[..params])?;
         state.steps = state.steps.saturating_add(name.len() as u64 / TEXT);
         let known = self.memos.by_path.get(&path).copied();
         let at = Kept::slot_at(state, node, number.0 as usize);
         let (held, reader) = (self.slots[at].held, (node.0, number.0));
-        let is_the_same = held != Slot::NOTHING
+        let is_joined = held != Slot::NOTHING
             && known.is_some_and(|known| state.nodes[held as usize].memo() == Some(known));
-        if !is_the_same {
+        if !is_joined {
             self.leaves_its_activation();
             self.vacate(machine.program, state, node, number.0);
         }
@@ -219,7 +222,7 @@ impl<S: Scalar> Kept<S> {
             return Err(Halt::Fault(cycle(&name)));
         }
         let (child, ran) = (self.memos.at(known).node, self.memos.at(known).ran);
-        if !is_the_same {
+        if !is_joined {
             self.write_slot(self.quiet, at, Slot { held: child.0, mark: 0, log: 0.0 });
             self.memos.join(known, reader);
         }
@@ -237,18 +240,25 @@ impl<S: Scalar> Kept<S> {
             self.note(Step::Skipped(child));
             let value = self.memos.at(known).value.clone();
             let value = if site.kind.gives_future() { Value::returned(value) } else { value };
-            let changed = self.write_to(state, self.quiet, r.own + site.to.index(), value);
+            let changed = self.write_to(state, self.quiet, r.base + site.to.index(), value);
             return Ok(self.after(r.f, site, changed));
         }
         let n = &mut state.nodes[child.0 as usize];
         (n.parent, n.site) = (node, u32::from(number.0));
         self.memos.at(known).ran = self.now;
         self.memos.running.push(known);
-        // Not in a slice: the reader may be one that has no value yet.
+        // The call does not run in a slice: the reader may have no value so far.
         Ok(self.enter_call(child, 0))
     }
 
-    fn make_call(&mut self, state: &mut State<S>, node: NodeId, path: u128, name: String, reader: Asks) {
+    fn make_call(
+        &mut self,
+        state: &mut State<S>,
+        node: NodeId,
+        path: u128,
+        name: String,
+        reader: ReaderSite,
+    ) {
         let call = Call {
             path,
             name: name.clone(),
@@ -271,12 +281,13 @@ impl<S: Scalar> Kept<S> {
         state.memos.note(path, &name);
         state.charged += size_of::<Call<S>>() + name.len();
         self.memos.by_path.insert(path, number);
-        self.memos.journal.push(Event::Made(number));
+        self.memos.journal.push(Event::Created(number));
         self.memos.join(number, reader);
         self.memos.running.push(number);
     }
 
-    /// A memoised call returns. False where the run is confined to it, so that it must end here.
+    /// Records the value of a memoised call. Returns `false` if the run is confined to the call, so that it
+    /// must end here.
     pub(super) fn settle(&mut self, number: u32, value: &Value<S>) -> bool {
         let changed = !identical(&self.memos.at(number).value, value);
         if self.depth == 0 {
@@ -288,19 +299,19 @@ impl<S: Scalar> Kept<S> {
         self.memos.running.pop();
         if changed {
             let before = std::mem::replace(&mut self.memos.at(number).value, value.clone());
-            self.memos.journal.push(Event::Gave(number, before));
+            self.memos.journal.push(Event::Revalued(number, before));
         }
         true
     }
 
-    /// The run has come to its end: calls that nobody reads any more are removed, with the calls that only they read.
+    /// Removes calls without readers at the end of a run, and the calls that only these read.
     pub(super) fn remove_unread(&mut self, program: &Program<S>, state: &mut State<S>) {
         while !self.memos.left.is_empty() {
             let mut left = std::mem::take(&mut self.memos.left);
             left.retain(|number| {
                 self.memos.calls[*number as usize].as_ref().is_some_and(|c| c.readers.is_empty())
             });
-            // The same order in all strategies.
+            // The order is the same in all strategies.
             left.sort_unstable_by_key(|number| self.memos.at(*number).path);
             left.dedup();
             for number in left {
@@ -315,14 +326,15 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// The memoised call that the slot of a call has, if it is one.
+    /// The memoised call in the slot of a call, if it is one.
     #[inline]
     pub(super) fn shared(&self, state: &State<S>, slot: Slot) -> Option<u32> {
         state.nodes[slot.held as usize].memo()
     }
 
-    /// Whether an activation belongs to a memoised call: other activations than those above it may depend on it.
-    pub(super) fn is_remembered(&self, state: &State<S>, node: NodeId) -> bool {
+    /// Whether an activation belongs to a memoised call: then activations that are not above it may depend on
+    /// it.
+    pub(super) fn is_memoised(&self, state: &State<S>, node: NodeId) -> bool {
         let mut at = node;
         while !self.memos.is_empty() && at != NodeId::NONE {
             let n = &state.nodes[at.0 as usize];
@@ -336,7 +348,7 @@ impl<S: Scalar> Kept<S> {
 }
 
 impl<S: Scalar> State<S> {
-    /// What an activation of a trace is counted as being below: its caller, or of a memoised call the root. `NONE` for the
+    /// The activation above another one in a trace: its caller, or the root for a memoised call. `NONE` for the
     /// root itself.
     pub(super) fn above(&self, node: NodeId) -> NodeId {
         let n = &self.nodes[node.0 as usize];

@@ -1,22 +1,23 @@
-//! Kept activations: a trace that is run again only where a choice changed.
+//! Kept activations: a trace that runs again only where a choice changed.
 //!
-//! Every activation that can suspend stays as a node after it has returned, with one slot for each of its sites. A
-//! *transaction* changes choices and runs on from them: [`Machine::begin`], [`Machine::propose`] or
+//! Every activation that can suspend stays as a node after it has returned, with one slot for each of its
+//! sites. A *transaction* changes choices and runs on from them: [`Machine::begin`], [`Machine::propose`] or
 //! [`Machine::change`], then [`Trace::commit`] or [`Trace::rollback`]. Two switches make four strategies
-//! ([`Strategy`]); they differ in what they skip and in nothing else.
+//! ([`Strategy`]), which differ only in what they skip.
 //!
-//! * `trace`: what a trace consists of; `strategy`: how much is done again, and what came of it;
-//! * `begin`: the first run; `slot`, `journal`: what is remembered, and what can be undone;
+//! * `trace`: the parts of a trace; `strategy`: the strategies, and the outcomes of a run;
+//! * `begin`: the first run; `slot`, `journal`: the memory of each site, and the changes that can be undone;
 //! * `questions`: choices, factors, emits and queries that are reached again;
-//! * `calls`, `loops`: activations that are entered, skipped, created and removed; `adapt`: calls where reuse does not
-//!   pay;
+//! * `calls`, `loops`: activations that are entered, skipped, created and removed; `adapt`: calls where reuse
+//!   does not pay;
 //! * `memo`: memoised calls, which have several callers;
-//! * `slices`: activations that are entered for one change only, and run no more than what depends on it;
+//! * `slices`: activations that are entered for one change only, and run only the instructions that depend on
+//!   it;
 //! * `cells`: elements of collections, and their readers;
-//! * `transaction`: changing choices, keeping or undoing it; `changes`: what that did to the choices;
-//! * `ahead`: memory that the next proposal will need; `arrange`: numbers of choices, given back;
-//! * [`inspect`]: what a trace holds, in program order; [`part`]: parts of it that can be run apart; `scene`: which
-//!   primitives belong to a part.
+//! * `transaction`: changes of choices, and their commit or rollback; `changes`: their effects on the choices;
+//! * `ahead`: memory that the next proposal will need; `arrange`: the restoration of the choices' numbers;
+//! * [`inspect`]: the contents of a trace, in program order; [`part`]: parts that can run separately; `scene`:
+//!   the primitives of a part.
 //!
 //! Futures run where they are created, so every future has returned when its value is read.
 //!
@@ -54,8 +55,8 @@ pub(crate) use trace::Kept;
 
 use super::Machine;
 use super::answers::Answers;
-use super::keep::{Keep, Onward};
-use super::outcome::{After, Halt};
+use super::keep::{Keep, Target};
+use super::outcome::{Continuation, Halt};
 use super::registers::Registers;
 use super::state::{NodeId, State};
 use crate::code::{Args, SiteId};
@@ -124,7 +125,7 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         let drawn = self.choose_again(machine, state, answers, r, node, number, site)?;
         match self.after(r.f, site, drawn) {
             _ if self.tangled => Err(Halt::Impossible),
-            After::Goto(next) => Ok(next as usize),
+            Continuation::Goto(next) => Ok(next as usize),
             _ => Ok(self.pc as usize + 1),
         }
     }
@@ -149,8 +150,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         r: Registers<'_, S>,
         node: NodeId,
         number: SiteId,
-    ) -> Result<After, Halt> {
-        let after = self.carry_out(machine, state, r, node, number)?;
+    ) -> Result<Continuation, Halt> {
+        let after = self.run_site(machine, state, r, node, number)?;
         if self.tangled { Err(Halt::Impossible) } else { Ok(after) }
     }
 
@@ -166,9 +167,9 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         state: &mut State<S>,
         node: NodeId,
         value: Value<S>,
-    ) -> Onward {
+    ) -> Target {
         let next = self.return_to_caller(machine.program, state, node, value);
-        if self.tangled { Onward::END } else { next }
+        if self.tangled { Target::END } else { next }
     }
 
     fn end_iteration(
@@ -179,9 +180,9 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         node: NodeId,
         exit: i64,
         carried: Args,
-    ) -> Result<Onward, Fault> {
+    ) -> Result<Target, Fault> {
         let next = self.end_of_iteration(machine, state, r, node, exit, carried)?;
-        Ok(if self.tangled { Onward::END } else { next })
+        Ok(if self.tangled { Target::END } else { next })
     }
 
     #[inline]
@@ -193,8 +194,8 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         node: NodeId,
         number: SiteId,
         arg: u16,
-    ) -> After {
-        self.pass_one(machine, state, r, node, number, arg)
+    ) -> Continuation {
+        self.pass_argument(machine, state, r, node, number, arg)
     }
 
     fn done(
@@ -202,9 +203,9 @@ impl<S: Scalar> Keep<S> for Kept<S> {
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
-    ) -> Result<Onward, Fault> {
+    ) -> Result<Target, Fault> {
         let next = self.leave_unchanged(machine, state, node)?;
-        Ok(if self.tangled { Onward::END } else { next })
+        Ok(if self.tangled { Target::END } else { next })
     }
 
     fn count(&mut self, instructions: u64) {
@@ -213,18 +214,18 @@ impl<S: Scalar> Keep<S> for Kept<S> {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// Sums over the trace, without the open transaction.
+    /// The sums over the trace, without the open transaction.
     #[inline(always)]
     pub fn totals(&self) -> &Totals {
         &self.kept.totals
     }
 
-    /// Work done since the trace began.
+    /// The work done since the trace began.
     pub fn counters(&self) -> Counters {
         self.kept.counters
     }
 
-    /// What the program returned.
+    /// The value that the program returned.
     pub fn result(&self) -> Value<S> {
         self.kept.resolved(&self.state, &self.kept.result)
     }
@@ -234,27 +235,27 @@ impl<S: Scalar> Trace<S> {
         self.kept.choices.len()
     }
 
-    /// The first of the held choices that it does not have, with the open transaction.
+    /// The first held choice that the trace does not have, with the open transaction.
     pub fn unmet(&self) -> Option<u32> {
         (0..).zip(&self.kept.met).find(|(_, met)| **met == 0).map(|(number, _)| number)
     }
 
-    /// Whether it has no choice.
+    /// Whether the trace has no choice.
     pub fn is_empty(&self) -> bool {
         self.kept.choices.is_empty()
     }
 
-    /// Bytes that the trace holds, without values.
+    /// Bytes of the trace, without values.
     pub fn bytes(&self) -> usize {
         self.state.own_bytes() + self.kept.own_bytes()
     }
 
-    /// From now on the steps of each run are noted.
+    /// Lets the trace record the steps of each run.
     pub fn note_steps(&mut self) {
         self.kept.steps = Some(Vec::new());
     }
 
-    /// The steps noted since the last call.
+    /// The steps recorded since the last call.
     pub fn take_steps(&mut self) -> Vec<Step> {
         self.kept.steps.replace(Vec::new()).unwrap_or_default()
     }

@@ -1,11 +1,12 @@
-//! Parts of a trace: what can be run once more apart from the rest.
+//! Parts of a trace, which can run once more without the rest.
 //!
-//! A part is an activation and everything below it, or the iterations of a loop from one on. A loop is thus divided as
-//! the recursion that it could be: the iterations from `i` on consist of iteration `i` and of those from `i + 1` on.
+//! A part is an activation and all activations below it, or the iterations of a loop from a given one on. So a
+//! loop is divided like the recursion that it could be: the iterations from `i` on consist of iteration `i` and
+//! of the iterations from `i + 1` on.
 //!
-//! The inputs of a part are in its own registers, and those of an iteration also in the loop's node. A run of the part
-//! needs nothing else. Its result is what it gives back: the value of a call, or how the iterations ended and what they
-//! carry.
+//! The inputs of a part are in its own registers, and the inputs of an iteration also in the loop's node. A run
+//! of the part needs nothing else. Its result is the value of a call, or the kind of exit of the iterations and
+//! the values that they carry.
 
 use super::super::numbers::Numbers;
 use super::super::state::{NodeId, State, Status};
@@ -21,7 +22,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Part {
     pub(super) node: NodeId,
-    /// Of an iteration: whether those after it belong to the part.
+    /// Whether later iterations of the same loop belong to the part.
     onward: bool,
 }
 
@@ -29,26 +30,26 @@ impl Part {
     /// The whole run.
     pub const WHOLE: Part = Part { node: NodeId(0), onward: false };
 
-    /// Whether it is the iterations of a loop from one on.
+    /// Whether the part consists of the iterations of a loop from a given one on.
     pub fn is_onward(self) -> bool {
         self.onward
     }
 }
 
-/// What a part consists of.
+/// A piece of a part.
 pub enum Piece<'a> {
-    /// A choice of its own activation, by number.
+    /// A choice of the part's own activation, by number.
     Choice(usize),
-    /// A held choice of its own activation, by its number among those that are held.
+    /// A held choice of the part's own activation, by its number among held choices.
     Held(u32),
-    /// A primitive that its own activation emitted.
+    /// A primitive that the part's own activation emitted.
     Emit(&'a Primitive),
     /// A part below.
     Part(Part),
 }
 
 impl<S: Scalar> Trace<S> {
-    /// Visits what a part consists of, in program order. No transaction is open.
+    /// Visits the pieces of a part, in program order. No transaction may be open.
     pub fn pieces<'a>(&'a self, program: &Program<S>, part: Part, mut each: impl FnMut(Piece<'a>)) {
         let n = &self.state.nodes[part.node.0 as usize];
         if part.onward {
@@ -81,7 +82,8 @@ impl<S: Scalar> Trace<S> {
         }
     }
 
-    /// Visits the choices (by number), the held ones and the primitives of a part and of all below it, in no order.
+    /// Visits the choices (by number), the held choices and the primitives of a part and of all parts below it,
+    /// in no order.
     pub fn all_pieces<'a>(&'a self, program: &Program<S>, part: Part, mut each: impl FnMut(Piece<'a>)) {
         let mut work = vec![part];
         while let Some(part) = work.pop() {
@@ -92,12 +94,13 @@ impl<S: Scalar> Trace<S> {
         }
     }
 
-    /// The part that is the activation of a choice.
+    /// The activation of a choice, as a part.
     pub fn part_of(&self, choice: usize) -> Part {
         Part { node: self.activation(choice, 0), onward: false }
     }
 
-    /// The hash of the path of a part's first activation: the same in every run that reaches it with the same inputs.
+    /// The hash of the path of a part's first activation: the same in every run that reaches it with the same
+    /// inputs.
     pub fn part_path(&self, part: Part) -> u128 {
         self.state.nodes[part.node.0 as usize].path
     }
@@ -107,7 +110,7 @@ impl<S: Scalar> Trace<S> {
         self.state.path(program, part.node)
     }
 
-    /// A run of a part that has not begun, with the inputs that the part has in this trace. Futures that it creates are
+    /// A run of a part that has not begun, with the part's inputs in this trace. Futures that it creates are
     /// deferred. With `origins`, addresses below it can be read from the root.
     pub fn start_part(&self, program: &Program<S>, part: Part, origins: bool) -> State<S> {
         let mut state = State::empty();
@@ -117,9 +120,9 @@ impl<S: Scalar> Trace<S> {
             let n = &self.state.nodes[from.0 as usize];
             let to = state.new_node(program, n.function, parent, 0, n.path);
             state.nodes[to.0 as usize].iteration = n.iteration;
-            let (at, own) = (state.nodes[to.0 as usize].registers as usize, n.registers as usize);
+            let (at, base) = (state.nodes[to.0 as usize].registers as usize, n.registers as usize);
             for i in 0..inputs {
-                state.registers[at + i] = self.kept.resolved(&self.state, &self.state.registers[own + i]);
+                state.registers[at + i] = self.kept.resolved(&self.state, &self.state.registers[base + i]);
             }
             to
         };
@@ -144,24 +147,25 @@ impl<S: Scalar> Trace<S> {
         }
         let future = state.new_future(Status::Runnable(first), false);
         state.runnable.push(future);
-        // What it begins with belongs to this trace.
-        let given = state.registers.iter().chain(self.state.given.iter().flat_map(|given| given.iter()));
-        let given: Arc<[Value<S>]> = given.filter(|value| !value.is_plain()).cloned().collect();
-        state.given = (!given.is_empty()).then_some(given);
+        // The values at the beginning belong to this trace.
+        let values = state.registers.iter().chain(self.state.inputs.iter().flat_map(|inputs| inputs.iter()));
+        let inputs: Arc<[Value<S>]> = values.filter(|value| !value.is_plain()).cloned().collect();
+        state.inputs = (!inputs.is_empty()).then_some(inputs);
         state.unmet = self.held_within(program, part);
         state
     }
 
-    /// A run of a part that has not begun notes what activations emit last, and begins with what this trace has before it.
+    /// Lets a run of a part that has not begun record the parts that activations emit last, and begin with the
+    /// last part before it in this trace.
     pub fn note_parts(&self, program: &Program<S>, part: Part, start: &mut State<S>) {
         start.note_parts();
         if let Some(before) = self.part_before(program, part.node, 0) {
-            // The first node is that of the loop, where it is an iteration.
+            // The first node is the loop's node if the part is an iteration.
             start.put_part(NodeId(0), before);
         }
     }
 
-    /// The held choices that this part alone has: a run of the part must meet them.
+    /// The held choices that only this part has: a run of the part must meet them.
     fn held_within(&self, program: &Program<S>, part: Part) -> Numbers {
         let mut within = vec![0; self.kept.met.len()];
         if !within.is_empty() {

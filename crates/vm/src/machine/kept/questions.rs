@@ -6,7 +6,7 @@ use super::super::answers::{Answer, Answers, At};
 use super::super::budget;
 use super::super::buffers::make_room;
 use super::super::memo::memoised;
-use super::super::outcome::After;
+use super::super::outcome::Continuation;
 use super::super::outcome::Halt;
 use super::super::question::as_real;
 use super::super::registers::Registers;
@@ -21,13 +21,14 @@ use crate::value::{Value, identical, log_density, ops};
 use niwaki_geom::{Primitive, Shape};
 use niwaki_math::{Dist, Family, Scalar, grid};
 
-/// Whether a kept value can be a value of that distribution at all: vectors have the right number of components,
-/// counts the right sum, and the one value of a delta is drawn again.
+/// Whether a kept value is possible under a distribution: vectors have the right number of components and
+/// counts the right sum. The value of a delta is always drawn again.
 #[inline]
 pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
     match value {
         Value::Real(_) | Value::Int(_) | Value::Bool(_) => !matches!(dist, Dist::Delta(_)),
-        // Counts of another number of trials are never values: kept, they would hold that number for ever.
+        // Counts with another number of trials are impossible: if they were kept, they would keep that number
+        // for ever.
         other => match dist {
             Dist::Multinomial(m) => {
                 let counts = other.draw().and_then(|draw| draw.as_counts());
@@ -38,21 +39,21 @@ pub fn fits<S: Scalar>(dist: &Dist<S>, value: &Value<S>) -> bool {
     }
 }
 
-/// A log density or factor must be a number below plus infinity (a density may be infinite at a point).
+/// Checks that a log density or factor is a number below plus infinity (a density may be infinite at a point).
 #[inline(always)]
-fn check(log: f64, what: &str) -> Result<f64, Fault> {
-    if log < f64::INFINITY { Ok(grid(log)) } else { Err(no_score(log, what)) }
+fn check(log: f64, quantity: &str) -> Result<f64, Fault> {
+    if log < f64::INFINITY { Ok(grid(log)) } else { Err(no_score(log, quantity)) }
 }
 
 #[cold]
 #[inline(never)]
-fn no_score(log: f64, what: &str) -> Fault {
-    Fault::new("non-finite-score", format!("{what} of {log} nats"))
-        .with_help("a log factor is a finite number, or minus infinity for what is impossible")
+fn no_score(log: f64, quantity: &str) -> Fault {
+    Fault::new("non-finite-score", format!("{quantity} of {log} nats"))
+        .with_help("a log factor is a finite number, or minus infinity for an impossible run")
 }
 
-/// The log density of a number, of a family and its two parameters, without making the distribution; `None` where they
-/// are no numbers, or it must be made.
+/// The log density of a number under a family with two parameters, without building the distribution. `None` if
+/// the operands are not numbers, or if the distribution must be built.
 #[inline(always)]
 fn number_log_density<S: Scalar>(
     machine: &mut Machine<'_, S>,
@@ -67,7 +68,7 @@ fn number_log_density<S: Scalar>(
     Some(Dist::log_density_of_reals(family, a, b, x, &mut machine.logs)?.value())
 }
 
-/// [`number_log_density`] of an observation whose value is not read.
+/// [`number_log_density`] for an observation whose value is not read.
 #[inline(always)]
 fn observed_number<S: Scalar>(
     machine: &mut Machine<'_, S>,
@@ -84,11 +85,11 @@ fn observed_number<S: Scalar>(
     number_log_density(machine, state, r, *family, (*a, *b), x)
 }
 
-/// Bytes of a choice that is added: its place in the table, and what the journal notes of it.
+/// Bytes of an added choice: its place in the table, and its record in the journal.
 const CHOICE_BYTES: usize = 2 * size_of::<ChoiceAt>() + size_of::<Birth>();
 
 impl<S: Scalar> Kept<S> {
-    /// Sets the log of a filled slot and brings the sums up to date.
+    /// Sets the log of a filled slot and updates the sums.
     #[inline(always)]
     pub(super) fn set_log(&mut self, node_is_new: bool, at: usize, log: f64, prior: bool) {
         let old = self.slots[at];
@@ -100,16 +101,16 @@ impl<S: Scalar> Kept<S> {
         total.replace(old.log, log);
     }
 
-    /// Carries out a site that is neither a choice nor a factor.
+    /// Runs a site that is neither a choice nor a factor.
     #[inline(always)]
-    pub(super) fn carry_out(
+    pub(super) fn run_site(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         r: Registers<'_, S>,
         node: NodeId,
         number: SiteId,
-    ) -> Result<After, Halt> {
+    ) -> Result<Continuation, Halt> {
         let site = &r.f.sites[number.0 as usize];
         match &site.kind {
             SiteKind::Call { function } | SiteKind::Future { function, .. } => {
@@ -127,51 +128,51 @@ impl<S: Scalar> Kept<S> {
                 if !self.slots[at].is_filled() {
                     self.write_slot(self.quiet, at, Slot { held: 0, mark: 0, log: 0.0 });
                 }
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Memoise { of } => {
                 let function = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]);
                 let value = memoised(state, machine.program, node, site, *of, function)?;
-                self.write_to(state, self.quiet, r.own + site.to.index(), value);
-                Ok(After::Next)
+                self.write_to(state, self.quiet, r.base + site.to.index(), value);
+                Ok(Continuation::Next)
             }
             SiteKind::Cell { content } => {
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 self.cell(state, &machine.scratch, r, at, site, *content);
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Append { content } => {
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 self.append(state, &machine.scratch, r, at, site, *content)?;
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Read => {
                 self.read(state, &machine.scratch, r, node, number.0, site)?;
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Force => {
                 let value = match r.get(state, &machine.scratch, r.f.operands[site.args.start as usize]) {
                     Value::Returned(value) => value.items()[0].clone(),
                     other => other.clone(),
                 };
-                self.write_to(state, self.quiet, r.own + site.to.index(), value);
-                Ok(After::Next)
+                self.write_to(state, self.quiet, r.base + site.to.index(), value);
+                Ok(Continuation::Next)
             }
             SiteKind::Emit => {
                 machine.collect_shapes(state, r, site)?;
                 let at = Kept::slot_at(state, node, number.0 as usize);
                 state.charged += 64 + machine.shapes.len() * size_of::<Shape>();
                 self.emit(at, &machine.shapes);
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Sample(_) | SiteKind::Observe(_) | SiteKind::Factor | SiteKind::Condition => {
-                unreachable!("choices and factors are carried out apart")
+                unreachable!("choices and factors have functions of their own")
             }
         }
     }
 
-    /// A choice keeps its value when family and dimension are unchanged, and is scored again; else it is drawn, and
-    /// the answer is true.
+    /// Runs a choice. It keeps its value if family and dimension are unchanged, and is scored again. Otherwise
+    /// it is drawn, and the result is `true`.
     #[allow(clippy::too_many_arguments)] // the registers of the loop in `interpret`, by value
     #[inline(always)]
     pub(super) fn choose_again<A: Answers<S>>(
@@ -184,7 +185,7 @@ impl<S: Scalar> Kept<S> {
         number: SiteId,
         site: &Site,
     ) -> Result<bool, Halt> {
-        let (place, at) = (r.own + site.to.index(), Kept::slot_at(state, node, number.0 as usize));
+        let (place, at) = (r.base + site.to.index(), Kept::slot_at(state, node, number.0 as usize));
         let program = machine.program;
         let slot = self.slots[at];
         if let SiteKind::Sample(Source::Family(family)) = site.kind
@@ -204,9 +205,9 @@ impl<S: Scalar> Kept<S> {
         if let SiteKind::Sample(Source::Family(family)) = site.kind {
             machine.charge_rows(state, self, r, site.args, family)?;
         }
-        let mut owned = None;
+        let mut built = None;
         let held = machine.held;
-        let dist = machine.dist(state, r, site, site.args, &mut owned)?;
+        let dist = machine.dist(state, r, site, site.args, &mut built)?;
         if let Some(held) = held
             && (!slot.is_filled() || slot.is_held())
             && let Some((number, value)) = held.find(join(state.nodes[node.0 as usize].path, site.key))
@@ -239,7 +240,8 @@ impl<S: Scalar> Kept<S> {
         let Answer::Go(value) = answers.choice(&question, dist)? else { return Err(Halt::Paused) };
         let log = check(log_density(dist, &value)?.value(), "a log density")?;
         let held = if slot.is_filled() {
-            // Drawn again: the old value counts as removed, the new one as added at the same place in the table.
+            // The choice is drawn again: the old value counts as removed, the new value as added at the same
+            // place in the table.
             self.stale.add(slot.log);
             self.forget_change(at);
             self.change.log_prior.remove(slot.log);
@@ -262,7 +264,7 @@ impl<S: Scalar> Kept<S> {
         if log == f64::NEG_INFINITY { Err(Halt::Impossible) } else { Ok(true) }
     }
 
-    /// Reaches a factor.
+    /// Runs a factor.
     #[inline(always)]
     pub(super) fn score_again(
         &mut self,
@@ -287,16 +289,16 @@ impl<S: Scalar> Kept<S> {
             _ => match observed_number(machine, state, r, site) {
                 Some(log) => log,
                 None => {
-                    let mut owned = None;
+                    let mut built = None;
                     let args = Args { len: last as u16, ..site.args };
                     let value = r.get(state, &machine.scratch, operand).clone();
                     if let SiteKind::Observe(Source::Family(family)) = site.kind {
                         machine.charge_rows(state, self, r, args, family)?;
                     }
-                    let dist = machine.dist(state, r, site, args, &mut owned)?;
+                    let dist = machine.dist(state, r, site, args, &mut built)?;
                     let log = log_density(dist, &value)?.value();
                     if site.is_read {
-                        self.write_to(state, self.quiet, r.own + site.to.index(), value);
+                        self.write_to(state, self.quiet, r.base + site.to.index(), value);
                     }
                     log
                 }
@@ -345,7 +347,8 @@ impl<S: Scalar> Kept<S> {
         self.write_slot(self.quiet, at, Slot { held: number, mark: 0, log: 0.0 });
     }
 
-    /// A changed choice is no longer reached: its proposal does not count in the move.
+    /// Removes a changed choice that is no longer reached from the proposal: its change does not count in the
+    /// move.
     fn forget_change(&mut self, at: usize) {
         if self.slots[at].mark & Slot::CHANGED != 0
             && let Some(change) = self.changed.iter_mut().find(|c| c.0 as usize == at)
@@ -354,7 +357,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Removes what a question's slot holds.
+    /// Removes the contents of a question's slot.
     pub(super) fn withdraw(&mut self, kind: &SiteKind, at: usize, node: NodeId, site: u16) {
         let slot = self.slots[at];
         self.leaves_its_activation();
@@ -366,7 +369,7 @@ impl<S: Scalar> Kept<S> {
                 self.change.log_factors.remove(slot.log);
             }
             SiteKind::Sample(_) => {
-                debug_assert!(slot.held & Slot::BORN == 0, "a site is met once in a transaction");
+                debug_assert!(slot.held & Slot::BORN == 0, "a site runs once in a transaction");
                 self.stale.add(slot.log);
                 self.forget_change(at);
                 self.change.log_prior.remove(slot.log);

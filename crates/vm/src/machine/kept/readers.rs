@@ -1,17 +1,17 @@
-//! Who reads an element of a collection.
+//! The readers of elements of collections.
 
 use super::super::ids::NodeId;
 
-/// A read of an element.
+/// A site that reads an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reader {
     pub node: NodeId,
     pub site: u16,
-    /// Its slot: `held` is the list of readers that contains it, `mark` its place there.
+    /// The slot of the site: `held` is the list of readers that contains it, `mark` its place there.
     pub slot: u32,
 }
 
-/// The readers of one element.
+/// The readers of an element.
 #[derive(Debug, Default)]
 pub(crate) struct Readers {
     /// The register that holds the element.
@@ -20,7 +20,7 @@ pub(crate) struct Readers {
 }
 
 impl Readers {
-    /// Its bytes.
+    /// The bytes of the list.
     pub fn bytes(&self) -> usize {
         size_of::<Readers>() + self.all.capacity() * size_of::<Reader>()
     }

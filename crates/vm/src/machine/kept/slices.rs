@@ -1,11 +1,11 @@
 //! Activations that are entered for one change only, in a slice of their code (see `passes::slices`).
 //!
-//! Only C3 uses slices. A run from the root marks readers of changed elements as it runs, and those may be in a call
-//! that a slice leaves out.
+//! Only C3 uses slices. A run from the root marks readers of changed elements while it runs, and these may be
+//! in a call that a slice omits.
 
 use super::super::Machine;
-use super::super::keep::Onward;
-use super::super::outcome::After;
+use super::super::keep::Target;
+use super::super::outcome::Continuation;
 use super::super::registers::Registers;
 use super::super::state::{NodeId, State};
 use super::entry::Entry;
@@ -18,24 +18,24 @@ use crate::value::identical;
 use niwaki_math::Scalar;
 
 impl<S: Scalar> Kept<S> {
-    /// The instruction at which it is entered.
+    /// The instruction at which an activation is entered.
     #[inline(always)]
     pub(super) fn entry(&self, changed: Entry) -> u32 {
         match changed {
-            Entry::One(slice) if self.early => slice,
+            Entry::Slice(slice) if self.early => slice,
             _ => 0,
         }
     }
 
-    /// Where to continue after a site: in the whole code when its result has changed.
+    /// The continuation after a site: in the whole code if the site's result has changed.
     #[inline(always)]
-    pub(super) fn after(&self, f: &Function<S>, site: &Site, changed: bool) -> After {
-        if changed && self.pc >= f.body { After::Goto(site.next) } else { After::Next }
+    pub(super) fn after(&self, f: &Function<S>, site: &Site, changed: bool) -> Continuation {
+        if changed && self.pc >= f.body { Continuation::Goto(site.next) } else { Continuation::Next }
     }
 
-    /// A repeated call of which only one argument may have changed.
+    /// Repeats a call of which only one argument may have changed.
     #[inline]
-    pub(super) fn pass_one(
+    pub(super) fn pass_argument(
         &mut self,
         machine: &Machine<'_, S>,
         state: &mut State<S>,
@@ -43,50 +43,52 @@ impl<S: Scalar> Kept<S> {
         node: NodeId,
         number: SiteId,
         arg: u16,
-    ) -> After {
+    ) -> Continuation {
         let site = &r.f.sites[number.0 as usize];
         let child = NodeId(self.slots[Kept::slot_at(state, node, number.0 as usize)].held);
         let n = &state.nodes[child.0 as usize];
         let (place, function) = (n.registers as usize + arg as usize, n.function);
         let value = r.get(state, &machine.scratch, r.f.operands[site.args.start as usize + arg as usize]);
         if identical(value, &state.registers[place]) {
-            return After::Next;
+            return Continuation::Next;
         }
         let value = value.clone();
         self.journal.set(&mut state.registers[place], place, value);
-        self.call_again(state, child, Entry::One(machine.program.function(function).inputs[arg as usize]))
+        self.call_again(state, child, Entry::Slice(machine.program.function(function).inputs[arg as usize]))
     }
 
-    /// An activation has the same results as before. The run ends when it was not entered from above.
+    /// Leaves an activation with the same results as before. The run ends if the activation was not entered
+    /// from above.
     pub(super) fn leave_unchanged(
         &mut self,
         machine: &mut Machine<'_, S>,
         state: &mut State<S>,
         node: NodeId,
-    ) -> Result<Onward, Fault> {
+    ) -> Result<Target, Fault> {
         self.note(Step::Unwound(node));
         if self.depth == 0 {
-            return Ok(Onward::END);
+            return Ok(Target::END);
         }
         let n = &state.nodes[node.0 as usize];
         let (header, end, i) = (n.parent, i64::from(n.pc), n.iteration as usize);
-        // Why the iteration was entered: its loop was entered from above, or (when the iteration before changed
-        // its carried values) was not.
+        // The iteration was entered because its loop was entered from above, or because the iteration before
+        // changed its carried values.
         let active = match self.active.last() {
             Some(active) if active.header == header => *active,
             _ if machine.program.function(n.function).mode == Mode::Node => {
                 let (function, site) = Kept::caller(state, node);
                 self.sites.paid(function, site);
                 self.depth -= 1;
-                return Ok(self.returns.pop().map_or(Onward::END, |next| Onward::at(header, next)));
+                return Ok(self.returns.pop().map_or(Target::END, |next| Target::at(header, next)));
             }
             _ => Active { header, captures: Entry::Unchanged, over: false },
         };
         if end != exit::NEXT {
-            return Ok(self.go_on(machine, state, header, false, false));
+            return Ok(self.continue_owner(machine, state, header, false, false));
         }
         if !active.over {
-            // There are as many iterations as before; what they all capture is all that can have changed for the next.
+            // There are as many iterations as before; only the captures can have changed for the next
+            // iteration.
             let list = state.nodes[header.0 as usize].slots as usize;
             let next = self.loops[list].get(i + 1).copied();
             return Ok(match next.filter(|_| active.captures != Entry::Unchanged) {
@@ -94,14 +96,14 @@ impl<S: Scalar> Kept<S> {
                     self.leaves_its_activation();
                     self.counters.entered += 1;
                     self.note(Step::Entered(next));
-                    Onward::at(next, self.entry(active.captures))
+                    Target::at(next, self.entry(active.captures))
                 }
-                None => self.go_on(machine, state, header, false, false),
+                None => self.continue_owner(machine, state, header, false, false),
             });
         }
         Ok(match self.iterate(machine, state, active, i + 1, Carried::Unchanged)? {
-            Next::Enter(child, at) => Onward::at(child, at),
-            Next::Ended { changed } => self.go_on(machine, state, header, false, changed),
+            Next::Enter(child, at) => Target::at(child, at),
+            Next::Ended { changed } => self.continue_owner(machine, state, header, false, changed),
         })
     }
 }

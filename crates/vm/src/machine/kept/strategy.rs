@@ -1,24 +1,24 @@
-//! How much of a run is done again, and what came of it.
+//! The strategies for running again, and the outcomes of a run.
 
 use super::super::ids::NodeId;
 use niwaki_math::Total;
 
-/// How much of a run is done again when a choice changes.
+/// The part of a run that runs again when a choice changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// All of it, from the start: Lightweight MH.
+    /// The whole run, from the start: Lightweight MH.
     Rerun,
-    /// Everything after the choice.
+    /// The rest of the run after the choice.
     Resume,
-    /// From the start, but calls whose inputs are unchanged are skipped.
+    /// The whole run from the start, but calls whose inputs are unchanged are skipped.
     Cache,
-    /// From the choice on, skipping, until nothing that changed is left.
+    /// The run from the choice on, with skipping, until no changed value remains.
     #[default]
     C3,
 }
 
 impl Strategy {
-    /// All of them, with their names.
+    /// All strategies, with their names.
     pub const NAMED: [(&str, Strategy); 4] = [
         ("rerun", Strategy::Rerun),
         ("resume", Strategy::Resume),
@@ -26,14 +26,14 @@ impl Strategy {
         ("c3", Strategy::C3),
     ];
 
-    /// The strategy of a name.
+    /// The strategy with a name.
     pub fn from_name(name: &str) -> Option<Strategy> {
-        Strategy::NAMED.into_iter().find(|(own, _)| *own == name).map(|(_, strategy)| strategy)
+        Strategy::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, strategy)| strategy)
     }
 
-    /// Its name.
+    /// The name of the strategy.
     pub fn name(self) -> &'static str {
-        Strategy::NAMED.into_iter().find(|(_, own)| *own == self).map_or("", |(name, _)| name)
+        Strategy::NAMED.into_iter().find(|(_, known)| *known == self).map_or("", |(name, _)| name)
     }
 
     /// Whether a run starts at the changed choice.
@@ -50,46 +50,46 @@ impl Strategy {
 /// The outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// It ran to its end.
+    /// The run came to its end.
     Done,
     /// Nothing changed: the new value is the old one.
-    Same,
+    Unchanged,
     /// The score became minus infinity. The run stopped there and must be rolled back.
     Impossible,
 }
 
-/// Work done, for reports and tests.
+/// The work of runs, for reports and tests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Activations that were entered, from above or from inside.
+    /// The number of activations that were entered, from above or from inside.
     pub entered: u64,
-    /// Calls and iterations that were skipped.
+    /// The number of calls and iterations that were skipped.
     pub skipped: u64,
-    /// Instructions.
+    /// The number of instructions.
     pub instructions: u64,
 }
 
-/// What happened to an activation in a run, for reports.
+/// A step of a run that concerns an activation, for reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Instructions of it were carried out.
+    /// Instructions of the activation ran.
     Entered(NodeId),
-    /// It was skipped: its inputs were unchanged.
+    /// The activation was skipped: its inputs were unchanged.
     Skipped(NodeId),
-    /// It was created.
+    /// The activation was created.
     Created(NodeId),
-    /// It was removed.
+    /// The activation was removed.
     Removed(NodeId),
-    /// It returned to its caller.
+    /// The activation returned to its caller.
     Unwound(NodeId),
 }
 
-/// Sums over a trace, or what a transaction adds to them; exact.
+/// The sums over a trace, or the changes of these sums by a transaction; exact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Totals {
-    /// Log densities of the choices, nats.
+    /// The log densities of the choices, in nats.
     pub log_prior: Total,
-    /// Factors and observations, nats.
+    /// The factors and observations, in nats.
     pub log_factors: Total,
     /// The number of factors and observations.
     pub factors: i64,

@@ -1,4 +1,4 @@
-//! What a trace consists of: its state, slots, choices and sums, and the run in progress.
+//! The parts of a trace: its state, slots, choices and sums, and the current run.
 
 use super::super::buffers::make_room;
 use super::super::state::{NodeId, State};
@@ -14,28 +14,28 @@ use crate::value::{Value, identical};
 use niwaki_geom::Primitive;
 use niwaki_math::{Scalar, Total};
 
-/// A choice's place in the trace.
+/// The place of a choice in the trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChoiceAt {
     pub node: NodeId,
     pub site: u16,
 }
 
-/// A loop that was entered from above in the run in progress.
+/// A loop that was entered from above in the current run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Active {
     pub(super) header: NodeId,
-    /// What its iterations capture has changed.
+    /// The changes of the captures of its iterations.
     pub(super) captures: Entry,
-    /// What it runs over has changed.
+    /// Whether the loop's sequence has changed.
     pub(super) over: bool,
 }
 
-/// The kept part of a trace.
+/// The kept data of a trace.
 #[derive(Debug)]
 pub(crate) struct Kept<S: Scalar> {
     pub slots: Vec<Slot>,
-    /// Iterations of each loop node.
+    /// The iterations of each loop node.
     pub loops: Vec<Vec<NodeId>>,
     pub choices: Vec<ChoiceAt>,
     pub emits: Vec<Option<Primitive>>,
@@ -46,44 +46,45 @@ pub(crate) struct Kept<S: Scalar> {
     pub memos: Memos<S>,
     pub sites: Sites,
     pub result: Value<S>,
-    /// How often each held choice is in the trace, and how many of them are not.
+    /// The number of times that each held choice is in the trace, and the number of held choices that are not.
     pub met: Vec<i32>,
     pub unmet: usize,
-    /// Sums over the trace before the open transaction.
+    /// The sums over the trace before the open transaction.
     pub totals: Totals,
     pub counters: Counters,
     pub steps: Option<Vec<Step>>,
     // The open transaction.
     pub journal: Journal<S>,
     pub open: bool,
-    /// What it adds to the sums.
+    /// The changes of the sums by the transaction.
     pub change: Totals,
     pub result_before: Option<Value<S>>,
-    /// Log densities of choices that were drawn, and of those that were removed.
+    /// The log densities of choices that were drawn, and of choices that were removed.
     pub fresh: Total,
     pub stale: Total,
-    /// The new value of the changed choice is outside its support.
+    /// Whether the new value of the changed choice is outside of its support.
     pub outside: bool,
     /// The changed choices: slot, and the log densities of the change and of its reverse.
     pub changed: Vec<(u32, f64, f64)>,
     pub now: u32,
     // The run in progress.
     pub(super) depth: u32,
-    /// The current instruction, and where each activation entered from above continues when it is left.
+    /// The current instruction, and the instruction where each activation that was entered from above continues
+    /// when it is left.
     pub(super) pc: u32,
     pub(super) returns: Vec<u32>,
-    /// The current activation was created in this transaction: the journal need not record it.
+    /// Whether the current activation was created in this transaction: then the journal need not record it.
     pub(super) quiet: bool,
     pub(super) early: bool,
     pub(super) reuse: bool,
     pub(super) active: Vec<Active>,
-    /// Transaction in which a node was marked as being above a changed choice.
+    /// The last transaction in which each node was marked as being above a changed choice.
     pub(super) marks: Vec<u32>,
     pub(super) marking: bool,
-    /// Readers of changed cells, and how many of them have run.
+    /// The readers of changed cells, and the number of those that have run.
     pub(super) woken: Vec<Reader>,
-    pub(super) taken: usize,
-    /// The run must not leave the current activation; and whether it did.
+    pub(super) woken_done: usize,
+    /// Whether the run must not leave the current activation, and whether it did.
     pub(super) confined: bool,
     pub(super) tangled: bool,
 }
@@ -132,7 +133,7 @@ impl<S: Scalar> Kept<S> {
             marks: vec![],
             marking: false,
             woken: vec![],
-            taken: 0,
+            woken_done: 0,
             confined: false,
             tangled: false,
         }
@@ -155,7 +156,7 @@ impl<S: Scalar> Kept<S> {
         }
     }
 
-    /// Puts a value into a register of a node; false when it holds that already.
+    /// Stores a value in a register of a node; `false` if the register has that value already.
     #[inline]
     pub(super) fn write_to(
         &mut self,
@@ -185,7 +186,7 @@ impl<S: Scalar> Kept<S> {
         self.slots[at] = slot;
     }
 
-    /// A node with empty slots.
+    /// Creates a node with empty slots.
     pub(super) fn new_node(
         &mut self,
         program: &Program<S>,
@@ -199,7 +200,7 @@ impl<S: Scalar> Kept<S> {
         let created = state.new_node(program, function, parent, site, path);
         let node = &mut state.nodes[created.0 as usize];
         node.created = self.now;
-        // A new iteration has an exit code that no iteration ends with.
+        // A new iteration has a kind of exit with which no iteration ends.
         node.pc = u32::MAX;
         if created.0 as usize == count {
             let f = program.function(function);
@@ -219,7 +220,7 @@ impl<S: Scalar> Kept<S> {
         created
     }
 
-    /// Bytes of what is kept, without values and the journal.
+    /// Bytes of the kept data, without values and the journal.
     pub(super) fn own_bytes(&self) -> usize {
         self.slots.len() * size_of::<Slot>()
             + self.choices.len() * size_of::<ChoiceAt>()
@@ -230,7 +231,7 @@ impl<S: Scalar> Kept<S> {
             + self.memos.bytes()
     }
 
-    /// Releases a node, its slots empty.
+    /// Releases a node and empties its slots.
     pub(super) fn release(&mut self, program: &Program<S>, state: &mut State<S>, id: NodeId) {
         let node = state.nodes[id.0 as usize];
         let f = program.function(node.function);
@@ -243,7 +244,7 @@ impl<S: Scalar> Kept<S> {
         state.release(program, id);
     }
 
-    /// A held choice comes into the trace (1) or leaves it (-1).
+    /// Counts a held choice that enters the trace (1) or leaves it (-1).
     pub(super) fn count_held(&mut self, number: u32, change: i32) {
         let met = &mut self.met[number as usize];
         self.unmet -= usize::from(*met == 0);
@@ -251,12 +252,12 @@ impl<S: Scalar> Kept<S> {
         self.unmet += usize::from(*met == 0);
     }
 
-    /// The outcome of a run that came to its end with these choices: without all of the held ones it is impossible.
+    /// The outcome of a run that came to its end: without all held choices it is impossible.
     pub(super) fn with_all_held(&self, change: Change) -> Change {
         if change == Change::Done && self.unmet > 0 { Change::Impossible } else { change }
     }
 
-    /// Whether the node is above a changed choice, in a run that starts at the root.
+    /// Whether a node is above a changed choice, in a run that starts at the root.
     #[inline(always)]
     pub(super) fn is_marked(&self, node: NodeId) -> bool {
         self.marking && self.marks.get(node.0 as usize).is_some_and(|mark| *mark == self.now)

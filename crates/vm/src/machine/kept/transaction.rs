@@ -1,4 +1,4 @@
-//! Transactions: choices change, what depends on them is run again, and all of it is committed or undone.
+//! Transactions: choices change, the dependent parts run again, and everything is committed or undone.
 
 use super::super::answers::{Answers, At};
 use super::super::stack::RunFault;
@@ -19,18 +19,19 @@ use niwaki_math::{Dist, Scalar, Total, grid};
 pub struct Proposed<S: Scalar> {
     /// The value.
     pub value: Value<S>,
-    /// Log density of proposing it from the old one, nats.
+    /// The log density of proposing it from the old value, in nats.
     pub forward: f64,
-    /// Log density of proposing the old one from it, nats.
+    /// The log density of proposing the old value from it, in nats.
     pub backward: f64,
 }
 
-/// Proposes a new value for one choice.
+/// The proposer of a new value for a choice.
 pub trait Propose<S: Scalar> {
-    /// Whether it draws from the choice's own distribution: its forward log density is then that of the value.
+    /// Whether the new value is drawn from the choice's own distribution: then its forward log density is its
+    /// log density.
     const FROM_PRIOR: bool = false;
 
-    /// A new value for the choice, given its distribution, its value and that value's log density.
+    /// Proposes a new value for a choice, from its distribution, its value and the log density of the value.
     ///
     /// # Errors
     /// A fault ends the run.
@@ -46,7 +47,7 @@ pub trait Propose<S: Scalar> {
 /// A changed choice: its number, and its new value.
 #[derive(Clone, Debug)]
 pub struct Changed<S: Scalar> {
-    /// Number of the choice.
+    /// The number of the choice.
     pub choice: usize,
     /// Its new value.
     pub proposed: Proposed<S>,
@@ -70,18 +71,18 @@ impl<S: Scalar> Kept<S> {
         self.active.clear();
         self.marking = false;
         self.woken.clear();
-        self.taken = 0;
+        self.woken_done = 0;
         (self.confined, self.tangled) = (false, false);
         self.memos.prepare();
     }
 
-    /// Log densities of the proposal itself: of the changes, and of their reverse.
+    /// The log densities of the proposal itself: of the changes, and of their reverse.
     fn proposal(&self) -> (f64, f64) {
         let sum = |of: fn(&(u32, f64, f64)) -> f64| self.changed.iter().map(of).sum::<f64>();
         (sum(|c| c.1), sum(|c| c.2))
     }
 
-    /// Forgets what the open transaction adds to the sums.
+    /// Forgets the changes of the sums by the open transaction.
     #[inline(always)]
     fn clear_sums(&mut self) {
         self.change.log_prior.clear();
@@ -91,13 +92,13 @@ impl<S: Scalar> Kept<S> {
         self.stale.clear();
     }
 
-    /// Whether the open transaction may have changed the activations, the choices that there are, or the scene.
+    /// Whether the open transaction may have changed the activations, the set of choices, or the scene.
     #[inline(always)]
     fn has_more(&self) -> bool {
         self.journal.has_more() || self.memos.has_changed()
     }
 
-    /// The transaction ends, committed or undone.
+    /// Ends the transaction, committed or undone.
     #[inline(always)]
     fn close(&mut self) {
         for (at, ..) in self.changed.drain(..) {
@@ -112,47 +113,48 @@ impl<S: Scalar> Kept<S> {
 }
 
 impl<S: Scalar> Trace<S> {
-    /// What the open transaction adds to [`Trace::totals`].
+    /// The changes of [`Trace::totals`] by the open transaction.
     #[inline(always)]
     pub fn change(&self) -> &Totals {
         &self.kept.change
     }
 
-    /// The number of choices with the open transaction.
+    /// The number of choices, with the open transaction.
     pub fn len_after(&self) -> usize {
         let more = &self.kept.journal.more;
         self.kept.choices.len() + more.births.len() - more.deaths.len()
     }
 
-    /// Log densities of the choices that the open transaction drew, and of those that it removed, nats.
+    /// The log densities of the choices that the open transaction drew, and of those that it removed, in nats.
     pub fn fresh_and_stale(&self) -> (&Total, &Total) {
         (&self.kept.fresh, &self.kept.stale)
     }
 
-    /// Log densities of the open transaction's proposals, forward and reverse, nats.
+    /// The log densities of the open transaction's proposals, forward and reverse, in nats.
     pub fn forward_and_backward(&self) -> (f64, f64) {
         self.kept.proposal()
     }
 
-    /// Replaces the log density of the reverse of the open transaction's one change, nats: where it is known only once the
-    /// new state is.
+    /// Replaces the log density of the reverse of the open transaction's only change, in nats: for proposals
+    /// that know it only after the run.
     pub fn set_backward(&mut self, backward: f64) {
         if let [change] = &mut self.kept.changed[..] {
             change.2 = backward;
         }
     }
 
-    /// Whether the value last proposed for a single choice lay outside the support of its distribution.
+    /// Whether the value that was proposed last for a single choice is outside of the support of its
+    /// distribution.
     pub fn left_support(&self) -> bool {
         self.kept.outside
     }
 
-    /// Primitives that the open transaction added to the scene.
+    /// The primitives that the open transaction added to the scene.
     pub fn emitted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept.journal.more.emitted.iter().filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
-    /// Primitives that the open transaction removed from the scene.
+    /// The primitives that the open transaction removed from the scene.
     pub fn retracted(&self) -> impl Iterator<Item = &Primitive> + Clone {
         self.kept
             .journal
@@ -162,8 +164,8 @@ impl<S: Scalar> Trace<S> {
             .filter_map(|number| self.kept.emits[*number as usize].as_ref())
     }
 
-    /// Commits the open transaction. Removed choices leave the table last first, added ones enter it in the
-    /// order of their addresses, so that it does not depend on the strategy.
+    /// Commits the open transaction. Removed choices leave the table last first, and added choices enter it in
+    /// the order of their addresses, so that the table does not depend on the strategy.
     pub fn commit(&mut self, program: &Program<S>) {
         let kept = &mut self.kept;
         kept.totals.add(&kept.change);
@@ -177,7 +179,7 @@ impl<S: Scalar> Trace<S> {
         self.kept.close();
     }
 
-    /// Commits what changes the activations, the choices that there are, or the scene.
+    /// Commits changes of the activations, of the set of choices, or of the scene.
     #[inline(never)]
     fn commit_more(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
@@ -205,12 +207,12 @@ impl<S: Scalar> Trace<S> {
             kept.free_emits.push(number);
         }
         while let Some(id) = kept.journal.more.dead_cells.pop() {
-            debug_assert!(kept.readers[id as usize].all.is_empty(), "a cell is read by those who can see it");
+            debug_assert!(kept.readers[id as usize].all.is_empty(), "a removed cell has no readers");
             kept.free_readers.push(id);
         }
     }
 
-    /// Undoes what the open transaction did: the trace is as before, bit for bit.
+    /// Undoes the open transaction: the trace is as before, bit for bit.
     pub fn rollback(&mut self, program: &Program<S>) {
         self.undo(program);
         self.kept.close();
@@ -243,7 +245,7 @@ impl<S: Scalar> Trace<S> {
         kept.journal.clear();
     }
 
-    /// Undoes what changes the activations, the choices that there are, or the scene.
+    /// Undoes changes of the activations, of the set of choices, or of the scene.
     #[inline(never)]
     fn undo_more(&mut self, program: &Program<S>) {
         let (state, kept) = (&mut self.state, &mut self.kept);
@@ -273,7 +275,7 @@ impl<S: Scalar> Trace<S> {
 }
 
 impl<S: Scalar> Machine<'_, S> {
-    /// Changes one choice to its proposed value, and runs. The transaction is open afterwards.
+    /// Changes a choice to its proposed value, and runs. The transaction is open afterwards.
     ///
     /// # Errors
     /// A fault of the program or of the proposer.
@@ -292,11 +294,11 @@ impl<S: Scalar> Machine<'_, S> {
         let f = program.function(state.nodes[node.0 as usize].function);
         let site = &f.sites[number as usize];
         let at = Kept::slot_at(state, node, number as usize);
-        let (own, outer) = self.bases(state, f, node);
-        let place = own + site.to.index();
-        let r = super::Registers { f, own, outer, scratch: 0 };
-        let mut owned = None;
-        let proposal = self.dist(state, r, site, site.args, &mut owned).and_then(|dist| {
+        let (base, outer) = self.bases(state, f, node);
+        let place = base + site.to.index();
+        let r = super::Registers { f, base, outer, scratch: 0 };
+        let mut built = None;
+        let proposal = self.dist(state, r, site, site.args, &mut built).and_then(|dist| {
             let (question, old) = (At { site, function: f, node, state, program }, &state.registers[place]);
             let proposed = proposer.propose(&question, dist, old, kept.slots[at].log)?;
             let log = if P::FROM_PRIOR {
@@ -319,9 +321,9 @@ impl<S: Scalar> Machine<'_, S> {
             }
         };
         if identical(&proposed.value, &state.registers[place]) {
-            return Ok(Change::Same);
+            return Ok(Change::Unchanged);
         }
-        let at_choice = strategy.starts_at_choice() && !kept.is_remembered(state, node);
+        let at_choice = strategy.starts_at_choice() && !kept.is_memoised(state, node);
         kept.prepare(match strategy {
             _ if at_choice => strategy,
             _ if strategy.reuses() => Strategy::Cache,
@@ -343,11 +345,12 @@ impl<S: Scalar> Machine<'_, S> {
                 return Ok(trace.kept.with_all_held(change?));
             }
             if let (Ok(Change::Done), false) = (&change, trace.kept.tangled)
-                && let Some(change) = self.take_up_readers(trace, answers)?
+                && let Some(change) = self.run_readers(trace, answers)?
             {
                 return Ok(trace.kept.with_all_held(change));
             }
-            // Repeated in program order: out of it, a fault or a score of minus infinity may not be real.
+            // The run is repeated in program order: out of that order, a fault or a score of minus infinity may
+            // not be real.
             trace.undo(program);
             trace.kept.prepare(Strategy::Cache);
             trace.kept.slots[at].mark |= Slot::CHANGED;
@@ -357,8 +360,8 @@ impl<S: Scalar> Machine<'_, S> {
         self.run_to_end(trace, answers)
     }
 
-    /// Changes many choices at once, and runs. It starts at the root: the changed choices are reached in program order,
-    /// and calls that hold none of them are skipped unless the strategy is to skip nothing.
+    /// Changes many choices at once, and runs from the root. The run reaches the changed choices in program
+    /// order, and skips calls without them if the strategy skips calls.
     ///
     /// # Errors
     /// A fault of the program.
@@ -372,7 +375,7 @@ impl<S: Scalar> Machine<'_, S> {
         let (state, kept) = (&mut trace.state, &mut trace.kept);
         kept.open();
         kept.prepare(if strategy.reuses() { Strategy::Cache } else { Strategy::Rerun });
-        let mut any = false;
+        let mut has_changed = false;
         for Changed { choice, proposed } in changes {
             let ChoiceAt { node, site } = kept.choices[choice];
             let n = &state.nodes[node.0 as usize];
@@ -380,13 +383,13 @@ impl<S: Scalar> Machine<'_, S> {
             let (place, at) = (n.registers as usize + to.index(), n.slots as usize + site as usize);
             kept.changed.push((at as u32, proposed.forward, proposed.backward));
             if kept.write_to(state, false, place, proposed.value) {
-                any = true;
+                has_changed = true;
                 kept.slots[at].mark |= Slot::CHANGED;
                 kept.mark_above(state, node);
             }
         }
-        if !any {
-            return Ok(Change::Same);
+        if !has_changed {
+            return Ok(Change::Unchanged);
         }
         self.run_to_end(trace, answers)
     }
@@ -434,7 +437,8 @@ impl<S: Scalar> Machine<'_, S> {
 }
 
 impl<S: Scalar> Kept<S> {
-    /// Marks a node and those above it: a run from the root must enter them. Above a memoised call are all its readers.
+    /// Marks a node and the nodes above it, which a run from the root must enter. All readers of a memoised
+    /// call are above it.
     pub(super) fn mark_above(&mut self, state: &super::super::state::State<S>, node: NodeId) {
         self.marking = true;
         if self.marks.len() < state.nodes.len() {

@@ -1,38 +1,39 @@
-//! Calls, loops and returns of lanes: as for a single run (`machine::suspend`, `machine::loops`), with columns beside the registers.
+//! Calls, loops and returns of lanes: as for a single run (`machine::suspend`, `machine::loops`), with columns
+//! beside the registers.
 
-use super::Apart;
+use super::Divergence;
 use super::column::{Column, Side};
 use super::interpret::Run;
 use crate::code::{Args, FunctionId, Loop, Mode, Site, SiteId, SiteKind, exit};
 use crate::machine::address::{iteration_key, join};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
-use crate::machine::outcome::After;
+use crate::machine::outcome::Continuation;
 use crate::machine::state::{FutureId, Node, NodeId};
 use crate::machine::suspend::defaults;
 use crate::value::{Value, index, iter_get, iter_len, ops};
 
 impl Run<'_, '_> {
-    /// Carries out a site that is neither a choice nor a factor.
-    pub fn other(&mut self, number: SiteId, site: &Site) -> Result<After, Apart> {
+    /// Runs a site that is neither a choice nor a factor.
+    pub fn other(&mut self, number: SiteId, site: &Site) -> Result<Continuation, Divergence> {
         match &site.kind {
             SiteKind::Call { function } => {
                 let inputs = self.sides(site.args);
-                Ok(After::Enter(self.call(number, site, *function, inputs)?, 0))
+                Ok(Continuation::Enter(self.call(number, site, *function, inputs)?, 0))
             }
             SiteKind::Apply => self.apply(number, site),
             SiteKind::Loop(l) => self.begin_loop(number, site, l),
             SiteKind::Query => {
                 let key = self.side(self.f.operands[site.args.start as usize]);
-                let Side::All(key) = key else { return Err(Apart) };
+                let Side::All(key) = key else { return Err(Divergence) };
                 key.refuse_futures("the key of a query")?;
                 key.refuse_as_key()?;
-                Ok(After::Next)
+                Ok(Continuation::Next)
             }
             SiteKind::Cell { .. } => {
                 let side = self.side(self.f.operands[site.args.start as usize]);
-                self.store(self.registers().own + site.to.index(), side);
-                Ok(After::Next)
+                self.store(self.registers().base + site.to.index(), side);
+                Ok(Continuation::Next)
             }
             SiteKind::Append { .. } => {
                 let [list, element] =
@@ -47,15 +48,15 @@ impl Run<'_, '_> {
                         let longer = |lane| Ok(ops::append(list.get(lane), element.get(lane))?);
                         let longer = Column::of(self.lanes.count, longer)?;
                         let bytes = budget::of_append(&longer.get(0));
-                        // Lists of other lengths cost other bytes.
+                        // Lists of different lengths have different prices.
                         self.length(&longer)?;
                         self.lanes.state.charged += bytes;
                         Side::Each(longer)
                     }
                 };
                 self.machine.afford(&mut self.lanes.state, &Dropped)?;
-                self.store(self.registers().own + site.to.index(), side);
-                Ok(After::Next)
+                self.store(self.registers().base + site.to.index(), side);
+                Ok(Continuation::Next)
             }
             SiteKind::Read => {
                 let [list, at] = [0, 1].map(|i| self.side(self.f.operands[site.args.start as usize + i]));
@@ -63,24 +64,24 @@ impl Run<'_, '_> {
                     (Side::All(list), Side::All(at)) => Side::All(index::index(list, at)?),
                     _ => Side::Each(self.operate(crate::code::Binary::Index, &list, &at)?),
                 };
-                self.store(self.registers().own + site.to.index(), side);
-                Ok(After::Next)
+                self.store(self.registers().base + site.to.index(), side);
+                Ok(Continuation::Next)
             }
-            _ => Err(Apart),
+            _ => Err(Divergence),
         }
     }
 
-    /// A new activation with these arguments.
+    /// Creates an activation with these arguments.
     fn call(
         &mut self,
         number: SiteId,
         site: &Site,
         function: FunctionId,
         inputs: Vec<Side>,
-    ) -> Result<NodeId, Apart> {
+    ) -> Result<NodeId, Divergence> {
         let path = join(self.path(self.node), site.key);
         let (places, caller) = (self.lanes.state.places(), self.node);
-        // A known function that calls itself last: the registers are handed on.
+        // For a known function that calls itself last, the registers are passed on.
         let is_known = matches!(site.kind, SiteKind::Call { .. });
         let created = if site.is_tail && is_known && self.id == function {
             self.forget_values(caller);
@@ -103,23 +104,23 @@ impl Run<'_, '_> {
         Ok(created)
     }
 
-    /// A call of a function value, which all lanes must share.
-    fn apply(&mut self, number: SiteId, site: &Site) -> Result<After, Apart> {
+    /// Calls a function value, which all lanes must share.
+    fn apply(&mut self, number: SiteId, site: &Site) -> Result<Continuation, Divergence> {
         let mut inputs = self.sides(site.args).into_iter();
-        let Some(Side::All(Value::Function(closure))) = inputs.next() else { return Err(Apart) };
+        let Some(Side::All(Value::Function(closure))) = inputs.next() else { return Err(Divergence) };
         let function = FunctionId(closure.function);
         let f = self.machine.program.function(function);
         if closure.memo.is_some() {
-            return Err(Apart);
+            return Err(Divergence);
         }
         let left_out = defaults(f, &closure, inputs.len())?;
         let hidden = left_out.chain(&closure.captures).cloned().map(Side::All);
         let inputs: Vec<Side> = inputs.chain(hidden).collect();
         if f.mode == Mode::Pure {
             self.enter_pure(function, site.to, inputs)?;
-            return Ok(After::Entered);
+            return Ok(Continuation::Entered);
         }
-        Ok(After::Enter(self.call(number, site, function, inputs)?, 0))
+        Ok(Continuation::Enter(self.call(number, site, function, inputs)?, 0))
     }
 
     fn path(&self, node: NodeId) -> u128 {
@@ -138,7 +139,7 @@ impl Run<'_, '_> {
         created
     }
 
-    /// The columns of a node's registers mean nothing any more.
+    /// Forgets the columns of a node's registers, which have no meaning any more.
     fn forget_values(&mut self, node: NodeId) {
         let n = self.lanes.state.nodes[node.0 as usize];
         let at = n.registers as usize;
@@ -151,8 +152,8 @@ impl Run<'_, '_> {
         self.lanes.state.release(self.machine.program, node);
     }
 
-    /// Enters a loop, or passes one that has no iterations.
-    fn begin_loop(&mut self, number: SiteId, site: &Site, l: &Loop) -> Result<After, Apart> {
+    /// Enters a loop, or passes a loop without iterations.
+    fn begin_loop(&mut self, number: SiteId, site: &Site, l: &Loop) -> Result<Continuation, Divergence> {
         let over = l.over.map(|o| self.side(o));
         let count = match &over {
             Some(Side::All(over)) => Some(iter_len(over)?),
@@ -162,7 +163,7 @@ impl Run<'_, '_> {
         let carried = self.sides(l.carried);
         if count == Some(0) {
             self.leave_loop(self.node, number, exit::NEXT, carried);
-            return Ok(After::Next);
+            return Ok(Continuation::Next);
         }
         let first = match &over {
             Some(Side::All(over)) => Some(Side::All(iter_get(over, 0))),
@@ -186,11 +187,11 @@ impl Run<'_, '_> {
         if self.lanes.state.places() > places {
             self.machine.afford(&mut self.lanes.state, &Dropped)?;
         }
-        Ok(After::Enter(inner, 0))
+        Ok(Continuation::Enter(inner, 0))
     }
 
-    /// Begins the next iteration in the node of the last one; false when that was the last of all.
-    pub fn next_iteration(&mut self, carried: Args) -> Result<bool, Apart> {
+    /// Begins the next iteration in the node of the last one; returns `false` after the last iteration.
+    pub fn next_iteration(&mut self, carried: Args) -> Result<bool, Divergence> {
         let Node { parent: header, iteration, .. } = self.lanes.state.nodes[self.node.0 as usize];
         let i = iteration + 1;
         let over = self.first(header);
@@ -207,15 +208,15 @@ impl Run<'_, '_> {
         let carried = self.sides(carried);
         let n = &mut self.lanes.state.nodes[self.node.0 as usize];
         (n.iteration, n.path) = (i, path);
-        let own = n.registers as usize;
+        let base = n.registers as usize;
         for (at, side) in element.into_iter().chain(carried).enumerate() {
-            self.store(own + at, side);
+            self.store(base + at, side);
         }
         Ok(true)
     }
 
-    /// The loop ends with an iteration that carries these values (and a returned value) out; `None` where the loop is a part
-    /// that was run apart.
+    /// Ends the loop after an iteration that carries these values (and a returned value) out; `None` for a loop
+    /// that runs apart.
     pub fn end_loop(&mut self, kind: i64, carried: Args) -> Option<()> {
         let carried = self.sides(carried);
         let header = self.lanes.state.nodes[self.node.0 as usize].parent;
@@ -230,24 +231,24 @@ impl Run<'_, '_> {
     /// Writes the results of a loop to the registers of its owner.
     fn leave_loop(&mut self, owner: NodeId, number: SiteId, kind: i64, mut carried: Vec<Side>) -> u32 {
         let n = self.lanes.state.nodes[owner.0 as usize];
-        let (f, own) = (self.machine.program.function(n.function), n.registers as usize);
+        let (f, base) = (self.machine.program.function(n.function), n.registers as usize);
         let site = &f.sites[number.0 as usize];
         if let SiteKind::Loop(l) = &site.kind {
             if let Some((how, value)) = l.exit {
                 if kind == exit::RETURN {
                     let returned = carried.pop().unwrap_or(Side::All(Value::None));
-                    self.store(own + value.index(), returned);
+                    self.store(base + value.index(), returned);
                 }
-                self.store(own + how.index(), Side::All(Value::Int(kind)));
+                self.store(base + how.index(), Side::All(Value::Int(kind)));
             }
             for (o, side) in f.operands[l.out.range()].iter().zip(carried) {
-                self.store(own + o.index(), side);
+                self.store(base + o.index(), side);
             }
         }
         site.next
     }
 
-    /// An activation, or a pure function, returns; `None` where that was the end of the run.
+    /// Returns from an activation or a pure function; `None` at the end of the run.
     pub fn give_back(&mut self, side: Side) -> Option<()> {
         if let Some(call) = self.machine.pure.pop() {
             self.id = call.caller;

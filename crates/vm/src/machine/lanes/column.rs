@@ -1,10 +1,10 @@
-//! The values of one register in all lanes.
+//! The values of a register in all lanes.
 
-use super::Apart;
+use super::Divergence;
 use crate::value::Value;
 use std::sync::Arc;
 
-/// Values that differ from lane to lane.
+/// Values that differ between lanes.
 #[derive(Clone, Debug)]
 pub enum Column {
     /// Real numbers.
@@ -18,14 +18,14 @@ pub enum Column {
 }
 
 impl Column {
-    /// The values of a function of the lanes, stored by their kind where they have one.
+    /// The values of a function of the lanes, stored by their kind if they have the same kind.
     ///
     /// # Errors
-    /// What the function says of a lane.
+    /// An error of the function for a lane.
     pub(super) fn of(
         lanes: usize,
-        mut value: impl FnMut(usize) -> Result<Value, Apart>,
-    ) -> Result<Column, Apart> {
+        mut value: impl FnMut(usize) -> Result<Value, Divergence>,
+    ) -> Result<Column, Divergence> {
         macro_rules! gather {
             ($kind:path, $first:expr) => {{
                 let mut all = Vec::with_capacity(lanes);
@@ -50,19 +50,19 @@ impl Column {
         })
     }
 
-    /// The rest of a column whose kinds differ.
+    /// The rest of a column with different kinds of values.
     fn of_any(
         mut all: Vec<Value>,
         lanes: usize,
-        mut value: impl FnMut(usize) -> Result<Value, Apart>,
-    ) -> Result<Column, Apart> {
+        mut value: impl FnMut(usize) -> Result<Value, Divergence>,
+    ) -> Result<Column, Divergence> {
         for lane in all.len()..lanes {
             all.push(value(lane)?);
         }
         Ok(Column::Values(Arc::new(all)))
     }
 
-    /// The value in one lane.
+    /// The value in a lane.
     #[inline]
     pub fn get(&self, lane: usize) -> Value {
         match self {
@@ -73,7 +73,7 @@ impl Column {
         }
     }
 
-    /// The column whose lane `i` is lane `from[i]` of this one.
+    /// A column whose lane `i` is lane `from[i]` of this column.
     pub fn picked(&self, from: &[u32]) -> Column {
         fn each<T: Clone>(all: &[T], from: &[u32]) -> Arc<Vec<T>> {
             Arc::new(from.iter().map(|lane| all[*lane as usize].clone()).collect())
@@ -95,7 +95,7 @@ pub(super) enum Side {
 }
 
 impl Side {
-    /// The value in one lane.
+    /// The value in a lane.
     #[inline]
     pub fn get(&self, lane: usize) -> Value {
         match self {
@@ -104,7 +104,7 @@ impl Side {
         }
     }
 
-    /// Whether every value is stored without shared data.
+    /// Whether all values are stored without shared data.
     pub fn is_plain(&self) -> bool {
         match self {
             Side::Each(Column::Values(all)) => all.iter().all(Value::is_plain),
@@ -113,23 +113,24 @@ impl Side {
         }
     }
 
-    /// Its real numbers, where all are (a whole number that all lanes have counts as one).
+    /// The real numbers of the operand, if all values are real (a whole number that all lanes share counts as
+    /// real).
     #[inline]
     pub fn reals(&self) -> Option<Numbers<'_, f64>> {
         match self {
             Side::Each(Column::Reals(all)) => Some(Numbers::Each(all)),
-            Side::All(Value::Real(x)) => Some(Numbers::One(*x)),
-            Side::All(Value::Int(n)) => Some(Numbers::One(*n as f64)),
+            Side::All(Value::Real(x)) => Some(Numbers::All(*x)),
+            Side::All(Value::Int(n)) => Some(Numbers::All(*n as f64)),
             _ => None,
         }
     }
 
-    /// Its whole numbers, where all are.
+    /// The whole numbers of the operand, if all values are whole.
     #[inline]
     pub fn ints(&self) -> Option<Numbers<'_, i64>> {
         match self {
             Side::Each(Column::Ints(all)) => Some(Numbers::Each(all)),
-            Side::All(Value::Int(n)) => Some(Numbers::One(*n)),
+            Side::All(Value::Int(n)) => Some(Numbers::All(*n)),
             _ => None,
         }
     }
@@ -139,18 +140,18 @@ impl Side {
 #[derive(Clone, Copy)]
 pub(super) enum Numbers<'a, T> {
     Each(&'a [T]),
-    One(T),
+    All(T),
 }
 
 impl<T: Copy> Numbers<'_, T> {
-    /// The results of a function of two numbers. The cases are apart so that each is a loop over slices.
+    /// Applies a function to pairs of numbers. The cases are separate so that each is a loop over slices.
     #[inline(always)]
     pub fn with<U>(self, other: Numbers<'_, T>, lanes: usize, f: impl Fn(T, T) -> U) -> Vec<U> {
         match (self, other) {
             (Numbers::Each(a), Numbers::Each(b)) => a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect(),
-            (Numbers::Each(a), Numbers::One(b)) => a.iter().map(|a| f(*a, b)).collect(),
-            (Numbers::One(a), Numbers::Each(b)) => b.iter().map(|b| f(a, *b)).collect(),
-            (Numbers::One(a), Numbers::One(b)) => (0..lanes).map(|_| f(a, b)).collect(),
+            (Numbers::Each(a), Numbers::All(b)) => a.iter().map(|a| f(*a, b)).collect(),
+            (Numbers::All(a), Numbers::Each(b)) => b.iter().map(|b| f(a, *b)).collect(),
+            (Numbers::All(a), Numbers::All(b)) => (0..lanes).map(|_| f(a, b)).collect(),
         }
     }
 }

@@ -1,22 +1,22 @@
-//! The loop over instructions, for lanes. It follows the loop of single runs (`machine::interpret`) instruction by instruction:
-//! the same steps, the same bytes.
+//! The loop over instructions for lanes. It follows the loop of single runs (`machine::interpret`) instruction
+//! by instruction, with the same steps and the same bytes.
 
 use super::column::{Column, Side};
 use super::questions::LaneAnswers;
-use super::{Apart, Lanes};
+use super::{Divergence, Lanes};
 use crate::builtins;
 use crate::code::{Args, Binary, Function, FunctionId, Mode, Op, Operand, exit};
 use crate::machine::budget;
 use crate::machine::keep::Dropped;
 use crate::machine::operate;
-use crate::machine::outcome::After;
+use crate::machine::outcome::Continuation;
 use crate::machine::outcome::Stop;
 use crate::machine::registers::Registers;
 use crate::machine::state::{FutureId, NodeId};
 use crate::machine::workspace::{Machine, PureCall};
 use crate::value::{Value, iter_get, iter_len, ops};
 
-/// Lanes that run: where they are, with the registers of pure functions.
+/// Running lanes: their place, with the registers of pure functions.
 pub(super) struct Run<'r, 'p> {
     pub machine: &'r mut Machine<'p>,
     pub lanes: &'r mut Lanes,
@@ -25,32 +25,32 @@ pub(super) struct Run<'r, 'p> {
     pub id: FunctionId,
     pub f: &'p Function,
     pub pc: usize,
-    /// First registers of the activation, of the loop node above it, of a pure function.
-    own: usize,
+    /// The first registers of the activation, of the loop node above it, and of a pure function.
+    base: usize,
     outer: usize,
     pub scratch: usize,
-    /// As `Lanes::columns`, of the machine's scratch registers.
+    /// The columns of the machine's scratch registers, like `Lanes::columns`.
     scratch_columns: Vec<Option<Column>>,
 }
 
 impl<'r, 'p> Run<'r, 'p> {
-    /// At the instruction where the future is suspended.
-    pub fn of(machine: &'r mut Machine<'p>, lanes: &'r mut Lanes, future: FutureId, node: NodeId) -> Self {
+    /// Begins at the instruction where the future is suspended.
+    pub fn new(machine: &'r mut Machine<'p>, lanes: &'r mut Lanes, future: FutureId, node: NodeId) -> Self {
         let id = lanes.state.nodes[node.0 as usize].function;
         let (f, pc) = (machine.program.function(id), lanes.state.nodes[node.0 as usize].pc as usize);
         let scratch_columns = Vec::new();
-        Run { machine, lanes, future, node, id, f, pc, own: 0, outer: 0, scratch: 0, scratch_columns }
+        Run { machine, lanes, future, node, id, f, pc, base: 0, outer: 0, scratch: 0, scratch_columns }
     }
 
     pub fn registers(&self) -> Registers<'p, f64> {
-        Registers { f: self.f, own: self.own, outer: self.outer, scratch: self.scratch }
+        Registers { f: self.f, base: self.base, outer: self.outer, scratch: self.scratch }
     }
 
     /// The column of an operand whose values differ.
     #[inline]
     pub fn column(&self, o: Operand) -> Option<&Column> {
         if o.is_node() {
-            self.lanes.columns[self.own + o.index()].as_ref()
+            self.lanes.columns[self.base + o.index()].as_ref()
         } else if o.is_outer() {
             self.lanes.columns[self.outer + o.index()].as_ref()
         } else if o.is_constant() {
@@ -84,20 +84,20 @@ impl<'r, 'p> Run<'r, 'p> {
     /// Writes a register of the current function.
     pub fn put(&mut self, to: Operand, side: Side) {
         if to.is_node() {
-            return self.store(self.own + to.index(), side);
+            return self.store(self.base + to.index(), side);
         }
         let at = self.scratch + to.index();
         if self.scratch_columns.len() <= at {
             self.scratch_columns.resize(at + 1, None);
         }
-        let (value, column) = apart(side);
+        let (value, column) = split(side);
         self.machine.scratch[at].store(value);
         self.scratch_columns[at] = column;
     }
 
     /// Writes a register of the state.
     pub fn store(&mut self, register: usize, side: Side) {
-        let (value, column) = apart(side);
+        let (value, column) = split(side);
         self.lanes.state.registers[register].store(value);
         self.lanes.columns[register] = column;
     }
@@ -107,19 +107,19 @@ impl<'r, 'p> Run<'r, 'p> {
         (self.node, self.pc) = (node, pc);
         self.id = self.lanes.state.nodes[node.0 as usize].function;
         self.f = self.machine.program.function(self.id);
-        (self.own, self.outer) = self.machine.bases(&self.lanes.state, self.f, node);
+        (self.base, self.outer) = self.machine.bases(&self.lanes.state, self.f, node);
         self.machine.reserve(self.scratch + self.f.scratch_registers as usize);
     }
 
     /// Counts a call, an iteration or a backward jump.
     #[inline]
-    pub fn step(&mut self) -> Result<(), Apart> {
+    pub fn step(&mut self) -> Result<(), Divergence> {
         let state = &mut self.lanes.state;
         state.steps += 1;
-        if state.steps > state.alarm { Ok(self.machine.look(state, &Dropped)?) } else { Ok(()) }
+        if state.steps > state.alarm { Ok(self.machine.check_limits(state, &Dropped)?) } else { Ok(()) }
     }
 
-    fn goto(&mut self, target: u32) -> Result<(), Apart> {
+    fn goto(&mut self, target: u32) -> Result<(), Divergence> {
         if target as usize <= self.pc {
             self.step()?;
         }
@@ -128,15 +128,20 @@ impl<'r, 'p> Run<'r, 'p> {
     }
 
     /// The truth of an operand, which all lanes must share.
-    fn truth(&self, a: Operand) -> Result<bool, Apart> {
+    fn truth(&self, a: Operand) -> Result<bool, Divergence> {
         match self.column(a) {
             None => Ok(ops::truth(self.value(a))?),
-            Some(column) => self.agreed(column),
+            Some(column) => self.common_truth(column),
         }
     }
 
     /// Enters a pure function with these arguments and captures.
-    pub fn enter_pure(&mut self, function: FunctionId, to: Operand, inputs: Vec<Side>) -> Result<(), Apart> {
+    pub fn enter_pure(
+        &mut self,
+        function: FunctionId,
+        to: Operand,
+        inputs: Vec<Side>,
+    ) -> Result<(), Divergence> {
         self.step()?;
         let (caller, pc, scratch) = (self.id, self.pc + 1, self.scratch);
         let call = PureCall { caller, pc, scratch, to, as_future: false };
@@ -146,7 +151,7 @@ impl<'r, 'p> Run<'r, 'p> {
         self.f = self.machine.program.function(function);
         let end = self.scratch + self.f.scratch_registers as usize;
         let deeper = self.machine.reserve(end);
-        // Columns that an earlier call left there mean nothing.
+        // Columns that an earlier call left there have no meaning.
         let end = self.scratch_columns.len().min(end);
         self.scratch_columns.get_mut(self.scratch..end).unwrap_or_default().fill(None);
         for (i, side) in inputs.into_iter().enumerate() {
@@ -159,11 +164,11 @@ impl<'r, 'p> Run<'r, 'p> {
         Ok(())
     }
 
-    /// Runs to the next question whose answer is to pause, or to the end.
-    pub fn go<A: LaneAnswers>(mut self, answers: &mut A) -> Result<Stop, Apart> {
+    /// Runs up to the next question whose answer is to pause, or to the end.
+    pub fn run<A: LaneAnswers>(mut self, answers: &mut A) -> Result<Stop, Divergence> {
         self.enter(self.node, self.pc);
         if self.f.mode == Mode::Pure {
-            return Err(Apart);
+            return Err(Divergence);
         }
         loop {
             match self.f.code[self.pc] {
@@ -225,7 +230,7 @@ impl<'r, 'p> Run<'r, 'p> {
                 }
                 Op::Next { to, over, index, length, target } => {
                     let (Value::Int(i), Value::Int(n)) = (self.value(index), self.value(length)) else {
-                        return Err(Apart);
+                        return Err(Divergence);
                     };
                     let i = *i;
                     if i >= *n {
@@ -238,13 +243,13 @@ impl<'r, 'p> Run<'r, 'p> {
                 }
                 Op::CheckSet { a, .. } => {
                     if self.column(a).is_none() && matches!(self.value(a), Value::Unset) {
-                        return Err(Apart);
+                        return Err(Divergence);
                     }
                 }
                 Op::Clear { .. } => {}
                 Op::Assert { a, .. } => {
                     if !self.truth(a)? {
-                        return Err(Apart);
+                        return Err(Divergence);
                     }
                 }
                 Op::Return { a } => {
@@ -267,15 +272,15 @@ impl<'r, 'p> Run<'r, 'p> {
                     }
                 }
                 Op::Site { site } => match self.site(site, answers)? {
-                    After::Next => {}
-                    After::Enter(inner, at) => {
+                    Continuation::Next => {}
+                    Continuation::Enter(inner, at) => {
                         self.step()?;
                         self.enter(inner, at as usize);
                         continue;
                     }
-                    After::Entered => continue,
-                    After::Stop(stop) => return Ok(stop),
-                    After::Goto(_) | After::Pure { .. } => return Err(Apart),
+                    Continuation::Entered => continue,
+                    Continuation::Stop(stop) => return Ok(stop),
+                    Continuation::Goto(_) | Continuation::Pure { .. } => return Err(Divergence),
                 },
                 op @ (Op::List { args, .. }
                 | Op::Tuple { args, .. }
@@ -299,18 +304,18 @@ impl<'r, 'p> Run<'r, 'p> {
                 },
                 op @ Op::UnpackStar { from, .. } => {
                     if self.column(from).is_some() {
-                        return Err(Apart);
+                        return Err(Divergence);
                     }
                     self.construct(op)?;
                 }
-                Op::Host { .. } | Op::Pass { .. } | Op::Done => return Err(Apart),
+                Op::Host { .. } | Op::Pass { .. } | Op::Done => return Err(Divergence),
             }
             self.pc += 1;
         }
     }
 
-    /// Carries out an instruction on values that all lanes share.
-    fn construct(&mut self, op: Op) -> Result<(), Apart> {
+    /// Runs an instruction on values that all lanes share.
+    fn construct(&mut self, op: Op) -> Result<(), Divergence> {
         let r = self.registers();
         self.machine.construct(&mut self.lanes.state, &mut Dropped, r, op)?;
         match op {
@@ -330,25 +335,25 @@ impl<'r, 'p> Run<'r, 'p> {
         Ok(())
     }
 
-    /// A register has one value for all lanes now.
+    /// Forgets the column of a register, which now has one value for all lanes.
     fn forget(&mut self, to: Operand) {
         if to.is_node() {
-            self.lanes.columns[self.own + to.index()] = None;
+            self.lanes.columns[self.base + to.index()] = None;
         } else if let Some(column) = self.scratch_columns.get_mut(self.scratch + to.index()) {
             *column = None;
         }
     }
 
-    /// An element of what a loop runs over, which has so many.
-    fn element(&self, over: Operand, i: usize) -> Result<Side, Apart> {
+    /// An element of a loop's sequence, which has more than `i` elements.
+    fn element(&self, over: Operand, i: usize) -> Result<Side, Divergence> {
         match self.column(over) {
             None => Ok(Side::All(iter_get(self.value(over), i))),
             Some(column) => self.elements(column, i).map(Side::Each),
         }
     }
 
-    /// An operation of two operands.
-    fn binary(&mut self, op: Binary, to: Operand, a: Operand, b: Operand) -> Result<(), Apart> {
+    /// Runs an operation on two operands.
+    fn binary(&mut self, op: Binary, to: Operand, a: Operand, b: Operand) -> Result<(), Divergence> {
         let side = match (self.column(a), self.column(b)) {
             (None, None) => {
                 let (x, y) = (self.value(a), self.value(b));
@@ -374,7 +379,7 @@ impl<'r, 'p> Run<'r, 'p> {
         Ok(())
     }
 
-    fn negate(&mut self, to: Operand, a: Operand) -> Result<(), Apart> {
+    fn negate(&mut self, to: Operand, a: Operand) -> Result<(), Divergence> {
         let side = match self.column(a).cloned() {
             None => {
                 let value = ops::neg(self.value(a))?;
@@ -392,7 +397,7 @@ impl<'r, 'p> Run<'r, 'p> {
     }
 
     /// Whether a comparison holds, on which all lanes must agree.
-    fn compare(&mut self, op: Binary, a: Operand, b: Operand) -> Result<bool, Apart> {
+    fn compare(&mut self, op: Binary, a: Operand, b: Operand) -> Result<bool, Divergence> {
         if self.column(a).is_none() && self.column(b).is_none() {
             let (x, y) = (self.value(a), self.value(b));
             if x.is_plain() || y.is_plain() {
@@ -403,12 +408,12 @@ impl<'r, 'p> Run<'r, 'p> {
         }
         let (x, y) = (self.side(a), self.side(b));
         let column = self.operate(op, &x, &y)?;
-        self.agreed(&column)
+        self.common_truth(&column)
     }
 }
 
-/// What the register itself holds, and its column.
-fn apart(side: Side) -> (Value, Option<Column>) {
+/// Splits an operand into the value of the register itself and its column.
+fn split(side: Side) -> (Value, Option<Column>) {
     match side {
         Side::Each(column) => (Value::None, Some(column)),
         Side::All(value) => (value, None),

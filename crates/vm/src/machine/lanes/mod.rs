@@ -1,14 +1,16 @@
-//! Many runs at once, in lanes: an instruction is carried out once for all runs that stand at it.
+//! Many runs at once, in lanes: each instruction runs once for all runs at the same place.
 //!
-//! Particles that have asked the same questions are at the same place: the same activations, the same addresses, the
-//! same steps so far. What differs is values. So one [`State`] stands for all of them, and a register whose values differ has a
-//! [`Column`] beside it, with a value for each lane. Instructions on registers that all share are carried out on that state,
-//! as for a single run; those on columns are loops over the lanes.
+//! Particles that have asked the same questions are at the same place: they have the same activations, the same
+//! addresses and the same steps so far. Only values differ. So one [`State`] stands for all of them, and a
+//! register whose values differ has a [`Column`] beside it, with a value for each lane. Instructions on
+//! registers that all lanes share run on that state, as for a single run; instructions on columns are loops
+//! over the lanes.
 //!
-//! Lanes do what a single run does, to the bit, or nothing: where their ways part (a jump that some take), where a run
-//! would meet a fault, where it comes near a limit, and at sites that only single runs carry out, the answer is [`Apart`].
-//! The caller then goes on from where the lanes last paused, with a state for each ([`Lanes::apart`]), and what happens is reported by
-//! the machine for single runs. As random bits depend on addresses alone, the choices that are made again are the same.
+//! Lanes do exactly what a single run does, to the bit, or nothing. They return a [`Divergence`] where their
+//! paths part (at a jump that some take) and where a run would meet a fault or comes near a limit. They also
+//! return it at sites that only single runs support. The caller then continues from the last pause of the lanes,
+//! with a state for each ([`Lanes::state_of`]), and the machine for single runs reports what happens. Random bits
+//! depend on addresses alone, so repeated choices are the same.
 //!
 //! * `column`: the values of a register; `interpret`: the loop over instructions; `operate`: instructions on columns;
 //! * `questions`: choices and factors; `calls`: calls, loops and returns.
@@ -26,47 +28,48 @@ use super::Machine;
 use super::state::{FutureId, Node, NodeId, State, Status};
 use crate::value::{Value, identical};
 
-/// The lanes cannot go on together.
+/// The lanes cannot continue together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Apart;
+pub struct Divergence;
 
-impl From<crate::fault::Fault> for Apart {
+impl From<crate::fault::Fault> for Divergence {
     #[cold]
-    fn from(_: crate::fault::Fault) -> Apart {
-        Apart
+    fn from(_: crate::fault::Fault) -> Divergence {
+        Divergence
     }
 }
 
 /// Runs at the same place.
 #[derive(Clone, Debug)]
 pub struct Lanes {
-    /// Where they are, and the values that they share.
+    /// The place of the runs, and the values that they share.
     pub(super) state: State,
-    /// Of each register of the state: its values, where they differ. The register then holds `None`.
+    /// For each register of the state, its values if they differ. The register then contains `None`.
     pub(super) columns: Vec<Option<Column>>,
-    /// What they returned, where it differs.
+    /// The results of the runs, if they differ.
     pub(super) result: Option<Column>,
-    /// How many they are.
+    /// The number of lanes.
     count: usize,
-    /// By how much less each has spent than the state says; nothing where all have spent the same.
-    behind: Vec<Spent>,
+    /// The difference between the state's account and the account of each lane; empty if all accounts are
+    /// equal.
+    behind: Vec<Account>,
 }
 
-/// Steps, bytes of values, bytes of logged choices.
-type Spent = [u64; 3];
+/// The account of a run: steps, bytes of values, bytes of logged choices.
+type Account = [u64; 3];
 
-fn spent(state: &State) -> Spent {
+fn account(state: &State) -> Account {
     [state.steps, state.charged as u64, state.logged as u64]
 }
 
-/// The activations that a run's one future is in, from the innermost; `None` where there are other futures, or what lanes do not
-/// copy.
+/// The activations that a run's only future is in, from the innermost on. `None` if there are other futures, or
+/// data that lanes do not copy.
 fn activations(state: &State) -> Option<Vec<NodeId>> {
     let Some(Status::Runnable(node)) = state.futures.first().map(|root| &root.status) else { return None };
     if state.futures.len() != 1
         || state.origins.is_some()
         || state.memos.bytes() > 0
-        || state.parts.are_noted()
+        || state.parts.is_recording()
     {
         return None;
     }
@@ -76,7 +79,7 @@ fn activations(state: &State) -> Option<Vec<NodeId>> {
 }
 
 impl Lanes {
-    /// Runs that are paused, where they are at the same place.
+    /// Combines paused runs, if they are at the same place.
     pub fn line_up<'s>(states: impl Iterator<Item = &'s State>) -> Option<Lanes> {
         let states: Vec<&State> = states.collect();
         let first = *states.first()?;
@@ -84,7 +87,7 @@ impl Lanes {
         let are_alike = |state: &&State| {
             state.nodes.len() == first.nodes.len()
                 && state.registers.len() == first.registers.len()
-                && activations(state).is_some_and(|own| own == nodes)
+                && activations(state).is_some_and(|path| path == nodes)
                 && nodes.iter().all(|node| {
                     let [a, b] = [first, *state].map(|of| &of.nodes[node.0 as usize]);
                     let places = |n: &Node| (n.parent, n.site, n.registers, n.iteration, n.pc);
@@ -97,7 +100,7 @@ impl Lanes {
         let mut state = first.clone();
         let mut columns = vec![None; state.registers.len()];
         let mut is_live = vec![false; state.registers.len()];
-        // The registers of a node end where those of the next one begin.
+        // The registers of a node end where the registers of the next node begin.
         let mut ends: Vec<usize> = state.nodes.iter().map(|n| n.registers as usize).collect();
         ends.sort_unstable();
         for node in &nodes {
@@ -116,21 +119,21 @@ impl Lanes {
             }
         }
         let most =
-            states.iter().map(|state| spent(state)).fold([0; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
+            states.iter().map(|state| account(state)).fold([0; 3], |a, b| [0, 1, 2].map(|i| a[i].max(b[i])));
         (state.steps, state.charged, state.logged) = (most[0], most[1] as usize, most[2] as usize);
-        let less = |state: &&State| [0, 1, 2].map(|i| most[i] - spent(state)[i]);
-        let behind: Vec<Spent> = states.iter().map(less).collect();
+        let less = |state: &&State| [0, 1, 2].map(|i| most[i] - account(state)[i]);
+        let behind: Vec<Account> = states.iter().map(less).collect();
         let behind = if behind.iter().all(|less| *less == [0; 3]) { vec![] } else { behind };
         Some(Lanes { state, columns, result: None, count: states.len(), behind })
     }
 
-    /// Where they are: what is the same for all of them.
+    /// The place of the runs: the state that all of them share.
     pub fn shared(&self) -> &State {
         &self.state
     }
 
-    /// The state of the run in one lane.
-    pub fn apart(&self, lane: usize) -> State {
+    /// The state of the run in a lane.
+    pub fn state_of(&self, lane: usize) -> State {
         let mut state = self.state.clone();
         for (register, column) in state.registers.iter_mut().zip(&self.columns) {
             if let Some(column) = column {
@@ -148,7 +151,7 @@ impl Lanes {
         state
     }
 
-    /// Lane `i` becomes what lane `from[i]` was.
+    /// Replaces lane `i` by the earlier lane `from[i]`.
     pub fn pick(&mut self, from: &[u32]) {
         self.count = from.len();
         for column in self.columns.iter_mut().chain([&mut self.result]).flatten() {
@@ -161,28 +164,29 @@ impl Lanes {
 }
 
 impl Machine<'_> {
-    /// Runs the one future of all lanes until an answer pauses it or it returns. After [`Apart`] the lanes cannot be used.
+    /// Runs the only future of all lanes until an answer pauses it or it returns. After a [`Divergence`] the
+    /// lanes cannot be used.
     ///
     /// # Errors
-    /// They cannot go on together.
+    /// The lanes cannot continue together.
     pub fn resume_lanes<A: LaneAnswers>(
         &mut self,
         lanes: &mut Lanes,
         answers: &mut A,
-    ) -> Result<super::Stop, Apart> {
+    ) -> Result<super::Stop, Divergence> {
         if self.held.is_some() || self.together.is_some() || lanes.state.runnable().len() != 1 {
-            return Err(Apart);
+            return Err(Divergence);
         }
         self.empty_scratch();
         self.set_ceiling(&mut lanes.state);
         let future = lanes.state.runnable().first().unwrap_or(FutureId::NONE);
         let Some(Status::Runnable(node)) = lanes.state.futures.get(future.0 as usize).map(|f| &f.status)
         else {
-            return Err(Apart);
+            return Err(Divergence);
         };
         let node = *node;
         self.in_lanes = true;
-        let stop = interpret::Run::of(self, lanes, future, node).go(answers);
+        let stop = interpret::Run::new(self, lanes, future, node).run(answers);
         self.in_lanes = false;
         stop
     }

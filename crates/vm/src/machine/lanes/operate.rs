@@ -1,9 +1,9 @@
 //! Instructions on columns: loops over the lanes.
 //!
-//! Numbers of one kind have loops of their own; anything else is what a single run does, lane by lane. What an instruction costs
-//! must be the same in all lanes, because they share one account.
+//! Numbers of one kind have loops of their own; for other values, each lane does what a single run does. The
+//! price of an instruction must be the same in all lanes, because they share one account.
 
-use super::Apart;
+use super::Divergence;
 use super::column::{Column, Side};
 use super::interpret::Run;
 use crate::builtins::{Builtin, make_dist};
@@ -14,12 +14,15 @@ use crate::machine::operate;
 use crate::value::{Closure, Dict, Record, Value, index, iter_get, iter_len, ops};
 use std::sync::Arc;
 
-/// What all lanes say.
-fn shared<T: PartialEq>(lanes: usize, mut of: impl FnMut(usize) -> Result<T, Apart>) -> Result<T, Apart> {
+/// The result of a function on which all lanes agree.
+fn shared<T: PartialEq>(
+    lanes: usize,
+    mut of: impl FnMut(usize) -> Result<T, Divergence>,
+) -> Result<T, Divergence> {
     let first = of(0)?;
     for lane in 1..lanes {
         if of(lane)? != first {
-            return Err(Apart);
+            return Err(Divergence);
         }
     }
     Ok(first)
@@ -30,48 +33,48 @@ impl Run<'_, '_> {
         self.lanes.count
     }
 
-    fn charge(&mut self, price: Price) -> Result<(), Apart> {
+    fn charge(&mut self, price: Price) -> Result<(), Divergence> {
         Ok(self.machine.charge(&mut self.lanes.state, &Dropped, price)?)
     }
 
-    /// Charges bytes, the same in each lane.
-    pub fn charge_each(&mut self, bytes: impl Fn(usize) -> usize) -> Result<(), Apart> {
+    /// Charges bytes, which must be the same in each lane.
+    pub fn charge_each(&mut self, bytes: impl Fn(usize) -> usize) -> Result<(), Divergence> {
         let bytes = shared(self.count(), |lane| Ok(bytes(lane)))?;
         if bytes > 0 { self.charge(Price { steps: 0, bytes }) } else { Ok(()) }
     }
 
     /// Charges the values that an instruction made.
-    pub fn charge_results(&mut self, column: &Column) -> Result<(), Apart> {
+    pub fn charge_results(&mut self, column: &Column) -> Result<(), Divergence> {
         match column {
             Column::Values(all) => self.charge_each(|lane| budget::of_result(&all[lane])),
             _ => Ok(()),
         }
     }
 
-    /// The truth on which all lanes agree.
-    pub fn agreed(&self, column: &Column) -> Result<bool, Apart> {
+    /// The truth value on which all lanes agree.
+    pub fn common_truth(&self, column: &Column) -> Result<bool, Divergence> {
         match column {
             Column::Truths(all) => match all.iter().filter(|truth| **truth).count() {
                 0 => Ok(false),
                 n if n == all.len() => Ok(true),
-                _ => Err(Apart),
+                _ => Err(Divergence),
             },
             _ => shared(self.count(), |lane| Ok(ops::truth(&column.get(lane))?)),
         }
     }
 
     /// The length on which all lanes agree.
-    pub fn length(&self, column: &Column) -> Result<usize, Apart> {
+    pub fn length(&self, column: &Column) -> Result<usize, Divergence> {
         shared(self.count(), |lane| Ok(iter_len(&column.get(lane))?))
     }
 
     /// Element `i` of the sequence in each lane.
-    pub fn elements(&self, column: &Column, i: usize) -> Result<Column, Apart> {
+    pub fn elements(&self, column: &Column, i: usize) -> Result<Column, Divergence> {
         Column::of(self.count(), |lane| Ok(iter_get(&column.get(lane), i)))
     }
 
-    /// An operation of two operands, at least one of which differs.
-    pub fn operate(&mut self, op: Binary, x: &Side, y: &Side) -> Result<Column, Apart> {
+    /// Runs an operation on two operands, at least one of which is a column.
+    pub fn operate(&mut self, op: Binary, x: &Side, y: &Side) -> Result<Column, Divergence> {
         let lanes = self.count();
         if let (Some(a), Some(b)) = (x.ints(), y.ints()) {
             let overflowed = std::cell::Cell::new(false);
@@ -107,7 +110,7 @@ impl Run<'_, '_> {
                         a / b
                     });
                     if zero.get() {
-                        return Err(Apart);
+                        return Err(Divergence);
                     }
                     Some(all)
                 }
@@ -121,15 +124,15 @@ impl Run<'_, '_> {
             let price = shared(lanes, |lane| Ok(budget::of_binary(op, &x.get(lane), &y.get(lane))))?;
             self.charge(price)?;
         }
-        // The element of a list that all share is found without a copy of the list's handle.
+        // If all lanes share a list, its element is found without a copy of the list's handle.
         if let (Binary::Index, Side::All(list)) = (op, x) {
             return Column::of(lanes, |lane| Ok(operate::values(op, list, &y.get(lane))?));
         }
         Column::of(lanes, |lane| Ok(operate::values(op, &x.get(lane), &y.get(lane))?))
     }
 
-    /// A built-in function.
-    pub fn builtin(&mut self, to: Operand, builtin: &Builtin, args: Args) -> Result<(), Apart> {
+    /// Runs a built-in function.
+    pub fn builtin(&mut self, to: Operand, builtin: &Builtin, args: Args) -> Result<(), Divergence> {
         let sides = self.sides(args);
         let lanes = if sides.iter().any(|side| matches!(side, Side::Each(_))) { self.count() } else { 1 };
         let mut buffer: Vec<Value> = sides.iter().map(|side| side.get(0)).collect();
@@ -153,12 +156,12 @@ impl Run<'_, '_> {
         })?;
         if let Column::Values(all) = &result {
             // A longer list shares all but its end with the list before.
-            let made = |value: &Value| match builtin.name {
+            let price = |value: &Value| match builtin.name {
                 _ if value.is_plain() => 0,
                 "append" => budget::of_append(value),
                 _ => budget::of_result(value),
             };
-            let bytes = shared(lanes, |lane| Ok(made(&all[lane])))?;
+            let bytes = shared(lanes, |lane| Ok(price(&all[lane])))?;
             if bytes > 0 {
                 self.charge(Price { steps: 0, bytes })?;
             }
@@ -168,8 +171,8 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// An instruction that builds an aggregate of values that differ.
-    pub fn build(&mut self, op: Op, args: Args) -> Result<(), Apart> {
+    /// Runs an instruction that builds an aggregate of values that differ.
+    pub fn build(&mut self, op: Op, args: Args) -> Result<(), Divergence> {
         let (sides, lanes) = (self.sides(args), self.count());
         let program = self.machine.program;
         let items = |lane: usize| sides.iter().map(|side| side.get(lane)).collect::<Vec<Value>>();
@@ -208,25 +211,25 @@ impl Run<'_, '_> {
                 let dist = |lane| Ok(Value::Dist(Arc::new(make_dist(family, &items(lane))?)));
                 (to, Column::of(lanes, dist)?)
             }
-            _ => return Err(Apart),
+            _ => return Err(Divergence),
         };
         self.charge_each(|lane| column.get(lane).own_bytes())?;
         self.put(to, Side::Each(column));
         Ok(())
     }
 
-    /// A named field of the value in each lane.
-    pub fn field(&mut self, to: Operand, column: &Column, name: u16) -> Result<(), Apart> {
+    /// Reads a named field of the value in each lane.
+    pub fn field(&mut self, to: Operand, column: &Column, name: u16) -> Result<(), Divergence> {
         let name = &self.f.names[name as usize];
         let column = Column::of(self.count(), |lane| Ok(index::field(&column.get(lane), name)?))?;
         self.put(to, Side::Each(column));
         Ok(())
     }
 
-    /// The elements of the sequence in each lane into registers.
-    pub fn unpack(&mut self, column: &Column, to: Args) -> Result<(), Apart> {
+    /// Stores the elements of the sequence in each lane in registers.
+    pub fn unpack(&mut self, column: &Column, to: Args) -> Result<(), Divergence> {
         if self.length(column)? != to.len as usize {
-            return Err(Apart);
+            return Err(Divergence);
         }
         let f = self.f;
         for (k, o) in f.operands[to.range()].iter().enumerate() {
