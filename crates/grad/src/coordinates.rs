@@ -332,7 +332,7 @@ impl Recorder<'_> {
     }
 }
 
-/// The log Jacobian. Beyond the last numbers it is `beyond`, so that the density of the coordinate agrees with the score of the value.
+/// The log Jacobian: `inside` between the two limits, else `beyond`, the coordinate's log density less the value's score.
 fn slope_within(v: Var, (least, most): (f64, f64), beyond: Var, inside: Var) -> Var {
     v.above(most, || beyond, || v.above(least, || inside, || beyond))
 }

@@ -47,14 +47,14 @@ pub fn credit(objective: Objective, logs: &[f64]) -> Vec<f64> {
     let count = logs.len() as f64;
     let Some(w) = counted(logs).filter(|w| w.len() > 1) else { return vec![0.0; logs.len()] };
     let sum: f64 = w.iter().sum();
-    let others = |k: usize| (sum - w[k]) / (count - 1.0);
+    let mean_of_rest = |k: usize| (sum - w[k]) / (count - 1.0);
     if objective != Objective::Particles {
-        return (0..w.len()).map(|k| (w[k] - others(k)) / count).collect();
+        return (0..w.len()).map(|k| (w[k] - mean_of_rest(k)) / count).collect();
     }
     // An impossible run has no weight in the mean, but counts in the baselines of the other runs.
     let (bound, all) = (log_mean_exp(logs.iter().copied()), log_sum_exp(logs.iter().copied()));
     let weight = |k: usize| {
-        let without = logs.iter().enumerate().map(|(j, w)| if j == k { others(k) } else { *w });
+        let without = logs.iter().enumerate().map(|(j, w)| if j == k { mean_of_rest(k) } else { *w });
         bound - log_mean_exp(without) - (logs[k] - all).exp()
     };
     (0..w.len()).map(weight).collect()
