@@ -85,11 +85,16 @@ impl Chooser for Noting<'_> {
         true
     }
 
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        let Some(site) = self.guide.look(at, dist, seen, self.sight, 0) else {
-            return Prior(self.stream).choose(at, dist, seen);
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault> {
+        let Some(site) = self.guide.look(at, dist, context, self.sight, 0) else {
+            return Prior(self.stream).choose(at, dist, context);
         };
-        let chosen = self.guide.answer(site, dist, self.sight, &mut self.stream.at(seen.address));
+        let chosen = self.guide.answer(site, dist, self.sight, &mut self.stream.at(context.address));
         let head = &self.guide.guide().form.sites[site].head;
         if let Some(lesson) = value_to_draw(&chosen.value).and_then(|draw| head.lesson(dist, &draw)) {
             let (window, features) = self.sight.inputs();
@@ -301,12 +306,12 @@ pub fn climb(
     let label = |site: Option<usize>| site.map(|site| form.sites[site].label.clone());
     loop {
         let step = state.step();
-        let has_looked = history.last().is_some_and(|seen: &Progress| seen.step == step);
+        let has_looked = history.last().is_some_and(|progress: &Progress| progress.step == step);
         if !has_looked && (step.is_multiple_of(with.every) || step >= with.steps) {
             let guide = guide_of(state.averaged(with.averaging));
             // Each look uses the same random numbers, so that only the guide differs.
-            let seen = draw(&guide, &net_form, &looked_at, runs, (Use::Look, 0), seed)?;
-            let held_out = mean_bound(&seen, objective).map(|bound| -bound);
+            let groups = draw(&guide, &net_form, &looked_at, runs, (Use::Look, 0), seed)?;
+            let held_out = mean_bound(&groups, objective).map(|bound| -bound);
             let loss = now.loss().or(held_out).unwrap_or(f64::INFINITY);
             let held_out = if judged.is_empty() { loss } else { held_out.unwrap_or(f64::INFINITY) };
             // Without targets that judge, the last weights count as best.
@@ -318,8 +323,8 @@ pub fn climb(
             lost.push(now.lost);
             now = Tally::default();
         }
-        let seen = *history.last().expect("the start was looked at");
-        if !watch(Progress { step, ..seen }) || step >= with.steps {
+        let latest = *history.last().expect("the start was looked at");
+        if !watch(Progress { step, ..latest }) || step >= with.steps {
             break;
         }
         if let Some(checkpoint) = checkpoint {

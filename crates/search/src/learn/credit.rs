@@ -34,7 +34,7 @@ const BELOW: f64 = 10.0;
 
 /// The log weights of a target's runs, with replacements for impossible runs (minus infinity); `None` if
 /// all are impossible.
-fn counted(logs: &[f64]) -> Option<Vec<f64>> {
+fn finite_logs(logs: &[f64]) -> Option<Vec<f64>> {
     let possible = logs.iter().copied().filter(|w| w.is_finite());
     let worst = possible.fold(f64::INFINITY, f64::min);
     let count = |w: &f64| if w.is_finite() { *w } else { worst - BELOW };
@@ -45,7 +45,7 @@ fn counted(logs: &[f64]) -> Option<Vec<f64>> {
 /// only one.
 pub fn credit(objective: Objective, logs: &[f64]) -> Vec<f64> {
     let count = logs.len() as f64;
-    let Some(w) = counted(logs).filter(|w| w.len() > 1) else { return vec![0.0; logs.len()] };
+    let Some(w) = finite_logs(logs).filter(|w| w.len() > 1) else { return vec![0.0; logs.len()] };
     let sum: f64 = w.iter().sum();
     let mean_of_rest = |k: usize| (sum - w[k]) / (count - 1.0);
     if objective != Objective::Particles {
@@ -65,7 +65,7 @@ pub fn credit(objective: Objective, logs: &[f64]) -> Vec<f64> {
 pub fn bound(objective: Objective, logs: &[f64]) -> Option<f64> {
     match objective {
         Objective::Particles => Some(log_mean_exp(logs.iter().copied())).filter(|log| log.is_finite()),
-        _ => counted(logs).map(|w| w.iter().sum::<f64>() / w.len() as f64),
+        _ => finite_logs(logs).map(|w| w.iter().sum::<f64>() / w.len() as f64),
     }
 }
 

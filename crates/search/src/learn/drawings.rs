@@ -67,8 +67,8 @@ fn traces(examples: &[&Example], guide: &Arc<Guide>) -> Result<Vec<Trace>, Failu
             choices: Vec::new(),
         };
         let mut sight = Sight::default();
-        follow(example, &mut |at, dist, seen, value| {
-            let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
+        follow(example, &mut |at, dist, context, value| {
+            let Some(site) = bound.look(at, dist, context, &mut sight, 0) else { return Ok(()) };
             let lesson =
                 value_to_draw(value).and_then(|draw| guide.form.sites[site].head.lesson(dist, &draw));
             if let Some(lesson) = lesson {

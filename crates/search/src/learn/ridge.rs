@@ -38,8 +38,8 @@ impl Examples {
 
     /// The mean square error of a line.
     pub fn error(&self, line: &Line) -> f64 {
-        let missed = |(row, label): (&[f64], f64)| (label - line.at(row)).powi(2);
-        self.rows().map(missed).sum::<f64>() / self.labels.len() as f64
+        let square = |(row, label): (&[f64], f64)| (label - line.at(row)).powi(2);
+        self.rows().map(square).sum::<f64>() / self.labels.len() as f64
     }
 }
 
