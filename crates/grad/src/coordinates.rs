@@ -168,14 +168,14 @@ const FAR: f64 = 1e140;
 fn unit(dist: &Dist<Var>) -> Result<f64, Fault> {
     let Some(scale) = dist.scale() else { return Ok(1.0) };
     if scale.varies() {
-        return learnt(dist, scale.value());
+        return check_learnable(dist, scale.value());
     }
     let near = (1.0 / NEAR..=NEAR).contains(&scale.value());
     Ok(if near { 1.0 } else { scale.value().log2().round().exp2() })
 }
 
-/// Refuses a scale that would have to be learnt but is too far from 1.
-fn learnt(dist: &Dist<Var>, scale: f64) -> Result<f64, Fault> {
+/// Refuses a scale that a method would have to learn but that is too far from 1.
+fn check_learnable(dist: &Dist<Var>, scale: f64) -> Result<f64, Fault> {
     if (1.0 / FAR..=FAR).contains(&scale) {
         return Ok(1.0);
     }
@@ -206,11 +206,11 @@ impl Recorder<'_> {
             (Space::Simplex | Space::Vectors, Draw::Vector(x)) => {
                 if let Dist::MultivariateGaussian(g) = dist {
                     for (i, row) in g.covariance.iter().enumerate() {
-                        learnt(dist, row[i].value().sqrt())?;
+                        check_learnable(dist, row[i].value().sqrt())?;
                     }
                 }
                 if let Dist::DiagonalGaussian(g) = dist {
-                    g.sd.iter().try_for_each(|sd| learnt(dist, sd.value()).map(|_| ()))?;
+                    g.sd.iter().try_for_each(|sd| check_learnable(dist, sd.value()).map(|_| ()))?;
                 }
                 let values: Vec<Var> = x.iter().map(|x| self.coordinate(*x)).collect();
                 let log = dist.log_density(&Draw::Vector(values.clone().into()));
@@ -339,7 +339,7 @@ impl Recorder<'_> {
     }
 }
 
-/// The log Jacobian. Beyond the last numbers it is `beyond`, so that the density of the coordinate agrees with the score of the value.
+/// The log Jacobian: `inside` between the two limits, else `beyond`, the coordinate's log density less the value's score.
 fn slope_within(v: Var, (least, most): (f64, f64), beyond: Var, inside: Var) -> Var {
     v.above(most, || beyond, || v.above(least, || inside, || beyond))
 }

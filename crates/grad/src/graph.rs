@@ -456,13 +456,13 @@ impl Graph {
             },
             Op::Add => {
                 let (a, b) = (r(0), r(1));
-                let alike = a.lo >= 0.0 && b.lo >= 0.0 || a.hi <= 0.0 && b.hi <= 0.0;
-                Range::new(a.lo + b.lo, a.hi + b.hi, alike && (a.nonzero || b.nonzero))
+                let no_cancellation = a.lo >= 0.0 && b.lo >= 0.0 || a.hi <= 0.0 && b.hi <= 0.0;
+                Range::new(a.lo + b.lo, a.hi + b.hi, no_cancellation && (a.nonzero || b.nonzero))
             }
             Op::Sub => {
                 let (a, b) = (r(0), r(1));
-                let alike = a.lo >= 0.0 && b.hi <= 0.0 || a.hi <= 0.0 && b.lo >= 0.0;
-                Range::new(a.lo - b.hi, a.hi - b.lo, alike && (a.nonzero || b.nonzero))
+                let no_cancellation = a.lo >= 0.0 && b.hi <= 0.0 || a.hi <= 0.0 && b.lo >= 0.0;
+                Range::new(a.lo - b.hi, a.hi - b.lo, no_cancellation && (a.nonzero || b.nonzero))
             }
             Op::Mul => {
                 let (a, b) = (r(0), r(1));

@@ -71,7 +71,7 @@ pub struct Var {
 impl Var {
     /// The next coordinate, with this value at the recorded point. Outside a recording, a plain number.
     pub fn input(value: f64) -> Var {
-        Var::written(value, |sheet| sheet.graph.input())
+        Var::on_graph(value, |sheet| sheet.graph.input())
     }
 
     /// The node that computes the number; a constant gets one.
@@ -123,7 +123,7 @@ impl Var {
         if self.node == FIXED {
             return branch;
         }
-        Var::written(branch.value, |sheet| {
+        Var::on_graph(branch.value, |sheet| {
             let g = &mut sheet.graph;
             let (bound, yes, no) = (g.constant(bound), yes.id(g), no.id(g));
             let above = g.binary(Op::Less, bound, Id(self.node));
@@ -131,7 +131,7 @@ impl Var {
         })
     }
 
-    fn written(value: f64, write: impl FnOnce(&mut Sheet) -> Id) -> Var {
+    fn on_graph(value: f64, write: impl FnOnce(&mut Sheet) -> Id) -> Var {
         SHEET.with_borrow_mut(|sheet| match sheet {
             Some(sheet) => {
                 let id = write(sheet);
@@ -149,7 +149,7 @@ impl Var {
         if self.node == FIXED {
             return Var { value, node: FIXED };
         }
-        Var::written(value, |sheet| sheet.graph.unary(op, Id(self.node)))
+        Var::on_graph(value, |sheet| sheet.graph.unary(op, Id(self.node)))
     }
 
     #[inline]
@@ -157,7 +157,7 @@ impl Var {
         if self.node == FIXED && other.node == FIXED {
             return Var { value, node: FIXED };
         }
-        Var::written(value, |sheet| {
+        Var::on_graph(value, |sheet| {
             let (a, b) = (self.id(&mut sheet.graph), other.id(&mut sheet.graph));
             sheet.graph.binary(op, a, b)
         })
@@ -302,7 +302,7 @@ impl Scalar for Var {
         if self.node == FIXED {
             return Var::from_f64(self.value.powi(n));
         }
-        Var::written(self.value.powi(n), |sheet| sheet.graph.powi(Id(self.node), n))
+        Var::on_graph(self.value.powi(n), |sheet| sheet.graph.powi(Id(self.node), n))
     }
     fn floor(self) -> Var {
         if self.node == FIXED {
@@ -317,7 +317,7 @@ impl Scalar for Var {
         }
         let (over, under) = (over(), under());
         let branch = if self.value > bound { over } else { under };
-        Var::written(branch.value, |sheet| {
+        Var::on_graph(branch.value, |sheet| {
             let g = &mut sheet.graph;
             let (bound, over, under) = (g.constant(bound), over.id(g), under.id(g));
             let test = g.binary(Op::Less, bound, Id(self.node));

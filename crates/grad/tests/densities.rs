@@ -14,7 +14,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 
 fn lanes<const L: usize>(tape: &Tape, x: &[f64]) -> (f64, Vec<f64>) {
     let mut memory = tape.lanes::<L>();
-    // Other lanes elsewhere: none may leak into another.
+    // Other lanes hold other points: no lane may affect another.
     let points: Vec<[f64; L]> = x
         .iter()
         .map(|x| std::array::from_fn(|l| if l == L - 1 { *x } else { x + 0.01 * l as f64 }))
@@ -47,13 +47,13 @@ fn every_evaluator(density: &Density, x: &[f64]) -> Vec<(&'static str, f64, Vec<
 }
 
 #[test]
-fn the_peers_densities_are_those_that_are_known() {
+fn densities_of_peers_equal_known_values() {
     let densities = peers();
     for Known { name, x, value, gradient } in known() {
         let density = &densities.iter().find(|(n, _)| *n == name).expect("a density of that name").1;
         assert_eq!(density.dim(), x.len());
-        for (evaluator, found, g) in every_evaluator(density, &x) {
-            assert!((found / value - 1.0).abs() < 1e-11, "{name} by {evaluator}: {found} {value}");
+        for (evaluator, actual, g) in every_evaluator(density, &x) {
+            assert!((actual / value - 1.0).abs() < 1e-11, "{name} by {evaluator}: {actual} {value}");
             let apart = apart(&g, &gradient);
             assert!(apart < 1e-10, "{name} by {evaluator}: gradients differ by {apart}");
         }
@@ -73,8 +73,8 @@ fn a_large_density_is_cut_into_functions_and_stays_the_same() {
     let all = every_evaluator(&density, &x);
     let (_, value, gradient) = &all[0];
     assert!((value / stack(28, &x) - 1.0).abs() < 1e-10);
-    for (evaluator, found, g) in &all[1..] {
-        assert!((found / value - 1.0).abs() < 1e-10, "{evaluator}: {found} {value}");
+    for (evaluator, actual, g) in &all[1..] {
+        assert!((actual / value - 1.0).abs() < 1e-10, "{evaluator}: {actual} {value}");
         assert!(apart(g, gradient) < 1e-10, "{evaluator}");
     }
 }

@@ -213,7 +213,7 @@ fn every_builtin_has_the_slope_of_central_differences_or_none_to_have() {
 
 #[test]
 fn a_recording_holds_wherever_its_guards_do() {
-    // A function that decides by a number without a guard is caught at points where it would decide otherwise.
+    // A function that decides by a number without a guard fails at points where it would decide differently.
     let (mut seed, mut inside) = (5, 0);
     for (name, plain, noted, x) in CASES {
         let density =
@@ -236,8 +236,8 @@ fn a_recording_holds_wherever_its_guards_do() {
 }
 
 #[test]
-fn what_has_no_derivative_says_so_where_the_number_varies() {
-    let (found, _) = with_sheet(|| {
+fn operations_without_derivative_fail_for_numbers_that_vary() {
+    let (codes, _) = with_sheet(|| {
         let x = Var::input(0.5);
         let code = |name: &str, args: &[Value<Var>]| call(name, args).err().map(|fault| fault.code);
         (
@@ -247,40 +247,40 @@ fn what_has_no_derivative_says_so_where_the_number_varies() {
             code("str", &[Value::real(0.5)]),
         )
     });
-    assert_eq!(found, (Some("no-derivative"), Some("no-derivative"), Some("no-derivative"), None));
+    assert_eq!(codes, (Some("no-derivative"), Some("no-derivative"), Some("no-derivative"), None));
 }
 
-/// The tape, alone and in lanes, and the machine code give what the interpreter gives.
+/// Asserts that the tape, alone and in lanes, and the machine code agree with the interpreter.
 fn every_evaluator(density: &Density, x: &[f64]) {
     let mut expected = vec![0.0; x.len()];
     let value = density.interpret(x, &mut expected);
     let size = expected.iter().chain([&value]).fold(1e-3, |m: f64, x| m.max(x.abs()));
-    let same = |evaluator: &str, found: f64, g: &[f64]| {
+    let check = |evaluator: &str, actual: f64, g: &[f64]| {
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-11 * size || a.is_nan() && b.is_nan();
-        assert!(near(found, value), "{evaluator}: {found} {value}");
+        assert!(near(actual, value), "{evaluator}: {actual} {value}");
         assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)), "{evaluator}: {g:?} {expected:?}");
     };
     let tape = Tape::new(density);
     let mut g = vec![0.0; x.len()];
-    let found = tape.lanes::<1>().at_point(&tape, x, &mut g);
-    same("tape", found, &g);
+    let actual = tape.lanes::<1>().at_point(&tape, x, &mut g);
+    check("tape", actual, &g);
     let rows: Vec<[f64; 16]> = x.iter().map(|x| [*x; 16]).collect();
     let mut many = vec![[0.0; 16]; x.len()];
-    let found = tape.lanes::<16>().value_and_gradient(&tape, &rows, &mut many);
+    let actual = tape.lanes::<16>().value_and_gradient(&tape, &rows, &mut many);
     let last: Vec<f64> = many.iter().map(|row| row[15]).collect();
-    same("lanes", found[15], &last);
+    check("lanes", actual[15], &last);
     let bits =
         |value: f64, g: &[f64]| -> Vec<u64> { g.iter().chain([&value]).map(|x| x.to_bits()).collect() };
-    let by_tape = bits(found[15], &last);
+    let by_tape = bits(actual[15], &last);
     let mut native = Native::compile(density).expect("machine code for this processor");
-    let found = native.value_and_gradient(x, &mut g);
-    same("machine code", found, &g);
-    let sound = |g: &[f64]| g.iter().chain([&found]).all(|x| !x.is_nan());
+    let actual = native.value_and_gradient(x, &mut g);
+    check("machine code", actual, &g);
+    let sound = |g: &[f64]| g.iter().chain([&actual]).all(|x| !x.is_nan());
     // To the bit, so that a chain does not depend on the evaluator.
-    assert!(!sound(&g) || bits(found, &g) == by_tape, "machine code and tape differ: {g:?} {last:?}");
+    assert!(!sound(&g) || bits(actual, &g) == by_tape, "machine code and tape differ: {g:?} {last:?}");
     if native.gradient(x, &mut g) {
-        same("machine code without the value", value, &g);
-        assert!(!sound(&g) || bits(found, &g) == by_tape, "without the value: {g:?} {last:?}");
+        check("machine code without the value", value, &g);
+        assert!(!sound(&g) || bits(actual, &g) == by_tape, "without the value: {g:?} {last:?}");
     }
 }
 
@@ -296,9 +296,9 @@ fn random(seed: &mut u64) -> (Graph, Id, Vec<f64>) {
         let (a, b, t) = (pick(), pick(), pick());
         // Squashed to (0.5, 1.5), where every function is smooth.
         let squash = |g: &mut Graph, id: Id| {
-            let (flat, half, one) = (g.unary(Op::Tanh, id), g.constant(0.5), g.constant(1.0));
+            let (flat, half, unity) = (g.unary(Op::Tanh, id), g.constant(0.5), g.constant(1.0));
             let scaled = g.mul(half, flat);
-            g.add(one, scaled)
+            g.add(unity, scaled)
         };
         let unary = [
             Op::Sqrt,
@@ -380,7 +380,7 @@ fn a_thousand_random_graphs_have_the_slopes_of_central_differences() {
             };
             let h = 1e-3;
             let (left, right) = ((line(x[k]) - line(x[k] - h)) / h, (line(x[k] + h) - line(x[k])) / h);
-            // A select or a corner within the step: differences do not give the slope.
+            // A select or a corner is within the step, so differences do not give the slope.
             if (left - right).abs() > 0.05 * size {
                 skipped += 1;
                 continue;

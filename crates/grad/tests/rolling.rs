@@ -1,5 +1,5 @@
-//! Leapfrog steps in machine code are, to the bit, those of an integrator that calls the tape for one gradient after
-//! another; they stop before a step that leads outside the guards or to a slope that is not finite.
+//! Leapfrog steps in machine code equal, to the bit, those of an integrator that calls the tape for one gradient after
+//! another. They stop before a step that leads outside the guards or to a slope that is not finite.
 
 use niwaki_grad::scalar::with_sheet;
 use niwaki_grad::{Density, Native, Rolling, Tape, Var};
@@ -15,7 +15,7 @@ fn recorded(x: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
 /// Position, momentum, gradient.
 type Phase = [Vec<f64>; 3];
 
-/// As the integrator does it, by tape: how many of `n` steps can be taken, and where they lead.
+/// The number of possible steps (at most `n`) and the phase after them, by an integrator with the tape.
 fn by_tape(
     density: &Density,
     [x, p, g]: &Phase,
@@ -26,7 +26,7 @@ fn by_tape(
     let tape = Tape::new(density);
     let mut lanes = tape.lanes::<1>();
     let (mut x, mut p, mut g, mut kick) = (x.clone(), p.clone(), g.clone(), sizes.0);
-    for taken in 0..n {
+    for count in 0..n {
         let before = [x.clone(), p.clone(), g.clone()];
         for k in 0..x.len() {
             p[k] += kick * g[k];
@@ -34,27 +34,27 @@ fn by_tape(
         }
         let inside = lanes.inside(&tape, &x, &mut g).is_some();
         if !inside || g.iter().any(|slope| !slope.is_finite()) {
-            return (taken, before);
+            return (count, before);
         }
         kick = sizes.1;
     }
     (n, [x, p, g])
 }
 
-/// The same in machine code, beside the tape: gives how many steps were taken.
+/// Compares steps in machine code with those by tape, and returns their number.
 fn compared(density: &Density, x: &[f64], p: &[f64], sizes: (f64, f64), n: u32) -> u32 {
     let variance: Vec<f64> = (0..x.len()).map(|k| 0.7 + 0.4 * k as f64).collect();
     let mut g = vec![0.0; x.len()];
     let mut native = Native::compile(density).expect("machine code for this processor");
     assert!(native.gradient(x, &mut g));
     let start = [x.to_vec(), p.to_vec(), g];
-    let (taken, expected) = by_tape(density, &start, &variance, sizes, n);
+    let (count, expected) = by_tape(density, &start, &variance, sizes, n);
     let [mut x, mut p, mut g] = start;
     let at = Rolling { x: &mut x, p: &mut p, g: &mut g, variance: &variance };
-    assert_eq!(native.roll(at, sizes.0, sizes.1, n), taken);
+    assert_eq!(native.roll(at, sizes.0, sizes.1, n), count);
     let bits = |phase: &Phase| -> Vec<u64> { phase.iter().flatten().map(|x| x.to_bits()).collect() };
     assert_eq!(bits(&[x, p, g]), bits(&expected));
-    taken
+    count
 }
 
 fn c(x: f64) -> Var {
@@ -85,18 +85,18 @@ fn steps_in_a_loop_are_steps_one_by_one() {
 }
 
 #[test]
-fn steps_stop_before_a_guard_and_before_what_is_not_finite() {
+fn steps_stop_before_guards_and_before_numbers_not_finite() {
     let walled = recorded(&[0.2, 0.1], |x| {
         let far = x[0] > c(1.5);
         let rest = c(-0.5) * (x[0] * x[0] + x[1] * x[1]);
         if far { rest * c(2.0) } else { rest }
     });
-    let taken = compared(&walled, &[0.2, 0.1], &[3.0, 0.0], (0.025, 0.05), 1000);
-    assert!((2..40).contains(&taken), "{taken}");
+    let count = compared(&walled, &[0.2, 0.1], &[3.0, 0.0], (0.025, 0.05), 1000);
+    assert!((2..40).contains(&count), "{count}");
     // Steps that are far too long: the numbers overflow.
     let steep = recorded(&[3.0], |x| c(-0.25) * x[0] * x[0] * x[0] * x[0]);
-    let taken = compared(&steep, &[3.0], &[1.0], (1.0, 2.0), 1000);
-    assert!((1..20).contains(&taken), "{taken}");
+    let count = compared(&steep, &[3.0], &[1.0], (1.0, 2.0), 1000);
+    assert!((1..20).contains(&count), "{count}");
     // Not even one step: nothing moves.
     assert_eq!(compared(&steep, &[3.0], &[1e308], (1.0, 1e10), 5), 0);
 }

@@ -1,14 +1,14 @@
-//! What a guide costs on one thread: `cargo run --release -p niwaki-guide --example speed`.
+//! The cost of a guide on one thread: `cargo run --release -p niwaki-guide --example speed`.
 //!
-//! A network of the usual size (62 numbers of a window, 13 features, 20 sites): nanoseconds of seeing a window, of an
-//! answer and of a draw, beside the prior's own draw; and microseconds of a training step of 256 choices.
+//! A network of the usual size (62 numbers of a window, 13 features, 20 sites): nanoseconds for a window, for an
+//! answer and for a draw, beside a draw of the prior; and microseconds for a training step of 256 choices.
 
 use niwaki_guide::{Head, Net, NetForm, Rows, Scratch, Training, train};
 use niwaki_math::{Dist, Stream};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Nanoseconds of one of `n` calls.
+/// Nanoseconds of a call, over `n` calls.
 fn each(n: u64, mut call: impl FnMut(u64)) -> f64 {
     let start = Instant::now();
     (0..n).for_each(&mut call);

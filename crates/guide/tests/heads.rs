@@ -70,13 +70,13 @@ impl Map {
     }
 }
 
-/// The largest gap that Kolmogorov and Smirnov's statistic of so many draws exceeds with probability 1e-6 at most
+/// The largest gap that the statistic of Kolmogorov and Smirnov exceeds with probability 1e-6 at most, for this number of draws
 /// (Massart 1990).
 fn threshold() -> f64 {
     (2e6_f64.ln() / (2.0 * DRAWS as f64)).sqrt()
 }
 
-/// A draw, whose log densities are those of its value.
+/// A draw; asserts that its log densities equal those of its value.
 fn draw(head: &Head, outputs: &[f32], d: &Dist, k: u64) -> Draw {
     let drawn = head.draw(outputs, d, SHARE, &mut Stream::new(7, 7, u128::from(k), 0));
     let again = head.log_drawn(outputs, d, SHARE, &drawn.value);
@@ -85,7 +85,7 @@ fn draw(head: &Head, outputs: &[f32], d: &Dist, k: u64) -> Draw {
     drawn.value
 }
 
-/// The density integrates to one within `near`, and draws have the distribution function of the integral.
+/// Asserts that the density integrates to one within `near`, and that draws follow the integral.
 fn real_agrees(d: &Dist, outputs: &[f32], near: f64) {
     const CELLS: usize = 40_000;
     let head = Head::of(d, outputs.len() / 3).expect("a head");
@@ -153,8 +153,8 @@ fn densities_of_real_numbers_integrate_to_one_and_draws_follow_them() {
     }
 }
 
-/// A network may put its mass where the coordinate does not hold: there the prior draws. The density jumps at the limits,
-/// so that the grid is less exact.
+/// A network may put its mass outside the coordinate's limits, where the prior draws. The density jumps at the limits,
+/// so the grid is less exact.
 #[test]
 fn mass_beyond_the_coordinate_goes_to_the_prior() {
     for d in reals() {
@@ -204,8 +204,8 @@ fn densities_of_whole_numbers_sum_to_one_and_draws_follow_them() {
     }
 }
 
-/// Whatever the outputs and the parameters are, no density is NaN, and the prior's is at most one over the share times
-/// the guide's.
+/// For any outputs and parameters, no density is NaN, and the prior's density is at most the guide's divided by
+/// the share.
 #[test]
 fn weights_are_at_most_one_over_the_share() {
     let sizes = [1e-100, 1e-8, 0.3, 1.0, 7.0, 1e5, 1e12, 1e100];
@@ -263,7 +263,7 @@ fn weights_are_at_most_one_over_the_share() {
 }
 
 #[test]
-fn derivatives_are_those_of_differences() {
+fn derivatives_agree_with_differences() {
     let mut lessons = Vec::new();
     for d in reals().iter().chain(counts().iter().map(|(d, _, _)| d)) {
         let head = Head::of(d, 4).unwrap();
@@ -286,7 +286,7 @@ fn derivatives_are_those_of_differences() {
                     at[j] += step;
                     lesson.log_quotient(&at, share, None)
                 };
-                // Fourth order: the error is of the size of the step to the fourth.
+                // The differences are of fourth order: the error has the size of the step to the fourth.
                 let h = 1e-3;
                 let numeric =
                     (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
@@ -325,7 +325,7 @@ fn sites_have_the_heads_of_their_families() {
     assert_eq!(die.widen(&dist(Family::Gaussian, &[0.0, 1.0]), 4), None);
 }
 
-/// Where the head does not fit, the prior draws.
+/// If the head does not fit, the prior draws.
 #[test]
 fn a_head_that_does_not_fit_leaves_the_choice_to_the_prior() {
     let d = dist(Family::Gaussian, &[0.0, 1.0]);

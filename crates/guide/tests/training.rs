@@ -1,4 +1,4 @@
-//! Training finds what can be known, with the same bits on any number of threads, and stops where numbers are not finite.
+//! Training comes near the best possible loss, with equal bits on any number of threads, and stops at numbers that are not finite.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 use niwaki_guide::{
@@ -57,13 +57,13 @@ fn silent(toy: &Toy, with: &Training) -> Trained {
     train(start, &toy.rows(20_000, 1), &toy.rows(4_000, 2), with, &mut |_| true).unwrap()
 }
 
-/// The best possible loss: minus the information about each site, the share of the prior within.
+/// The best possible loss: minus the information about each site, with the share of the prior.
 fn best_loss() -> f64 {
     let coin: f64 = [(0.9, 0.9 * 0.98 + 0.01), (0.1, 0.1 * 0.98 + 0.01)]
         .iter()
         .map(|(p, q): &(f64, f64)| p * (q / 0.5).ln())
         .sum();
-    // The angle's density over the uniform's 1/6, by the midpoint rule over deviations.
+    // The quotient of the angle's density to the uniform's 1/6, by the midpoint rule over deviations.
     let step = 1e-3;
     let angle: f64 = (-8000..8000)
         .map(|k| {
@@ -91,7 +91,7 @@ fn training_comes_near_what_can_be_known() {
     assert!(seen[0].held_out.abs() < 0.02, "{:?}", seen[0]);
     let (best, limit) = (got.best.0, best_loss());
     assert!(best > limit - 0.05 && best < limit + 0.08, "{best} of {limit}");
-    // Features that are far from zero, or very large, or missing, are no trouble.
+    // Features far from zero, very large features and missing features do no harm.
     let (mut sums, mut scratch) = (Vec::new(), Scratch::default());
     got.net.see(&[0.9, 0.25, 0.5], &mut sums);
     let heads = |net: &Net, features: &[(u32, f32)], scratch: &mut Scratch| {
@@ -113,9 +113,9 @@ fn any_number_of_threads_gives_the_same_bits() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| silent(&toy, &with))
     };
-    let one = on(1);
-    assert_eq!(niwaki_guide::write(&one.net, ""), niwaki_guide::write(&on(2).net, ""));
-    assert!(one == on(3));
+    let alone = on(1);
+    assert_eq!(niwaki_guide::write(&alone.net, ""), niwaki_guide::write(&on(2).net, ""));
+    assert!(alone == on(3));
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn training_in_two_parts_is_training_in_one() {
     assert!(both.net == whole.net && both.state == whole.state);
 }
 
-/// A training that is stored in any step and goes on from its data has the same bits, and has seen the same.
+/// A training that is stored in any step and resumed has equal bits and an equal history.
 #[test]
 fn a_stored_training_goes_on() {
     let toy = Toy::new();
@@ -161,7 +161,7 @@ fn a_stored_training_goes_on() {
     assert!(train_along(start, &rows, &held_out, &with, &mut |_| true, way).is_err());
 }
 
-/// Going on from a trained network keeps what it knows, whatever the new rows' means and deviations are.
+/// Training from a trained network keeps its knowledge, for any means and deviations of the new rows.
 #[test]
 fn a_trained_network_is_a_start() {
     let toy = Toy::new();
@@ -190,7 +190,7 @@ fn no_rows_leave_the_start() {
     assert_eq!(got.state.step(), 0);
 }
 
-/// A loss that is not a number stops the training, names the site, and leaves a network that works.
+/// A loss that is NaN stops the training, and the message names the site; the network still works.
 #[test]
 fn training_that_diverges_says_where() {
     let toy = Toy::new();

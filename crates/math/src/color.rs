@@ -131,16 +131,20 @@ pub fn difference<S: Scalar>([l1, a1, b1]: [S; 3], [l2, a2, b2]: [S; 3]) -> S {
     let (h1, h2) = (hue(a1, b1, c1), hue(a2, b2, c2));
     // Equations 8 to 11.
     let grey = c1 == number(0.0) || c2 == number(0.0);
-    let apart = h2 - h1;
-    let back = || (-apart).above(TAU / 2.0, || apart + number(TAU), || apart);
-    let turn = if grey { number(0.0) } else { apart.above(TAU / 2.0, || apart - number(TAU), back) };
+    let hue_difference = h2 - h1;
+    let back = || (-hue_difference).above(TAU / 2.0, || hue_difference + number(TAU), || hue_difference);
+    let turn = if grey {
+        number(0.0)
+    } else {
+        hue_difference.above(TAU / 2.0, || hue_difference - number(TAU), back)
+    };
     let (dl, dc) = (l2 - l1, c2 - c1);
     let dh = if grey { number(0.0) } else { two * (c1 * c2).sqrt() * (turn * half).sin() };
     // Equations 12 to 14: the means.
     let (l, c) = ((l1 + l2) * half, (c1 + c2) * half);
     let sum = h1 + h2;
     let around = || (-sum).above(-TAU, || (sum + number(TAU)) * half, || (sum - number(TAU)) * half);
-    let h = if grey { sum } else { apart.abs().above(TAU / 2.0, around, || sum * half) };
+    let h = if grey { sum } else { hue_difference.abs().above(TAU / 2.0, around, || sum * half) };
     // Equations 15 to 21.
     let degrees = |x: f64| number(x.to_radians());
     let t = unity - number(0.17) * (h - degrees(30.0)).cos()

@@ -89,7 +89,7 @@ pub trait Scalar:
         false
     }
     /// Stores numbers under the address of an object that has plain numbers and lives as long as the recording
-    /// needs it: a shape and its place. Only a recording that asks for these numbers calls `numbers`.
+    /// needs it: the place of a shape, under the shape's address. Only a recording that asks for these numbers calls `numbers`.
     #[inline(always)]
     fn note(_address: usize, _numbers: impl FnOnce() -> Vec<Self>) {}
 }

@@ -246,14 +246,14 @@ struct Expansion(Vec<f64>);
 
 impl Expansion {
     /// Adds a number exactly.
-    fn grow(&mut self, mut carried: f64) {
+    fn grow(&mut self, mut carry: f64) {
         self.0.retain_mut(|part| {
-            let (sum, rest) = two_sum(carried, *part);
-            (carried, *part) = (sum, rest);
+            let (sum, rest) = two_sum(carry, *part);
+            (carry, *part) = (sum, rest);
             rest != 0.0
         });
-        if carried != 0.0 {
-            self.0.push(carried);
+        if carry != 0.0 {
+            self.0.push(carry);
         }
     }
 

@@ -1,9 +1,9 @@
 //! Paths whose instructions `make counts` counts, under callgrind: one path, repeated.
 //!
-//!     counts PATH REPEATS [FOLDER]     prints how many units of work that was
+//!     counts PATH REPEATS [FOLDER]     prints the number of units of work
 //!
-//! Two counts of instructions with different repeats give the price of a unit: starting and compiling cancel. One
-//! thread. Paths that grow a gallery model read it from FOLDER, where `benches/counts.py` has written it.
+//! Two counts of instructions with different repeats give the cost of a unit: start and compilation cancel. The program runs
+//! on one thread. Paths that grow a gallery model read it from FOLDER, into which `benches/counts.py` has written it.
 
 mod programs;
 
@@ -31,7 +31,7 @@ use serde_json::Value as Json;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A bench of one path: how many units of work so many repeats are.
+/// Runs a path and returns the units of work in these repeats.
 fn work(path: &str, repeats: u64, folder: &Path) -> u64 {
     match path.split_once(' ').expect("two words") {
         ("step", "hmm") => steps(&programs::hmm(), 1000, repeats),
@@ -121,13 +121,13 @@ fn parts(kind: &str, count: u64) -> u64 {
     count
 }
 
-/// Choices of runs of the branching program that a guide draws.
+/// Choices that a guide draws in runs of the branching program.
 fn guided(runs: u64) -> u64 {
     let task = programs::task(programs::BRANCHING);
     let guide = Kernel::guided(guides::random(&task, 1, guides::MILD));
     let proposal = guide.proposal().expect("a proposal");
-    let found = importance(&task, Some(&proposal), runs as usize, 1, &mut |_| true).expect("runs");
-    found.runs.iter().map(|run| run.log.entries().len() as u64).sum()
+    let result = importance(&task, Some(&proposal), runs as usize, 1, &mut |_| true).expect("runs");
+    result.runs.iter().map(|run| run.log.entries().len() as u64).sum()
 }
 
 /// A constant of a model: a number, or the name of a kind with its parts.

@@ -1,10 +1,10 @@
-//! The price of a particle-step on the machine alone: the HMM and the branching program, on one thread.
+//! The cost of a particle-step on the machine alone: the HMM and the branching program, on one thread.
 //!
 //! `cargo run --release -p niwaki-search --example machine`
 
 mod programs;
 
-/// Seconds that this thread has run, by the kernel's account; other programs on the machine do not count.
+/// Seconds that this thread has run, by the kernel's account, without other programs on the machine.
 fn cpu_seconds() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     text.split(' ').next().and_then(|t| t.parse::<f64>().ok()).unwrap_or(f64::NAN) * 1e-9

@@ -1,11 +1,11 @@
 //! Chains over three densities, for the bench beside other systems: see `benches/hmc`.
 //!
-//!     trajectories start MODEL                                   what it takes until the first gradient, and machine code
-//!     trajectories check MODEL                                   worst errors against known values and gradients
+//!     trajectories start MODEL                                   time until the first gradient, and until machine code
+//!     trajectories check MODEL                                   largest errors against known values and gradients
 //!     trajectories chain MODEL POINT STEP LENGTH DRAWS SEED OUT  one chain; draws go to the file OUT, f64 in native order
 //!     trajectories lanes MODEL POINT STEP LENGTH DRAWS SEED -    64 chains in lanes
 //!     trajectories nuts MODEL POINT WARMUP DRAWS SEED OUT        the no-U-turn sampler, with its own warm-up
-//!     trajectories vi MODEL POINT FAMILY STEPS DRAWS SEED        a normal near it, and its bound by so many draws
+//!     trajectories vi MODEL POINT FAMILY STEPS DRAWS SEED        a normal near the density, and its bound by DRAWS draws
 //!
 //! MODEL is ring, coloring, stack, or stackN of N blocks; POINT a file with a number for each coordinate. Prints one
 //! JSON line.
@@ -158,7 +158,7 @@ fn sample(args: &[&str]) -> String {
     line
 }
 
-/// A normal by a family's name (mean-field, full-rank, pathfinder): seconds until it is found, recording apart, and its bound.
+/// A normal by a family's name (mean-field, full-rank, pathfinder): the seconds of its search without the recording, and its bound.
 fn normal(args: &[&str]) -> String {
     let [_, model, point, family, rest @ ..] = args else { panic!("{USAGE}") };
     let text = std::fs::read_to_string(point).unwrap_or_else(|error| panic!("{point}: {error}"));
@@ -179,7 +179,7 @@ fn normal(args: &[&str]) -> String {
         "full-rank" => Some(Family::FullRank),
         _ => None,
     };
-    let (found, taken, converged) = match family {
+    let (approximation, step_count, converged) = match family {
         None => (path.normal, path.bounds.len(), true),
         Some(family) => {
             let settings = variational::Settings { family, steps, samples: 16, tolerance: 0.02 };
@@ -194,15 +194,15 @@ fn normal(args: &[&str]) -> String {
     let mut ratios = Vec::new();
     for count in counts(draws as usize) {
         let [z, x, g] = &mut rows;
-        found.draw(&mut stream, z, x);
-        let log_q = found.log_density(z);
+        approximation.draw(&mut stream, z, x);
+        let log_q = approximation.log_density(z);
         let log_p = batch.evaluate(x, g, count).expect("one structure");
         ratios.extend(log_p.iter().zip(log_q).take(count).map(|(p, q)| p - q));
     }
     let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
     let variance = ratios.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / ratios.len() as f64;
     format!(
-        r#"{{"record_seconds": {recorded}, "path_seconds": {path_seconds}, "seconds": {seconds}, "cpu_seconds": {busy}, "gradients": {gradients}, "steps": {taken}, "converged": {converged}, "bound": {mean}, "bound_error": {}}}"#,
+        r#"{{"record_seconds": {recorded}, "path_seconds": {path_seconds}, "seconds": {seconds}, "cpu_seconds": {busy}, "gradients": {gradients}, "steps": {step_count}, "converged": {converged}, "bound": {mean}, "bound_error": {}}}"#,
         (variance / ratios.len() as f64).sqrt(),
     )
 }

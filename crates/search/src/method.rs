@@ -497,9 +497,9 @@ impl Method {
         let mut progress = |p: Progress| watch(p.barriers as u64, p.ended, p.best);
         match self {
             Method::Forward { n } => {
-                let (mut runs, mut tried, mut all) = (Vec::new(), 0, AllInvalid::default());
-                while tried < *n && watch(tried, 0, none) {
-                    match forward(task, seed, tried, true) {
+                let (mut runs, mut count, mut all) = (Vec::new(), 0, AllInvalid::default());
+                while count < *n && watch(count, 0, none) {
+                    match forward(task, seed, count, true) {
                         Err(Failure::Run(fault)) if task.invalid.count(&fault).is_some() => {
                             all.note(Some(&Arc::new(*fault)));
                         }
@@ -508,10 +508,10 @@ impl Method {
                             all.note(None);
                         }
                     }
-                    tried += 1;
+                    count += 1;
                 }
                 all.check()?;
-                let interrupted = tried < *n;
+                let interrupted = count < *n;
                 Ok(bare(runs, interrupted, Info::Forward))
             }
             Method::Importance { n, proposal } => {
@@ -633,24 +633,24 @@ impl Method {
     /// # Errors
     /// Such a setting, by name, or a method whose result is not a sample.
     pub fn check_inside(&self) -> Result<(), Fault> {
-        let refused = |name: &str, reason: &str| {
+        let refuse = |name: &str, reason: &str| {
             Err(Fault::new(
                 "infer-method",
                 format!("inside a model {reason}, so `{name}` has no meaning there"),
             ))
         };
         match self {
-            Method::Smc(smc) if smc.seconds.is_some() => refused("seconds", "a clock may not decide a value"),
-            Method::Smc(smc) if smc.diverse.is_some() => refused("diverse", "`infer` gives one value"),
-            Method::Mh(mh) if mh.thin.is_some() => refused("thin", "the samples of a chain are not kept"),
-            Method::Mh(mh) if mh.keep.is_some() => refused("keep", "the samples of a chain are not kept"),
+            Method::Smc(smc) if smc.seconds.is_some() => refuse("seconds", "a clock may not decide a value"),
+            Method::Smc(smc) if smc.diverse.is_some() => refuse("diverse", "`infer` gives one value"),
+            Method::Mh(mh) if mh.thin.is_some() => refuse("thin", "the samples of a chain are not kept"),
+            Method::Mh(mh) if mh.keep.is_some() => refuse("keep", "the samples of a chain are not kept"),
             Method::EnumerateAll { likely: true, .. } => {
-                refused("likely", "a part of the runs is no distribution")
+                refuse("likely", "a part of the runs is no distribution")
             }
-            Method::Hmc(_) => refused("hmc", "chains cannot start along a gradient"),
-            Method::Improve(_) => refused("improve", "a search for the best is no sample"),
-            Method::Nuts(_) => refused("nuts", "chains cannot start along a gradient"),
-            Method::Vi(_) => refused("vi", "no gradient is followed"),
+            Method::Hmc(_) => refuse("hmc", "chains cannot start along a gradient"),
+            Method::Improve(_) => refuse("improve", "a search for the best is no sample"),
+            Method::Nuts(_) => refuse("nuts", "chains cannot start along a gradient"),
+            Method::Vi(_) => refuse("vi", "no gradient is followed"),
             Method::Importance { proposal, .. } => {
                 proposed(proposal.as_ref(), &Inputs::default()).map(|_| ())
             }

@@ -1,4 +1,4 @@
-//! What a population holds for each primitive, by an allocator that counts bytes: for boxes less than the 700 that a thousand
+//! Bytes that a population holds for each primitive, by an allocator that counts bytes: for boxes less than the 700 that a thousand
 //! particles of a thousand primitives may take on average for 0.7 GB, for welded segments less than the 1000 for 1 GB.
 
 #![allow(unsafe_code)] // An allocator that counts bytes.
@@ -65,7 +65,7 @@ const POLE: &str = r#"(module
         (do (call "climb" (add $k 1) $end))) (else)))
     (entry "m"))"#;
 
-/// Bytes that particles which share nothing hold for each of the last 200 of 300 primitives.
+/// Bytes that unrelated particles hold for each of the last 200 of 300 primitives.
 fn bytes_for_each(model: &str) -> usize {
     let program = compile(&parse(model).expect("core form"), vec![]).expect("a program");
     let block = Shape::cuboid(Vec3::ZERO, vec3(2.0, 2.0, 2.0), &Default::default()).expect("a block");
@@ -83,8 +83,8 @@ fn bytes_for_each(model: &str) -> usize {
     };
     // On one thread, so that there is one store.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
-    let found = pool.install(|| smc(&task, &settings, &mut |progress| watch(progress))).expect("a result");
-    assert!(found.particles.iter().all(|particle| particle.primitives == 300));
+    let result = pool.install(|| smc(&task, &settings, &mut |progress| watch(progress))).expect("a result");
+    assert!(result.particles.iter().all(|particle| particle.primitives == 300));
     assert_eq!(held.len(), 301);
     (held[299] - held[99]) / (200 * settings.particles)
 }

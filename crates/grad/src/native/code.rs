@@ -104,8 +104,8 @@ impl<'a, 'b> Code<'a, 'b> {
     /// `yes` if the mask is set, else `no`.
     fn choose(&mut self, mask: Value, yes: Value, no: Value) -> Value {
         let (yes, no) = (self.wide(yes), self.wide(no));
-        let chosen = self.b.ins().bitselect(mask, yes, no);
-        self.narrow(chosen)
+        let selected = self.b.ins().bitselect(mask, yes, no);
+        self.narrow(selected)
     }
 
     fn is_zero(&self, id: Id) -> bool {

@@ -64,9 +64,9 @@ fn reads(density: &Density, id: Id) -> impl Iterator<Item = Id> {
     let graph = density.graph();
     let node = *graph.node(id);
     let test = test_of(density, id);
-    let compared = test.map(|test| [graph.node(test).arg(0), graph.node(test).arg(1)]);
+    let comparands = test.map(|test| [graph.node(test).arg(0), graph.node(test).arg(1)]);
     let direct = (usize::from(test.is_some())..node.op.arity()).map(move |k| node.arg(k));
-    compared.into_iter().flatten().chain(direct)
+    comparands.into_iter().flatten().chain(direct)
 }
 
 /// Marks the nodes that the code reads or writes for the roots.

@@ -42,13 +42,13 @@ pub fn drawing() -> Drawing {
     let [n, e, c, l] = [count(), count(), count(), count()];
     let area = (0..n).map(|_| next().parse().expect("a number")).collect();
     let mut pairs = |n: usize| {
-        let mut one = || next().parse().expect("a whole number");
-        (0..n).map(|_| (one(), one())).collect::<Vec<_>>()
+        let mut number = || next().parse().expect("a whole number");
+        (0..n).map(|_| (number(), number())).collect::<Vec<_>>()
     };
     Drawing { area, edges: pairs(e), chroma: pairs(c), light: pairs(l) }
 }
 
-/// `a < b ? x : y` as one operation where the scalar records: all three are given.
+/// `a < b ? x : y`, as a single operation for a scalar that records; all three numbers are arguments.
 pub type Choose<S> = fn(S, f64, S, S) -> S;
 
 pub fn coloring<S: Scalar>(d: &Drawing, x: &[S], select: Choose<S>) -> S {
@@ -223,7 +223,7 @@ pub fn recorded(at: &[f64], f: impl FnOnce(&[Var]) -> Var) -> Density {
     Density::new(graph, value, &sheet.guards)
 }
 
-/// The three, as graphs; points at which they are known; `(name, density)`.
+/// The three densities with their names, as graphs, recorded at known points.
 pub fn peers() -> Vec<(&'static str, Density)> {
     let start = |name| known().into_iter().find(|k| k.name == name).expect("a known point").x;
     let d = drawing();

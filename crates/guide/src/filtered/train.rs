@@ -137,18 +137,19 @@ pub fn train_filtered_along<T: Real>(
     let last = if traces.is_empty() { 0 } else { with.steps };
     loop {
         let step = adam.step();
-        let has_looked = history.last().is_some_and(|seen: &Progress| seen.step == step);
+        let has_looked = history.last().is_some_and(|progress: &Progress| progress.step == step);
         if !has_looked && (step.is_multiple_of(with.every.max(1)) || step >= last) {
-            let seen = judge(
+            let judged_loss = judge(
                 &averaged(&net, &adam),
                 if held_out.is_empty() { traces } else { held_out },
                 with.share,
             );
-            if seen < best.0 {
-                (best.0, best.1) = (seen, step);
+            if judged_loss < best.0 {
+                (best.0, best.1) = (judged_loss, step);
             }
-            let loss = if count > 0.0 { sum / count } else { seen };
-            let progress = Progress { step, steps: with.steps, loss, held_out: seen, best: (best.0, best.1) };
+            let loss = if count > 0.0 { sum / count } else { judged_loss };
+            let progress =
+                Progress { step, steps: with.steps, loss, held_out: judged_loss, best: (best.0, best.1) };
             history.push(progress);
             (sum, count) = (0.0, 0.0);
             if !watch(progress) || step >= last {
@@ -159,14 +160,14 @@ pub fn train_filtered_along<T: Real>(
         let mut stream = Stream::new(with.seed, 1, u128::from(step), 0);
         #[expect(clippy::cast_possible_truncation, reason = "less than the number of traces")]
         let mut pick = || ((u128::from(stream.next_u64()) * traces.len() as u128) >> 64) as usize;
-        let chosen: Vec<usize> = parts.iter().map(|_| pick()).collect();
+        let picks: Vec<usize> = parts.iter().map(|_| pick()).collect();
         let compute = |(part, pick): (&mut Part<T>, &usize)| {
             part.slope.fill(T::ZERO);
             (part.loss, part.fault) = part.work.loss(&net, &traces[*pick], with.share, Some(&mut part.slope));
         };
         match parts.len() {
-            1 => parts.iter_mut().zip(&chosen).for_each(compute),
-            _ => parts.par_iter_mut().zip(&chosen).for_each(compute),
+            1 => parts.iter_mut().zip(&picks).for_each(compute),
+            _ => parts.par_iter_mut().zip(&picks).for_each(compute),
         }
         let loss: f64 = parts.iter().map(|part| part.loss).sum();
         let fault = parts.iter().find_map(|part| part.fault);
@@ -181,7 +182,7 @@ pub fn train_filtered_along<T: Real>(
             break;
         }
         sum += loss;
-        count += chosen.iter().map(|pick| traces[*pick].choices.len()).sum::<usize>() as f64;
+        count += picks.iter().map(|pick| traces[*pick].choices.len()).sum::<usize>() as f64;
         adam.advance(&mut net.weights, slope, 1.0, with.rate, with.averaging);
     }
     Ok(TrainedFiltered { net: averaged(&net, &adam), history, diverged })

@@ -355,11 +355,11 @@ fn steps<T: Real>(
     let last = if rows.is_empty() { state.step() } else { with.steps };
     loop {
         // Training that resumes has looked at its first step.
-        let has_looked = history.last().is_some_and(|seen| seen.step == state.step());
+        let has_looked = history.last().is_some_and(|progress| progress.step == state.step());
         if !has_looked && (state.step().is_multiple_of(with.every.max(1)) || state.step() >= last) {
-            let seen = if held_out.is_empty() { None } else { Some(state.look(held_out, with)) };
-            let held_out = seen.unwrap_or(sum / f64::max(count, 1.0));
-            if held_out < state.best.0 || seen.is_none() {
+            let loss_held_out = if held_out.is_empty() { None } else { Some(state.look(held_out, with)) };
+            let held_out = loss_held_out.unwrap_or(sum / f64::max(count, 1.0));
+            if held_out < state.best.0 || loss_held_out.is_none() {
                 state.best = (held_out, state.step(), state.averaged(with.averaging));
             }
             let loss = if count > 0.0 { sum / count } else { held_out };

@@ -105,8 +105,8 @@ impl Interval {
             }
             (Some(lo), Some(hi)) => {
                 // With a = x - lo and b = hi - x, the quotient a / b is multiplied by e^z.
-                let (a, b, grown) = (x - lo, hi - x, z.exp());
-                let share = if grown.is_finite() { a * grown / (a * grown + b) } else { 1.0 };
+                let (a, b, factor) = (x - lo, hi - x, z.exp());
+                let share = if factor.is_finite() { a * factor / (a * factor + b) } else { 1.0 };
                 // Rounding may pass the end.
                 let new = (lo + (hi - lo) * share).clamp(lo, hi);
                 let log = |x: f64| -((x - lo) * (hi - x)).ln();
@@ -146,9 +146,9 @@ impl Support {
                 Some((Draw::Real((x + z() + PI).rem_euclid(2.0 * PI) - PI), 0.0, 0.0))
             }
             (Support::Simplex(_), Draw::Vector(x)) => {
-                let grown: Vec<f64> = x.iter().map(|x| x * z().exp()).collect();
-                let sum: f64 = grown.iter().sum();
-                let new: Vec<f64> = grown.iter().map(|x| x / sum).collect();
+                let products: Vec<f64> = x.iter().map(|x| x * z().exp()).collect();
+                let sum: f64 = products.iter().sum();
+                let new: Vec<f64> = products.iter().map(|x| x / sum).collect();
                 let log = |x: &[f64]| -x.iter().map(|x| x.ln()).sum::<f64>();
                 let (forward, backward) = (log(&new), log(x));
                 Some((Draw::Vector(new.into()), forward, backward))

@@ -298,9 +298,9 @@ impl Dist {
 
 /// Shares whose logarithms move by `z`.
 fn moved_shares(a: &[f64], x: &[f64], z: &[f64], rng: &mut (impl RngCore + ?Sized)) -> (Vec<f64>, f64, f64) {
-    let grown: Vec<f64> = x.iter().zip(z).map(|(x, z)| x * z.exp()).collect();
-    let sum: f64 = grown.iter().sum();
-    let new: Vec<f64> = grown.iter().map(|x| x / sum).collect();
+    let products: Vec<f64> = x.iter().zip(z).map(|(x, z)| x * z.exp()).collect();
+    let sum: f64 = products.iter().sum();
+    let new: Vec<f64> = products.iter().map(|x| x / sum).collect();
     if x.iter().chain(&new).all(|x| *x > LAST.0 && x.is_finite()) {
         let log = |x: &[f64]| -x.iter().map(|x| x.ln()).sum::<f64>();
         let (forward, backward) = (log(&new), log(x));

@@ -40,9 +40,9 @@ impl<S: Scalar> Mixture<S> {
 
     /// The components that can be chosen, with these weights or with other values of recorded weights.
     fn possible(&self) -> impl Iterator<Item = &Dist<S>> {
-        let chosen =
+        let is_possible =
             |k: usize| self.weights.unscaled()[k].varies() || self.weights.unscaled()[k].value() > 0.0;
-        self.components.iter().enumerate().filter(move |(k, _)| chosen(*k)).map(|(_, c)| c)
+        self.components.iter().enumerate().filter(move |(k, _)| is_possible(*k)).map(|(_, c)| c)
     }
 
     /// The smallest support in bounds that covers all components.

@@ -23,8 +23,8 @@ fn score(below: f64, above: f64) -> f64 {
     if below <= above { normal_quantile(below) } else { -normal_quantile(above) }
 }
 
-/// The score from the sum of probabilities towards the nearer end. For a value below the mean that at least half of the
-/// draws reach, the sum above has more digits.
+/// The score from the sum of probabilities towards the nearer end. If more than half of the draws are at most a value below
+/// the mean, the sum above has more digits.
 fn nearer(is_below: bool, below: impl Fn() -> f64, above: impl Fn() -> f64) -> f64 {
     if is_below {
         let below = below();

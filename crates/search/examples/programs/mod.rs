@@ -58,7 +58,7 @@ pub const BRANCHING: &str = r#"(module
 
 /// A hidden Markov model, a mixture, topics and a regression.
 pub fn of_chains(n: usize) -> [(&'static str, String); 4] {
-    let ones = |count: usize| format!("(list{})", " 1.0".repeat(count));
+    let list_of_ones = |count: usize| format!("(list{})", " 1.0".repeat(count));
     let hmm = format!(
         r#"(module (const 0 (list (dist categorical (list 0.7 0.2 0.1)) (dist categorical (list 0.1 0.5 0.4))
              (dist categorical (list 0.3 0.3 0.4))))
@@ -81,9 +81,9 @@ pub fn of_chains(n: usize) -> [(&'static str, String); 4] {
               (for $i (range 20) (body (set $z (sample (dist categorical $theta)))
                 (do (observe (dist categorical (index $topics $z)) (mod (add $i $d) 20))))))))
            (entry "m"))"#,
-        ones(20),
+        list_of_ones(20),
         n / 20,
-        ones(10)
+        list_of_ones(10)
     );
     let regression = format!(
         r#"(module (const 0 (list -2.0 -1.0 0.0 1.0 2.0))

@@ -146,16 +146,16 @@ fn fits(metric: &Metric, dim: usize) -> Result<(), Failure> {
 
 /// Groups of chains that move together: chains of one structure, in lanes; every other chain alone.
 fn grouped(settings: &Settings, members: &[Option<Member>]) -> Vec<Vec<usize>> {
-    let mut alike: Vec<(u128, Vec<usize>)> = Vec::new();
+    let mut by_structure: Vec<(u128, Vec<usize>)> = Vec::new();
     for (k, member) in members.iter().enumerate() {
         let structure = member.as_ref().map_or(0, |member| member.recorded.structure);
-        match alike.iter_mut().find(|(key, _)| *key == structure) {
+        match by_structure.iter_mut().find(|(key, _)| *key == structure) {
             Some((_, group)) => group.push(k),
-            None => alike.push((structure, vec![k])),
+            None => by_structure.push((structure, vec![k])),
         }
     }
     let mut groups = Vec::new();
-    for (_, chains) in alike {
+    for (_, chains) in by_structure {
         let each = chains.len().div_ceil(rayon::current_num_threads());
         let alone = !lanes::suits(settings) || each < LEAST;
         // All chains of a thread in lanes: when an ascent has ended, the next one takes its lane.
@@ -177,16 +177,16 @@ pub(super) fn start(
     number: usize,
     first: Option<&Live>,
 ) -> Result<Member, Failure> {
-    let (mut tried, mut attempt) = (0, 0);
+    let (mut forward_runs, mut attempt) = (0, 0);
     let mut last: Option<(Member, HashMap<u128, Value>)> = None;
     loop {
         attempt += 1;
-        let (state, runs) = match State::tried_after(task, streams, tried, tries.max(1), known) {
+        let (state, runs) = match State::tried_after(task, streams, forward_runs, tries.max(1), known) {
             Ok((state, _, runs)) => (state, runs),
             // No further run is possible.
             Err(failure) => return last.map(|(member, _)| member).ok_or(failure),
         };
-        tried = runs;
+        forward_runs = runs;
         let choices = state.choices(&task.program).collect();
         drop(state);
         // The run is that of the last attempt, so no choice is drawn anew.
@@ -207,7 +207,7 @@ pub(super) fn start(
             Ok(_) => true,
         };
         let member = Member { number, target, recorded, start };
-        if is_sound || tried >= tries || attempt == STARTS {
+        if is_sound || forward_runs >= tries || attempt == STARTS {
             return Ok(member);
         }
         last = Some((member, choices));
@@ -259,14 +259,14 @@ fn in_lanes<const L: usize>(
         climb_in_lanes(&mut targets, &mut tops, &mut wide, plan.settings.climb)
     };
     let mut chains = Vec::with_capacity(group.len());
-    let mut refused = None;
+    let mut first_failure = None;
     for (at, (Member { number, target, .. }, top)) in group.iter_mut().zip(&tops).enumerate() {
         match Chain::on_top(target, top, climbed[at], plan.settings, plan.seed, *number as u64) {
             Ok(chain) => chains.push(chain),
-            Err(_) => refused = refused.or(Some(at)),
+            Err(_) => first_failure = first_failure.or(Some(at)),
         }
     }
-    if let Some(at) = refused {
+    if let Some(at) = first_failure {
         drop(chains);
         return Err(no_slope(&group[at].target, &group[at].start));
     }

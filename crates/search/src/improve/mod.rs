@@ -195,12 +195,12 @@ impl Improve {
     ) -> Result<(Run, Improved), Failure> {
         // The count of invalid runs is separate, so that a part is stored with its own count.
         let uncounted = task.uncounted();
-        let result = self.counted(&uncounted, seed, part, outputs, watch);
+        let result = self.rounds_of(&uncounted, seed, part, outputs, watch);
         task.invalid.add(uncounted.invalid.counts());
         result
     }
 
-    fn counted(
+    fn rounds_of(
         &self,
         task: &Task,
         seed: u64,

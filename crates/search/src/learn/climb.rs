@@ -1,4 +1,4 @@
-//! Training by the evidence bound: the guide as a family `q` of runs, whose bound is raised (dissertation 2.2.2, variational
+//! Training by the evidence bound: the guide is a family `q` of runs, whose bound is raised (dissertation 2.2.2, variational
 //! inference; 6.3 has the other direction, [`train`](super::lessons::train)).
 //!
 //! ```text
@@ -6,11 +6,11 @@
 //! ```
 //!
 //! A step picks targets, draws runs of each by the present guide, depth first, and moves the weights by
-//! [`credit`](super::credit): neither the model nor its scores need a gradient, and every run may have another structure. What
-//! a guide saw and drew are rows, as those of traces; here each run counts by a signed weight.
+//! [`credit`](super::credit). Neither the model nor its scores need a gradient, and every run may have another structure. The
+//! inputs and draws of a guide are rows, as for traces, but each run has a signed weight.
 //!
-//! A run that is impossible, or that a fault ended, counts ten nats less than the worst possible one of its target, and is
-//! counted. Random streams are keyed by step and run, so threads change nothing.
+//! A run that is impossible, or that a fault ended, counts ten nats less than the worst possible run of its target, and is
+//! counted. Random streams are keyed by step and run, so the number of threads changes nothing.
 
 use super::credit::{Objective, bound, credit};
 use super::lessons::{Architecture, Example, Making, survey};
@@ -32,37 +32,37 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A target: what its runs are scored by.
+/// A target of the runs.
 pub struct Case {
     /// The task, its program compiled to keep all variables.
     pub task: Task,
-    /// Whether it judges, instead of being learned from.
+    /// Whether the target judges guides, and is not used for learning.
     pub held_out: bool,
 }
 
-/// What a climb gave.
+/// The result of a climb.
 pub struct Climbed {
-    /// The best guide: by the bound of the targets that judge, or else of the last runs.
+    /// The best guide, by the bound of the targets that judge; without such targets, by the bound of the last runs.
     pub guide: Guide,
-    /// What the looks saw; losses are bounds with the other sign, nats for each run.
+    /// The progress at the looks; losses are bounds with the other sign, nats for each run.
     pub history: Vec<Progress>,
-    /// Of each look: runs since the one before that were impossible, and those that a fault ended.
+    /// For each look, the number of impossible runs since the look before, and the number of runs that a fault ended.
     pub lost: Vec<[u64; 2]>,
-    /// Where it ended early, because of a number that is not finite, or a step whose every run met a fault: the step, and the
-    /// choice's label where it was a single one.
+    /// The step at which the climb ended early, because of a number that is not finite or because a fault ended every run of the
+    /// step; and the label of the choice if a single choice is the cause.
     pub diverged: Option<(u64, Option<String>)>,
 }
 
-/// Steps of a climb that is given without a number of steps.
+/// Steps of a climb without a number of steps.
 const STEPS: u64 = 1_000;
-/// Looks at the targets that judge.
+/// Number of looks at the targets that judge.
 const LOOKS: u64 = 20;
-/// Runs of a look, at least: with few a guide of before would be kept for its luck.
+/// Least number of runs of a look; with fewer, an earlier guide could be kept by luck.
 const JUDGING: usize = 512;
-/// Runs from which the form of a new guide, and means and deviations of its inputs, are taken.
+/// Number of runs that determine the form of a new guide, and means and deviations of its inputs.
 const FIRST: usize = 256;
 
-/// What the random numbers of a climb are for: the visit of their streams. Runs of the prior have visit 0.
+/// The uses of random numbers in a climb, as visits of their streams. Runs of the prior have visit 0.
 #[derive(Clone, Copy)]
 pub(super) enum Use {
     Scaling = 1,
@@ -71,7 +71,7 @@ pub(super) enum Use {
     Pick,
 }
 
-/// Draws by a guide, and notes what it saw as rows.
+/// Draws by a guide, and stores its inputs as rows.
 struct Noting<'a> {
     guide: &'a BoundGuide,
     stream: StreamKey,
@@ -84,11 +84,16 @@ impl Chooser for Noting<'_> {
         true
     }
 
-    fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
-        let Some(site) = self.guide.look(at, dist, seen, self.sight, 0) else {
-            return Prior(self.stream).choose(at, dist, seen);
+    fn choose(
+        &mut self,
+        at: &At<'_, f64>,
+        dist: &Dist,
+        context: Context<'_>,
+    ) -> Result<Option<Chosen>, Fault> {
+        let Some(site) = self.guide.look(at, dist, context, self.sight, 0) else {
+            return Prior(self.stream).choose(at, dist, context);
         };
-        let chosen = self.guide.answer(site, dist, self.sight, &mut self.stream.at(seen.address));
+        let chosen = self.guide.answer(site, dist, self.sight, &mut self.stream.at(context.address));
         if let Some(lesson) = self.guide.lesson(site, dist, &chosen.value) {
             let (window, features) = self.sight.inputs();
             self.rows.push(site, window, features, &lesson);
@@ -97,48 +102,50 @@ impl Chooser for Noting<'_> {
     }
 }
 
-/// A run by a guide.
+/// A run that a guide drew.
 pub(super) struct Drawn {
     rows: Rows,
     /// `log p - log q`, nats.
     log_weight: f64,
-    /// The fault that makes it invalid; any other one.
+    /// The fault that makes the run invalid.
     invalid: Option<Arc<RunFault>>,
+    /// Any other fault.
     fault: Option<Failure>,
 }
 
-/// Runs by a guide of some targets, so many of each, in order. `first` is the number of the first one's stream.
+/// Draws runs of some targets by a guide, `runs` of each, in order. `first` is the number of the first run's stream.
 pub(super) fn draw(
     guide: &Arc<Guide>,
     form: &NetForm,
     tasks: &[&Task],
     runs: usize,
-    (of, first): (Use, u64),
+    (purpose, first): (Use, u64),
     seed: u64,
 ) -> Result<Vec<Vec<Drawn>>, Failure> {
     let bind = |task: &&Task| BoundGuide::new(guide.clone(), task);
     let bound = tasks.iter().map(bind).collect::<Result<Vec<_>, Fault>>()?;
     let all: Vec<(usize, usize)> = (0..tasks.len()).flat_map(|t| (0..runs).map(move |k| (t, k))).collect();
-    let one = |sight: &mut Sight, (target, run): &(usize, usize)| {
-        let stream = StreamKey::new(seed, first + (target * runs + run) as u64, of as u64);
+    let draw_run = |sight: &mut Sight, (target, run): &(usize, usize)| {
+        let stream = StreamKey::new(seed, first + (target * runs + run) as u64, purpose as u64);
         let mut rows = Rows::new(form);
         rows.trace();
         sight.forget();
         let chooser = Noting { guide: &bound[*target], stream, sight, rows: &mut rows };
         match forward_by(tasks[*target], chooser, false) {
             Ok(run) => Ok(Drawn { rows, log_weight: run.log_weight, invalid: run.invalid, fault: None }),
-            Err(Failure::Run(met)) => {
+            Err(Failure::Run(fault)) => {
                 let log_weight = f64::NEG_INFINITY;
-                Ok(Drawn { rows, log_weight, invalid: None, fault: Some(Failure::Run(met)) })
+                Ok(Drawn { rows, log_weight, invalid: None, fault: Some(Failure::Run(fault)) })
             }
             Err(failure) => Err(failure),
         }
     };
-    let mut drawn = all.par_iter().map_init(Sight::default, one).collect::<Result<Vec<Drawn>, Failure>>()?;
+    let mut all_runs =
+        all.par_iter().map_init(Sight::default, draw_run).collect::<Result<Vec<Drawn>, Failure>>()?;
     let mut groups = Vec::new();
-    while !drawn.is_empty() {
-        let rest = drawn.split_off(drawn.len().min(runs));
-        groups.push(std::mem::replace(&mut drawn, rest));
+    while !all_runs.is_empty() {
+        let rest = all_runs.split_off(all_runs.len().min(runs));
+        groups.push(std::mem::replace(&mut all_runs, rest));
     }
     Ok(groups)
 }
@@ -148,13 +155,13 @@ fn logs(group: &[Drawn]) -> Vec<f64> {
     group.iter().map(|run| run.log_weight).collect()
 }
 
-/// The first fault, where every run met one.
+/// The first fault, if every run met a fault.
 fn fault_of_all(groups: &mut [Vec<Drawn>]) -> Option<Failure> {
     let mut all = groups.iter_mut().flatten();
     if all.any(|run| run.fault.is_none()) { None } else { groups[0][0].fault.take() }
 }
 
-/// The rows of some targets' runs, and how much each counts in the gradient of the mean bound.
+/// The rows of some targets' runs, and their weights in the gradient of the mean bound.
 pub(super) fn signed(groups: &[Vec<Drawn>], form: &NetForm, objective: Objective) -> (Rows, Vec<f64>) {
     let (mut rows, mut weights) = (Rows::new(form), Vec::new());
     for group in groups {
@@ -166,7 +173,7 @@ pub(super) fn signed(groups: &[Vec<Drawn>], form: &NetForm, objective: Objective
     (rows, weights)
 }
 
-/// The mean bound of some targets, nats; `None` where no run is possible.
+/// The mean bound of some targets, nats; `None` if no run is possible.
 fn mean_bound(groups: &[Vec<Drawn>], objective: Objective) -> Option<f64> {
     let bounds: Vec<f64> = groups.iter().filter_map(|group| bound(objective, &logs(group))).collect();
     (!bounds.is_empty()).then(|| bounds.iter().sum::<f64>() / bounds.len() as f64)
@@ -180,7 +187,7 @@ struct Left {
     now: Tally,
 }
 
-/// What happened since the last look.
+/// Counts since the last look.
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
 struct Tally {
     /// The bits of the sum of the steps' bounds.
@@ -207,7 +214,7 @@ impl Tally {
     }
 }
 
-/// The network to begin with, and the form of its guide: those given, or new ones from runs of the prior.
+/// The first network, and the form of its guide: those of `start`, or new ones from runs of the prior.
 fn begin(learned: &[&Task], making: &Making, start: Option<&Guide>) -> Result<(GuideForm, Net), Failure> {
     let (form, net) = match start.map(|start| (&start.form, &start.net)) {
         Some((form, Network::Shared(net))) => (form.to_train(), net.clone()),
@@ -218,18 +225,18 @@ fn begin(learned: &[&Task], making: &Making, start: Option<&Guide>) -> Result<(G
                 Ok(Example { task: task.clone(), entries, held_out: false })
             };
             let runs: Vec<Result<Example, Failure>> = (0..FIRST).into_par_iter().map(run).collect();
-            let (found, failed): (Vec<_>, Vec<_>) = runs.into_iter().partition(Result::is_ok);
-            let found: Vec<Example> = found.into_iter().flatten().collect();
-            if let (true, Some(Err(failure))) = (found.is_empty(), failed.into_iter().next()) {
+            let (examples, failed): (Vec<_>, Vec<_>) = runs.into_iter().partition(Result::is_ok);
+            let examples: Vec<Example> = examples.into_iter().flatten().collect();
+            if let (true, Some(Err(failure))) = (examples.is_empty(), failed.into_iter().next()) {
                 return Err(failure);
             }
-            let form = survey(&found, making)?;
+            let form = survey(&examples, making)?;
             let heads = form.sites.iter().map(|site| site.head).collect();
-            let own = NetForm {
+            let net_form = NetForm {
                 hidden: making.hidden,
                 ..NetForm::new(form.window_values(), form.features(), heads)
             };
-            (form, Net::start(own, making.seed))
+            (form, Net::start(net_form, making.seed))
         }
         _ => {
             return Err(Fault::new(
@@ -243,12 +250,12 @@ fn begin(learned: &[&Task], making: &Making, start: Option<&Guide>) -> Result<(G
     Ok((GuideForm { share: making.share, ..form }, net))
 }
 
-/// Raises the bound of a guide on targets, from the one that is given or from the prior. `watch` sees every step, and returns
+/// Raises the bound of a guide on targets, from the guide `start` or from the prior. `watch` sees every step, and returns
 /// false to stop with the best so far. The climb is part 0 of the `checkpoint`, stored between two steps.
 ///
 /// # Errors
-/// No targets to learn from; a guide that fits none of them, or is of the dissertation's architecture; runs that all meet a
-/// fault, or all are impossible, before the first step.
+/// No targets to learn from; a guide that fits none of them, or has the dissertation's architecture; runs that all meet a
+/// fault, or are all impossible, before the first step.
 pub fn climb(
     cases: &[Case],
     making: &Making,
@@ -267,7 +274,7 @@ pub fn climb(
     let guide_of = |net: Net| Arc::new(Guide { form: form.clone(), net: Network::Shared(net) });
     let (objective, seed, runs) = (making.objective, making.seed, making.runs);
 
-    // Means and deviations of inputs are those of the first guide's own runs.
+    // The runs of the first guide give means and deviations of inputs.
     let each = FIRST.div_ceil(learned.len());
     let mut first = draw(&guide_of(net.clone()), &net_form, &learned, each, (Use::Scaling, 0), seed)?;
     if let Some(failure) = fault_of_all(&mut first) {
@@ -289,7 +296,7 @@ pub fn climb(
     let steps = making.steps.unwrap_or(STEPS);
     let with = Training { every: steps.div_ceil(LOOKS).max(1), steps, ..making.training(0) };
     let (mut history, mut lost, mut now) = (Vec::new(), Vec::new(), Tally::default());
-    if let Some(left) = checkpoint.map_or(Ok(None), |own| own.left::<Left>(0))? {
+    if let Some(left) = checkpoint.map_or(Ok(None), |checkpoint| checkpoint.left::<Left>(0))? {
         history = state.resume(&left.stored).map_err(|_| unfit("it is of a network of another size"))?;
         (lost, now) = (left.lost, left.now);
     }
@@ -297,15 +304,15 @@ pub fn climb(
     let label = |site: Option<usize>| site.map(|site| form.sites[site].label.clone());
     loop {
         let step = state.step();
-        let has_looked = history.last().is_some_and(|seen: &Progress| seen.step == step);
+        let has_looked = history.last().is_some_and(|progress: &Progress| progress.step == step);
         if !has_looked && (step.is_multiple_of(with.every) || step >= with.steps) {
             let guide = guide_of(state.averaged(with.averaging));
-            // The same random numbers at each look, so that what differs is the guide.
-            let seen = draw(&guide, &net_form, &looked_at, runs, (Use::Look, 0), seed)?;
-            let held_out = mean_bound(&seen, objective).map(|bound| -bound);
+            // Each look uses the same random numbers, so that only the guide differs.
+            let groups = draw(&guide, &net_form, &looked_at, runs, (Use::Look, 0), seed)?;
+            let held_out = mean_bound(&groups, objective).map(|bound| -bound);
             let loss = now.loss().or(held_out).unwrap_or(f64::INFINITY);
             let held_out = if judged.is_empty() { loss } else { held_out.unwrap_or(f64::INFINITY) };
-            // Without any to judge by, the last ones count.
+            // Without targets that judge, the last weights count as best.
             state.judge(if judged.is_empty() { -(step as f64) } else { held_out }, with.averaging);
             let (_, least, at) = state.best();
             let best = (if judged.is_empty() { held_out } else { least }, at);
@@ -314,8 +321,8 @@ pub fn climb(
             lost.push(now.lost);
             now = Tally::default();
         }
-        let seen = *history.last().expect("the start was looked at");
-        if !watch(Progress { step, ..seen }) || step >= with.steps {
+        let latest = *history.last().expect("the start was looked at");
+        if !watch(Progress { step, ..latest }) || step >= with.steps {
             break;
         }
         if let Some(checkpoint) = checkpoint {

@@ -1,4 +1,4 @@
-//! Training of guides of the dissertation's architecture: traces as they learn from them, and a new network.
+//! Training of guides of the dissertation's architecture: their traces, and a new network.
 
 use super::lessons::{Example, Making, Taught, follow, of_another};
 use niwaki_guide::filtered::{Choice, Trace};
@@ -13,12 +13,12 @@ use niwaki_vm::fault::Fault;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Steps of a training without a number of steps: the dissertation's.
+/// Steps of a training without a number of steps, as in the dissertation.
 const STEPS: u64 = 20_000;
-/// Looks at what is held out.
+/// Number of looks at the traces held out.
 const LOOKS: u64 = 20;
 
-/// What a new network of the dissertation's architecture reads, and the form of its guide.
+/// A new network of the dissertation's architecture; writes its inputs into the form of its guide.
 ///
 /// # Errors
 /// A score that draws nothing on a page.
@@ -38,25 +38,25 @@ pub(super) fn network(form: &mut GuideForm, making: &Making, task: &Task) -> Res
     let local = making.reads.any();
     let place = of_variables..if local { of_variables + OF_PLACE } else { of_variables };
     let sees = |site: &niwaki_propose::guide::form::SiteForm| {
-        let own = site.variables.iter().flat_map(|v| {
+        let variable_inputs = site.variables.iter().flat_map(|v| {
             let variable = &form.variables[*v as usize];
             variable.first..variable.first + variable.kind.len() as u32
         });
-        place.clone().chain(own).collect()
+        place.clone().chain(variable_inputs).collect()
     };
-    let own = FilteredForm {
+    let filtered_form = FilteredForm {
         target: making.looks.target(),
         scene: making.looks.scene(),
         features: place.end as usize,
         sees: form.sites.iter().map(sees).collect(),
         heads: form.sites.iter().map(|site| site.head).collect(),
     };
-    Ok(Filtered::start(own, making.seed))
+    Ok(Filtered::start(filtered_form, making.seed))
 }
 
-/// Traces as the network learns from them; in order, on all threads.
+/// Traces as inputs of the network; in order, on all threads.
 fn traces(examples: &[&Example], guide: &Arc<Guide>) -> Result<Vec<Trace>, Failure> {
-    let one = |example: &&Example| -> Result<Trace, Failure> {
+    let trace_of = |example: &&Example| -> Result<Trace, Failure> {
         let bound = BoundGuide::new(guide.clone(), &example.task)?;
         let Some(images) = bound.images() else { return Err(bad("it sees no page".into()).into()) };
         let mut trace = Trace {
@@ -66,8 +66,8 @@ fn traces(examples: &[&Example], guide: &Arc<Guide>) -> Result<Vec<Trace>, Failu
             choices: Vec::new(),
         };
         let mut sight = Sight::default();
-        follow(example, &mut |at, dist, seen, value| {
-            let Some(site) = bound.look(at, dist, seen, &mut sight, 0) else { return Ok(()) };
+        follow(example, &mut |at, dist, context, value| {
+            let Some(site) = bound.look(at, dist, context, &mut sight, 0) else { return Ok(()) };
             if let Some(lesson) = bound.lesson(site, dist, value) {
                 if trace.images.last() != Some(&sight.bits) {
                     trace.images.push(sight.bits.clone());
@@ -85,7 +85,7 @@ fn traces(examples: &[&Example], guide: &Arc<Guide>) -> Result<Vec<Trace>, Failu
         })?;
         Ok(trace)
     };
-    examples.par_iter().map(one).collect()
+    examples.par_iter().map(trace_of).collect()
 }
 
 /// Trains a network of the dissertation's architecture on traces.
@@ -101,7 +101,8 @@ pub(super) fn train(
     way: Way<'_>,
 ) -> Result<Taught, Failure> {
     let blank = Arc::new(Guide { form, net: Network::Filtered(net.clone()) });
-    let (judging, learning): (Vec<&Example>, Vec<&Example>) = examples.iter().partition(|one| one.held_out);
+    let (judging, learning): (Vec<&Example>, Vec<&Example>) =
+        examples.iter().partition(|example| example.held_out);
     let (learned, held_out) = (traces(&learning, &blank)?, traces(&judging, &blank)?);
     let steps = making.steps.unwrap_or(STEPS);
     let with = FilteredTraining {
@@ -121,7 +122,11 @@ pub(super) fn train(
     let bytes = |trace: &Trace| {
         let words: usize = trace.images.iter().map(Vec::len).sum();
         8 * words
-            + trace.choices.iter().map(|own| size_of::<Choice>() + 8 * own.features.len()).sum::<usize>()
+            + trace
+                .choices
+                .iter()
+                .map(|choice| size_of::<Choice>() + 8 * choice.features.len())
+                .sum::<usize>()
     };
     Ok(Taught {
         guide: Guide { form, net: Network::Filtered(trained.net) },

@@ -1,7 +1,7 @@
 //! Traces as rows for a network, and training.
 //!
-//! A trace is followed again, in its own order, with its scene. At each choice the code that would draw it looks; what it
-//! sees and the value that the trace has are a row. So a guide is trained on the bits that it gets later.
+//! A trace is followed again, in its order, with its scene. At each choice the code that draws for guides looks at the run; its
+//! inputs and the value of the trace are a row. So a guide is trained on the same bits that it gets later.
 
 use super::credit::Objective;
 use super::drawings;
@@ -34,14 +34,14 @@ pub struct Example {
     pub task: Task,
     /// The choices.
     pub entries: Vec<Entry>,
-    /// Whether it judges, instead of being learned from.
+    /// Whether the trace judges guides, and is not used for learning.
     pub held_out: bool,
 }
 
-/// What happens at a choice of a trace.
+/// The observer of the choices of a trace.
 type Each<'a> = dyn FnMut(&At<'_, f64>, &Dist, Context<'_>, &Value) -> Result<(), Fault> + 'a;
 
-/// Gives choices the values of a trace, and shows them.
+/// Gives choices the values of a trace, and passes them to the observer.
 struct Shown<'a, 'e> {
     values: &'a HashMap<u128, Value>,
     each: &'a mut Each<'e>,
@@ -72,19 +72,19 @@ pub(super) fn follow(example: &Example, each: &mut Each<'_>) -> Result<(), Failu
     Particle::start(start, record, 0, 0).finish_by(&mut machine, task, pick, shown)
 }
 
-/// How a guide is made.
+/// The settings of a guide's training.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Making {
     /// The model's name.
     pub model: String,
-    /// Which network.
+    /// The kind of network.
     #[serde(default)]
     pub architecture: Architecture,
-    /// What training raises.
+    /// The quantity that training raises.
     #[serde(default)]
     pub objective: Objective,
-    /// Runs of a target in a step, where that is a bound.
+    /// Runs of a target in a step, if training raises a bound.
     #[serde(default = "usual_runs")]
     pub runs: usize,
     /// Units of the hidden layers.
@@ -93,24 +93,24 @@ pub struct Making {
     pub components: usize,
     /// The share of the prior.
     pub share: f64,
-    /// What it looks at.
+    /// The images that the guide sees.
     pub looks: Looks,
-    /// What it reads of what is in scope.
+    /// The variables in scope that the guide reads.
     pub reads: Reads,
-    /// Steps; `None` for `passes`.
+    /// Steps; if `None`, `passes` decides.
     pub steps: Option<u64>,
-    /// So many passes over the choices, but at least 1,500 steps and at most 12,000.
+    /// Number of passes over the choices, but at least 1,500 steps and at most 12,000.
     pub passes: f64,
     /// Adam's rate.
     pub rate: f64,
     /// Adam's decays of mean and square.
     #[serde(default = "usual_decays")]
     pub decays: [f64; 2],
-    /// Choices of a step; of the dissertation's architecture, traces; of a bound, targets.
+    /// Choices of a step; traces for the dissertation's architecture, targets for a bound.
     pub batch: usize,
-    /// How much of the averaged weights is kept in a step.
+    /// The share of the averaged weights that stays in a step.
     pub averaging: f64,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
@@ -131,67 +131,67 @@ pub enum Architecture {
     /// One net for all choices, which sees windows.
     #[default]
     Shared,
-    /// The dissertation's.
+    /// The dissertation's architecture.
     Dissertation,
 }
 
-/// What a guide looks at.
+/// The images that a guide sees.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(untagged)]
 pub enum Looks {
     /// Target and scene, or neither.
     Both(bool),
-    /// One of them.
+    /// Only the target, or only the scene.
     One(Image),
 }
 
-/// A part of what a page shows.
+/// An image on a page.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Image {
-    /// What is wanted.
+    /// The image to match.
     Target,
-    /// What is there.
+    /// The image of the run.
     Scene,
 }
 
 impl Looks {
-    /// Whether at the target.
+    /// Whether the guide sees the target.
     pub fn target(self) -> bool {
         matches!(self, Looks::Both(true) | Looks::One(Image::Target))
     }
 
-    /// Whether at the scene.
+    /// Whether the guide sees the scene.
     pub fn scene(self) -> bool {
         matches!(self, Looks::Both(true) | Looks::One(Image::Scene))
     }
 }
 
-/// What a guide reads of what is in scope.
+/// The variables in scope that a guide reads.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 pub enum Reads {
-    /// Everything, with the parameters of priors, or nothing.
+    /// All variables, with the parameters of priors, or none.
     All(bool),
     /// The variables of these names.
     Names(Vec<String>),
 }
 
 impl Reads {
-    /// Whether anything.
+    /// Whether the guide reads any variable.
     pub fn any(&self) -> bool {
         !matches!(self, Reads::All(false))
     }
 }
 
-/// Fewest and most steps of a training that is given in passes.
+/// Fewest and most steps of a training that is set in passes.
 const LEAST: u64 = 1_500;
 const MOST: u64 = 12_000;
-/// Looks at what is held out.
+/// Number of looks at the choices held out.
 const LOOKS: u64 = 20;
 
 impl Making {
-    /// The training for so many choices.
+    /// The training for this number of choices.
     pub(super) fn training(&self, rows: usize) -> Training {
         let steps = (self.passes * rows as f64 / self.batch as f64) as u64;
         let steps = self.steps.unwrap_or(steps.clamp(LEAST, MOST));
@@ -207,7 +207,7 @@ impl Making {
     }
 }
 
-/// Windows of the sketches of a task that show one.
+/// The windows of a task's sketches, with names, for sketches that have a window.
 fn windows(task: &Task) -> Vec<(String, WindowForm)> {
     let own = task.sketches.iter();
     own.filter_map(|sketch| sketch.window().map(|form| (sketch.name().to_string(), form))).collect()
@@ -261,8 +261,8 @@ pub(super) fn rows(examples: &[&Example], guide: &Arc<Guide>, form: &NetForm) ->
     Ok(all)
 }
 
-/// Of each trace the choices that a guide draws, and the sum of `ln(p / q)` there, nats: how much less likely the guide finds
-/// them than the prior does.
+/// For each trace, the number of choices that a guide draws, and their sum of `ln(p / q)`, nats: how much less likely they are
+/// under the guide than under the prior.
 ///
 /// # Errors
 /// A trace that cannot be followed; a guide that does not fit its task.
@@ -282,8 +282,8 @@ pub fn losses(examples: &[Example], guide: &Arc<Guide>) -> Result<Vec<(usize, f6
     examples.par_iter().map(one).collect()
 }
 
-/// Trains a guide on traces, or goes on with the one that is given. `watch` returns false to stop with the best so far.
-/// The training is part 0 of the `checkpoint`, stored between two steps; its rows are made again.
+/// Trains a guide on traces, or trains the guide `start` further. `watch` returns false to stop with the best so far.
+/// The training is part 0 of the `checkpoint`, stored between two steps; a resumed training makes its rows again.
 ///
 /// # Errors
 /// No traces; a trace that cannot be followed.
@@ -326,7 +326,7 @@ pub fn train(
     let held_out = rows(&judging, &blank, net.form())?;
     let mut form = blank.form.clone();
     let rows = learned.len();
-    // What was seen before the data was stored is told, too.
+    // The history includes the looks from before the checkpoint.
     let mut history = way.left.as_ref().map_or_else(Vec::new, |left| left.history().to_vec());
     let mut seen = |now: Progress| {
         history.push(now);
@@ -335,7 +335,7 @@ pub fn train(
     let trained = train_along(net, &learned, &held_out, &making.training(rows), &mut seen, way);
     let (net, diverged) = match trained.map_err(of_another)? {
         Ok(trained) => (trained.net, None),
-        // What was learned before is kept, and told.
+        // The best weights before are kept and reported.
         Err(diverged) => {
             let site = diverged.site.map(|site| form.sites[site].label.clone());
             (*diverged.net, Some((diverged.step, site)))
@@ -351,22 +351,22 @@ pub fn train(
     })
 }
 
-/// The failure of a training that cannot go on.
+/// The failure of a training that cannot resume.
 pub(super) fn of_another(_: Unfit) -> Failure {
     unfit("it is of a network of another size")
 }
 
-/// What training gave.
+/// The result of training.
 pub struct Taught {
     /// The guide.
     pub guide: Guide,
-    /// Choices that were learned from.
+    /// The number of choices for learning.
     pub rows: usize,
     /// Bytes of all rows.
     pub bytes: usize,
-    /// What every look at the choices that are held out saw.
+    /// The progress at every look at the choices held out.
     pub history: Vec<Progress>,
-    /// Where it ended early, because of a loss or a slope that is not a finite number: the step, and the choice's label
-    /// where it was a single one.
+    /// The step at which training ended early, because of a loss or a slope that is not a finite number; and the label of the
+    /// choice if a single choice is the cause.
     pub diverged: Option<(u64, Option<String>)>,
 }

@@ -1,9 +1,9 @@
 //! Training of guides.
 //!
-//! * [`survey`]: what the traces of a model show, from which the form of its guide follows;
-//! * [`lessons`]: traces as rows, by the code that draws; training; `drawings`: the same for the dissertation's architecture;
-//! * [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: how much each run counts;
-//! * [`rehearse`]: how a guide learns what a paused run will still gain; `ridge`: its line.
+//! * [`survey`]: the choices and variables in traces of a model, which determine the form of its guide;
+//! * [`lessons`]: traces as rows, by the code that draws; training; `drawings`: training for the dissertation's architecture;
+//! * [`climb`]: training by the evidence bound, on runs that the guide draws; [`credit`]: the weight of each run;
+//! * [`rehearse`]: forecasts of a guide of the future gain of paused runs; `ridge`: the line of a forecast.
 
 pub mod climb;
 pub mod credit;

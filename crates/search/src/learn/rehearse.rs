@@ -1,9 +1,9 @@
-//! Teaching a guide to look ahead (dissertation 7.2.3): its line ([`AheadForm`]) is fitted to what short searches from paused
-//! particles gain (`particles::rises`).
+//! Training of a guide to look ahead (dissertation 7.2.3): its line ([`AheadForm`]) is fitted to the gains of short searches from
+//! paused particles (`particles::rises`).
 //!
-//! Searches by the guide take targets in turn. In each a few paused particles are kept, and a short search from each gives its
-//! rise. Ridge regression finds the line; rises of the targets that judge decide its strength. A rise of minus infinity
-//! counts as the least of the others.
+//! Searches by the guide take targets in turn. Each search keeps a few paused particles, and a short search from each particle
+//! gives its rise. Ridge regression finds the line; rises of the targets that judge decide its strength. A rise of minus infinity
+//! counts as the least finite rise.
 
 use super::climb::Case;
 use super::ridge::{Examples, ridge};
@@ -22,36 +22,36 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use std::sync::Arc;
 
-/// How a guide is taught to look ahead.
+/// The settings of a training to look ahead.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Rehearsal {
-    /// Searches.
+    /// The number of searches.
     pub searches: usize,
-    /// Paused particles of each.
+    /// Paused particles of each search.
     pub states: usize,
-    /// Particles of a search, and of one that goes on from a paused particle.
+    /// Particles of a search, and of a short search from a paused particle.
     pub particles: [usize; 2],
-    /// The settings of both.
+    /// The settings of both searches.
     pub settings: Settings,
-    /// Whether the line sees the network, or the score alone.
+    /// Whether the line sees the network, and not the score alone.
     pub looks: bool,
-    /// Decides every random number.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
-/// What a rehearsal gave.
+/// The result of a training to look ahead.
 pub struct Rehearsed {
     /// The guide, with its line.
     pub guide: Guide,
-    /// Rises that were learned from, and that judged.
+    /// The number of rises for learning, and of rises that judge.
     pub rises: [usize; 2],
-    /// Of the searches from paused particles, how many died out.
+    /// The number of searches from paused particles that died out.
     pub died: usize,
-    /// Searches that a fault ended.
+    /// The number of searches that a fault ended.
     pub failed: usize,
-    /// Root of the mean square of what the line misses, of those learned from and of those that judged, nats.
+    /// Root of the mean square error of the line, for rises of learning and for rises that judge, nats.
     pub error: [f64; 2],
-    /// Standard deviation of the rises that judged, nats: what the best constant misses.
+    /// Standard deviation of the rises that judge, nats: the error of the best constant.
     pub deviation: f64,
     /// The strength of the ridge.
     pub strength: f64,
@@ -59,7 +59,7 @@ pub struct Rehearsed {
 
 /// Searches between two looks of the watch.
 const AT_ONCE: usize = 32;
-/// Fewest rises to learn from.
+/// Fewest rises for learning.
 const LEAST: usize = 20;
 
 /// A paused particle: the inputs of the line, its log score, and its rise, nats.
@@ -70,16 +70,16 @@ struct Lesson {
 }
 
 impl Lesson {
-    /// The root of the log score that the searches from it reached.
+    /// The root of the log score that the searches from the particle reached.
     fn root(&self) -> f64 {
         root(self.log_score + self.rise)
     }
 }
 
-/// Teaches a guide to look ahead. `watch` gets searches done and wanted, and returns false to learn from those so far.
+/// Trains a guide to look ahead. `watch` gets the numbers of searches so far and in total, and returns false to stop early.
 ///
 /// # Errors
-/// A guide that does not fit its tasks, or has another network than the one all choices share; too few paused particles.
+/// A guide that does not fit its tasks, or whose choices share no network; too few paused particles.
 pub fn rehearse(
     cases: &[Case],
     guide: &Arc<Guide>,
@@ -93,7 +93,7 @@ pub fn rehearse(
     let width = inputs(net.form().hidden[1]);
     let bound = cases.iter().map(|case| BoundGuide::new(guide.clone(), &case.task).map(Arc::new));
     let bound = bound.collect::<Result<Vec<_>, Fault>>()?;
-    let one = |number: usize| -> Result<Vec<Lesson>, Failure> {
+    let lessons_of = |number: usize| -> Result<Vec<Lesson>, Failure> {
         let case = number % cases.len();
         search(
             &cases[case],
@@ -102,37 +102,39 @@ pub fn rehearse(
             Reserved::Paused.stream(plan.seed, number as u128, 2).next_u64(),
         )
     };
-    let mut met = vec![];
+    let mut lessons_by_search = vec![];
     let (mut failed, mut fault) = (0, None);
-    while met.len() < plan.searches && watch(met.len(), plan.searches) {
-        let next: Vec<usize> = (met.len()..(met.len() + AT_ONCE).min(plan.searches)).collect();
-        let found: Vec<_> = next.par_iter().map(|number| one(*number)).collect();
-        for rises in found {
+    while lessons_by_search.len() < plan.searches && watch(lessons_by_search.len(), plan.searches) {
+        let next: Vec<usize> =
+            (lessons_by_search.len()..(lessons_by_search.len() + AT_ONCE).min(plan.searches)).collect();
+        let results: Vec<_> = next.par_iter().map(|number| lessons_of(*number)).collect();
+        for rises in results {
             match rises {
-                Ok(rises) => met.push(rises),
+                Ok(rises) => lessons_by_search.push(rises),
                 Err(failure) => {
                     (failed, fault) = (failed + 1, fault.or(Some(failure)));
-                    met.push(vec![]);
+                    lessons_by_search.push(vec![]);
                 }
             }
         }
     }
-    let all = || met.iter().flatten();
+    let all = || lessons_by_search.iter().flatten();
     let roots = all().map(Lesson::root).filter(|x| x.is_finite());
     let (low, high) =
         roots.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     let (mut learned, mut judging) = (Examples::default(), Examples::default());
-    for (number, lessons) in met.iter().enumerate() {
-        let own = if cases[number % cases.len()].held_out { &mut judging } else { &mut learned };
+    for (number, lessons) in lessons_by_search.iter().enumerate() {
+        let examples = if cases[number % cases.len()].held_out { &mut judging } else { &mut learned };
         for lesson in lessons {
             let inputs = lesson.inputs.iter().enumerate();
-            own.inputs
+            examples
+                .inputs
                 .extend(inputs.map(|(k, x)| if plan.looks || OF_SCORE.contains(&k) { *x } else { 0.0 }));
-            own.labels.push(lesson.root().max(low));
+            examples.labels.push(lesson.root().max(low));
         }
     }
-    let few = |fault: Option<Failure>, found: usize| {
-        let message = format!("{found} paused particles are too few to learn what a run will still gain");
+    let few = |fault: Option<Failure>, count: usize| {
+        let message = format!("{count} paused particles are too few to learn what a run will still gain");
         let few = Fault::new("guide-ahead", message).with_help("give more targets, or more searches");
         fault.unwrap_or_else(|| few.into())
     };
@@ -149,7 +151,7 @@ pub fn rehearse(
     Ok(Rehearsed {
         guide: Guide { form, net: guide.net.clone() },
         rises: [learned.labels.len(), judging.labels.len()],
-        died: all().filter(|own| !own.rise.is_finite()).count(),
+        died: all().filter(|lesson| !lesson.rise.is_finite()).count(),
         failed,
         error,
         deviation: around.sqrt(),
@@ -162,14 +164,14 @@ fn search(case: &Case, guide: &Arc<BoundGuide>, plan: &Rehearsal, seed: u64) -> 
     let task = &case.task;
     let proposal = Some(Arc::new(Kernel::guided(guide.clone()).proposal()?));
     let [particles, few] = plan.particles;
-    let own = Settings { particles, seed, proposal, ..plainly(&plan.settings) };
+    let settings = Settings { particles, seed, proposal, ..plainly(&plan.settings) };
     let (mut machine, mut sight) = (task.machine(), Sight::default());
     let mut lessons = vec![];
-    for (number, one) in paused(task, &own, plan.states)?.iter_mut().enumerate() {
-        let run = Paused { task, record: &one.record, state: &one.state };
+    for (number, particle) in paused(task, &settings, plan.states)?.iter_mut().enumerate() {
+        let run = Paused { task, record: &particle.record, state: &particle.state };
         let inputs = guide.prospect(run, &mut machine, &mut sight, 0).to_vec();
-        let rise = rise(task, &own, few, one, number)?;
-        lessons.push(Lesson { inputs, log_score: one.record.log_score(), rise });
+        let rise = rise(task, &settings, few, particle, number)?;
+        lessons.push(Lesson { inputs, log_score: particle.record.log_score(), rise });
     }
     Ok(lessons)
 }

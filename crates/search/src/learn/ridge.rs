@@ -1,4 +1,4 @@
-//! Ridge regression: a line through examples, whose slopes are kept small as far as examples that are held out want it.
+//! Ridge regression: a line through examples, whose slopes stay as small as the examples held out demand.
 //!
 //! With standardised inputs `X` (a row for each of `n` examples) and centred labels `y`, the weights at strength `s` are
 //!
@@ -6,11 +6,11 @@
 //! w = (X^T X / n + s I)^(-1)  X^T y / n
 //! ```
 //!
-//! Sums run in the order of the examples, so the same examples give the same bits.
+//! Sums run in the order of the examples, so equal examples give equal bits.
 
 use niwaki_continuous::hamiltonian::metric::cholesky;
 
-/// Strengths that are tried: powers of ten with these exponents.
+/// Exponents of the strengths, which are powers of ten.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -6..=1;
 
 /// Examples: inputs row by row, and a label for each.
@@ -25,7 +25,7 @@ pub(super) struct Examples {
 pub(super) struct Line {
     pub constant: f64,
     pub weights: Vec<f64>,
-    /// The strength that did best.
+    /// The best strength.
     pub strength: f64,
 }
 
@@ -36,29 +36,29 @@ impl Examples {
         self.inputs.chunks_exact(width.max(1)).zip(self.labels.iter().copied())
     }
 
-    /// The mean square of what a line misses.
+    /// The mean square error of a line.
     pub fn error(&self, line: &Line) -> f64 {
-        let missed = |(row, label): (&[f64], f64)| (label - line.at(row)).powi(2);
-        self.rows().map(missed).sum::<f64>() / self.labels.len() as f64
+        let square = |(row, label): (&[f64], f64)| (label - line.at(row)).powi(2);
+        self.rows().map(square).sum::<f64>() / self.labels.len() as f64
     }
 }
 
 impl Line {
-    /// What it says of a row.
+    /// The label by the line for a row.
     pub fn at(&self, row: &[f64]) -> f64 {
         self.constant + self.weights.iter().zip(row).map(|(w, x)| w * x).sum::<f64>()
     }
 }
 
-/// The line through `learned` whose strength does best on `judging`; without those, on `learned` itself. `None` without
-/// examples, or where a number is not finite.
+/// The line through `learned` with the strength that is best for `judging`; if that is empty, for `learned`. `None` without
+/// examples, or if a number is not finite.
 pub(super) fn ridge(learned: &Examples, judging: &Examples) -> Option<Line> {
     let n = learned.labels.len() as f64;
     let width = learned.rows().next()?.0.len();
     let mean = |of: &dyn Fn(&[f64], f64) -> f64| learned.rows().map(|(row, y)| of(row, y)).sum::<f64>() / n;
     let label = mean(&|_, y| y);
     let means: Vec<f64> = (0..width).map(|k| mean(&|row, _| row[k])).collect();
-    // An input that does not change has no slope.
+    // A constant input has no slope.
     let scale = |k: usize| {
         let sd = mean(&|row, _| (row[k] - means[k]).powi(2)).sqrt();
         if sd > 1e-9 * (1.0 + means[k].abs()) { 1.0 / sd } else { 0.0 }
@@ -97,19 +97,19 @@ fn solve(l: &[f64], b: &[f64]) -> Vec<f64> {
     let n = b.len();
     let mut x = b.to_vec();
     for i in 0..n {
-        let known: f64 = (0..i).map(|j| l[i * n + j] * x[j]).sum();
-        x[i] = (x[i] - known) / l[i * n + i];
+        let sum: f64 = (0..i).map(|j| l[i * n + j] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * n + i];
     }
     for i in (0..n).rev() {
-        let known: f64 = (i + 1..n).map(|j| l[j * n + i] * x[j]).sum();
-        x[i] = (x[i] - known) / l[i * n + i];
+        let sum: f64 = (i + 1..n).map(|j| l[j * n + i] * x[j]).sum();
+        x[i] = (x[i] - sum) / l[i * n + i];
     }
     x
 }
 
 #[cfg(test)]
 mod tests {
-    //! A line comes back from its points, whatever the scale of its inputs; noise is not learned by heart.
+    //! The line of exact points is found for inputs of any scale; noise is not learnt by heart.
     use super::*;
     use niwaki_math::Stream;
 
@@ -128,20 +128,20 @@ mod tests {
     fn a_line_comes_back() {
         let line = ridge(&points(50, 0.0, 1), &points(20, 0.0, 2)).unwrap();
         assert_eq!(line.strength, 1e-6);
-        for (found, real) in line.weights.iter().zip([0.5, -400.0, 0.0]) {
-            assert!((found - real).abs() <= 1e-5 * real.abs(), "{line:?}");
+        for (weight, real) in line.weights.iter().zip([0.5, -400.0, 0.0]) {
+            assert!((weight - real).abs() <= 1e-5 * real.abs(), "{line:?}");
         }
         assert!((line.at(&[1001.0, 0.0, 7.0]) - 502.5).abs() < 1e-4);
     }
 
     #[test]
-    fn the_strength_is_by_what_is_held_out() {
-        // Labels that have nothing to do with inputs: the largest strength does best on others.
+    fn the_strength_follows_the_examples_held_out() {
+        // Labels that do not depend on inputs: the largest strength is best for other examples.
         let noise = |seed| {
-            let mut own = points(30, 0.0, seed);
+            let mut examples = points(30, 0.0, seed);
             let mut stream = Stream::new(seed, 1, 0, 0);
-            own.labels.iter_mut().for_each(|y| *y = stream.normal());
-            own
+            examples.labels.iter_mut().for_each(|y| *y = stream.normal());
+            examples
         };
         assert_eq!(ridge(&noise(3), &noise(4)).unwrap().strength, 10.0);
         assert_eq!(ridge(&noise(3), &Examples::default()).unwrap().strength, 1e-6);

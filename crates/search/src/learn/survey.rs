@@ -1,4 +1,4 @@
-//! What the traces of a model show: which choices a guide can draw, and what it can see there.
+//! Surveys of a model's traces: the choices that a guide can draw, and the variables that it can see there.
 
 use super::lessons::{Example, follow};
 use niwaki_geom::WindowForm;
@@ -13,33 +13,33 @@ use niwaki_vm::fault::Fault;
 use niwaki_vm::machine::answers::At;
 use std::collections::HashMap;
 
-/// A choice as it was met.
-struct Met {
+/// A choice in the traces.
+struct Choice {
     function: String,
     label: String,
     family: String,
-    /// `None` where no head fits all of its distributions.
+    /// `None` if no head fits all of its distributions.
     head: Option<Head>,
     variables: Vec<usize>,
     parameters: usize,
     visits: u64,
 }
 
-/// A variable as it was met.
+/// A variable in the traces.
 struct Variable {
     function: String,
     name: String,
     kind: Kind,
 }
 
-/// Collects what traces show.
+/// Collects the choices and variables of traces.
 #[derive(Default)]
 pub struct Survey {
-    sites: Vec<(u128, Met)>,
+    sites: Vec<(u128, Choice)>,
     numbers: HashMap<u128, usize>,
     variables: Vec<Variable>,
     by_name: HashMap<(String, String), usize>,
-    /// Whether a choice without a frame in scope met a part.
+    /// Whether a choice without a frame in scope is inside a part.
     parts: bool,
 }
 
@@ -60,7 +60,7 @@ impl Survey {
             return;
         }
         let number = *self.numbers.entry(at.site.key).or_insert_with(|| {
-            let met = Met {
+            let choice = Choice {
                 function: at.function.name.to_string(),
                 label: at.site.label.to_string(),
                 family: dist.family().name().to_string(),
@@ -69,7 +69,7 @@ impl Survey {
                 parameters: dist.numbers(&mut [0.0; MOST_NUMBERS]),
                 visits: 0,
             };
-            self.sites.push((at.site.key, met));
+            self.sites.push((at.site.key, choice));
             self.sites.len() - 1
         });
         self.parts |= at.part().is_some() && at.look().is_none();
@@ -89,32 +89,35 @@ impl Survey {
                     self.variables.len() - 1
                 }
             };
-            let own = &mut self.variables[v].kind;
-            if *own != kind {
-                *own = std::mem::replace(own, Kind::Nothing).join(kind);
+            let known_kind = &mut self.variables[v].kind;
+            if *known_kind != kind {
+                *known_kind = std::mem::replace(known_kind, Kind::Nothing).join(kind);
             }
             if first {
                 self.sites[number].1.variables.push(v);
             }
         }
-        let met = &mut self.sites[number].1;
-        met.visits += 1;
-        met.parameters = met.parameters.min(dist.numbers(&mut [0.0; MOST_NUMBERS]));
-        met.head = met.head.and_then(|head| head.widen(dist, components));
+        let choice = &mut self.sites[number].1;
+        choice.visits += 1;
+        choice.parameters = choice.parameters.min(dist.numbers(&mut [0.0; MOST_NUMBERS]));
+        choice.head = choice.head.and_then(|head| head.widen(dist, components));
     }
 
-    /// Choices of a program that were not met, by function and label.
-    fn unmet(&self, program: &Program) -> Vec<String> {
-        let sites = program.functions.iter().flat_map(|own| own.sites.iter().map(move |site| (own, site)));
+    /// Choices of a program that are in no trace, by function and label.
+    fn unvisited(&self, program: &Program) -> Vec<String> {
+        let sites = program
+            .functions
+            .iter()
+            .flat_map(|function| function.sites.iter().map(move |site| (function, site)));
         sites
             .filter(|(_, site)| {
                 matches!(site.kind, SiteKind::Sample(_)) && !self.numbers.contains_key(&site.key)
             })
-            .map(|(own, site)| format!("{}/{}", own.name, site.label))
+            .map(|(function, site)| format!("{}/{}", function.name, site.label))
             .collect()
     }
 
-    /// The form of a guide for what was met of a program.
+    /// The form of a guide for the choices of a program's traces.
     ///
     /// # Errors
     /// Traces without a choice that a guide can draw.
@@ -125,7 +128,7 @@ impl Survey {
         share: f64,
         windows: Vec<(String, WindowForm)>,
     ) -> Result<GuideForm, Fault> {
-        let unmet = self.unmet(program);
+        let unvisited = self.unvisited(program);
         let mut next = 0u32;
         let mut take = |count: usize| {
             let first = next;
@@ -135,33 +138,33 @@ impl Survey {
         let variables: Vec<VariableForm> = self
             .variables
             .into_iter()
-            .map(|own| VariableForm {
-                first: take(own.kind.len()),
-                function: own.function,
-                name: own.name,
-                kind: own.kind,
+            .map(|variable| VariableForm {
+                first: take(variable.kind.len()),
+                function: variable.function,
+                name: variable.name,
+                kind: variable.kind,
             })
             .collect();
         let part = self.parts.then(|| take(OF_PART.len()));
         let mut sites = Vec::new();
-        let mut left: Vec<(String, String)> =
-            unmet.into_iter().map(|name| (name, "no trace visited it".into())).collect();
-        for (key, met) in self.sites {
-            let Some(head) = met.head else {
-                let name = format!("{}/{}", met.function, met.label);
-                left.push((name, format!("a guide draws no `{}` of this kind", met.family)));
+        let mut omitted: Vec<(String, String)> =
+            unvisited.into_iter().map(|name| (name, "no trace visited it".into())).collect();
+        for (key, choice) in self.sites {
+            let Some(head) = choice.head else {
+                let name = format!("{}/{}", choice.function, choice.label);
+                omitted.push((name, format!("a guide draws no `{}` of this kind", choice.family)));
                 continue;
             };
-            let seen = met.variables.iter().filter(|v| variables[**v].kind.len() > 0);
+            let visible = choice.variables.iter().filter(|v| variables[**v].kind.len() > 0);
             sites.push(SiteForm {
                 key: format!("{key:032x}"),
-                function: met.function,
-                label: met.label,
-                family: met.family,
+                function: choice.function,
+                label: choice.label,
+                family: choice.family,
                 head,
-                variables: seen.map(|v| *v as u32).collect(),
-                parameters: (take(met.parameters), met.parameters as u32),
-                visits: met.visits,
+                variables: visible.map(|v| *v as u32).collect(),
+                parameters: (take(choice.parameters), choice.parameters as u32),
+                visits: choice.visits,
             });
         }
         if sites.is_empty() {
@@ -178,7 +181,7 @@ impl Survey {
             variables,
             part,
             sites,
-            left,
+            left: omitted,
             ahead: None,
             report: serde_json::Map::new(),
         })

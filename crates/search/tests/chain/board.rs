@@ -1,5 +1,5 @@
-//! The claim: every kernel and composition gives the answer that enumeration gives, on small discrete programs that
-//! change their structure. (The list of deliberate errors has chains that forget a term of their acceptance ratio.)
+//! Every kernel and composition gives the answer of enumeration, on small discrete programs that change their
+//! structure. (The list of deliberate errors has chains that forget a term of their acceptance ratio.)
 //!
 //! Each row runs 60,000 proposals with a fixed seed and takes the share of each value in 60 stretches of the chain; the
 //! stretches' means are nearly independent, so (mean - exact) / (their standard error) is close to a t with 59 degrees of
@@ -97,9 +97,9 @@ struct Row {
     name: &'static str,
     kernel: Kernel,
     powers: Vec<f64>,
-    /// The power of the score that its states follow.
+    /// The power of the score that the row's states follow.
     power: &'static str,
-    /// The program it is for; all where it is empty.
+    /// The only program of the row; empty for all programs.
     only: &'static str,
 }
 
@@ -179,12 +179,12 @@ pub fn furthest(task: &Task, followed: &Task, settings: &Settings) -> f64 {
         (value, (log - exact.log_evidence).exp())
     });
     let shares: Vec<_> = shares.collect();
-    // On one thread: a step of a ladder is too short for more.
+    // On one thread, since a step of a ladder is too short for more.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
     pool.install(|| worst_of(task, &shares, settings))
 }
 
-/// The same, of a task whose values have these probabilities.
+/// The largest |z| for a task whose values have these probabilities.
 fn worst_of(task: &Task, exact: &[(String, f64)], settings: &Settings) -> f64 {
     const STRETCHES: usize = 60;
     let mut chain = Ladder::start(task, settings, 0, None).expect("a chain");
@@ -199,10 +199,11 @@ fn worst_of(task: &Task, exact: &[(String, f64)], settings: &Settings) -> f64 {
     }
     let mut largest: f64 = 0.0;
     for (value, probability) in exact {
-        let found: Vec<f64> = shares.iter().map(|share| share.get(value).copied().unwrap_or(0.0)).collect();
+        let shares_of_value: Vec<f64> =
+            shares.iter().map(|share| share.get(value).copied().unwrap_or(0.0)).collect();
         let n = STRETCHES as f64;
-        let mean = found.iter().sum::<f64>() / n;
-        let variance = found.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
+        let mean = shares_of_value.iter().sum::<f64>() / n;
+        let variance = shares_of_value.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0);
         largest = largest.max((mean - probability).abs() / (variance / n).sqrt().max(1e-4));
     }
     largest

@@ -1,4 +1,4 @@
-//! The claim: a kernel leaves the posterior as it is, on continuous programs with bounds, simplexes and angles, and on
+//! Kernels leave the posterior as it is, on continuous programs with bounds, simplexes and angles, and on
 //! programs whose choices come and go. (The list of deliberate errors has chains that forget a term of their ratio.)
 //!
 //! Gandy and Scott 2020, algorithm 1: draw parameters and data from the model, start a chain at those parameters with
@@ -38,7 +38,7 @@ pub const LIMIT: f64 = 2.86;
 /// Values of choices by address.
 type Known = HashMap<u128, Value>;
 
-/// Each twice: drawing its data (`DATA` is a choice) and observing what it is given.
+/// Each program in two forms: it draws its data (`DATA` is a choice), or observes the data in its arguments.
 pub const PROGRAMS: [(&str, &str); 6] = [
     (
         "location and scale",
@@ -138,7 +138,14 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 /// A draw from the posterior of a power of the likelihood, for a rung of a ladder. The data are normal with a constant
 /// deviation.
-fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate: u64, rung: u64) -> Known {
+fn tempered(
+    drawing: &Task,
+    observing: &Task,
+    deviation: f64,
+    power: f64,
+    replicate: u64,
+    rung: u64,
+) -> Known {
     let log_largest = -deviation.ln() - 0.5 * std::f64::consts::TAU.ln();
     for attempt in 0..100_000 {
         let seed = (rung << 32) + attempt;
@@ -148,7 +155,7 @@ fn tempered(drawing: &Task, given: &Task, deviation: f64, power: f64, replicate:
             return known;
         }
         let (state, _) =
-            State::start(given, Streams::new(4, replicate), 1, Some(&known)).expect("that state");
+            State::start(observing, Streams::new(4, replicate), 1, Some(&known)).expect("that state");
         let u = StreamKey::new(seed, replicate, 1).at(0).uniform();
         if u.ln() < power * (state.log_score() - log_largest) {
             return known;
@@ -162,12 +169,12 @@ pub fn distance(text: &str, kernel: &Kernel) -> f64 {
     distance_of(text, kernel, REPLICATES)
 }
 
-/// The same, of so many replicates.
+/// The largest Kolmogorov distance with this number of replicates.
 pub fn distance_of(text: &str, kernel: &Kernel, replicates: u64) -> f64 {
     distance_at(text, kernel, replicates, PROPOSALS, 1.0, &[1.0])
 }
 
-/// The same, of chains of so many proposals, of a kernel that holds the score at one power, or of chains at several.
+/// The largest distance for chains of `proposals` proposals: of a kernel that holds the score at one power, or of a ladder.
 fn distance_at(
     text: &str,
     kernel: &Kernel,
@@ -183,7 +190,7 @@ fn distance_at(
         let first = forward(&drawing, 2, replicate, true).expect("a run");
         let (choices, values) = (first.log.entries(), numbers(&first.value));
         let args = choices[choices.len() - data..].iter().map(|choice| choice.value.clone()).collect();
-        let given = Task { args, ..observing.clone() };
+        let observed = Task { args, ..observing.clone() };
         let settings = Settings {
             seed: 3 + replicate,
             kernel: kernel.clone(),
@@ -194,13 +201,13 @@ fn distance_at(
         };
         let hotter = (1..)
             .zip(&powers[1..])
-            .map(|(rung, power)| tempered(&drawing, &given, deviation(text), *power, replicate, rung));
+            .map(|(rung, power)| tempered(&drawing, &observed, deviation(text), *power, replicate, rung));
         let known: Vec<Known> = std::iter::once(by_address(&choices)).chain(hotter).collect();
-        let mut ladder = Ladder::start_at(&given, &settings, 0, |rung| Some(&known[rung]))
+        let mut ladder = Ladder::start_at(&observed, &settings, 0, |rung| Some(&known[rung]))
             .expect("the states that were drawn");
         let started = numbers(&ladder.rungs[0].state.trace.result());
         assert_eq!(started[..started.len().min(2)], values[..started.len().min(2)], "the chain starts there");
-        ladder.advance(&given, proposals, &mut |_, _| true).expect("proposals");
+        ladder.advance(&observed, proposals, &mut |_, _| true).expect("proposals");
         kept.push(numbers(&ladder.rungs[0].state.trace.result()));
     }
     let scale = (replicates as f64 / 2.0).sqrt();
@@ -273,9 +280,9 @@ fn kernels_leave_the_posterior_as_it_is() {
 fn a_proposal_of_ones_own_leaves_the_posterior_as_it_is() {
     // A scale that depends on the value: going there is not as likely as coming back.
     let text = r#"(module (fn "near" (params $old) (return (dist gaussian (mul 0.5 $old) (add 0.3 (mul $old $old))))) (entry "near"))"#;
-    let own = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(text)).expect("a proposal"))));
+    let proposal = Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(task(text)).expect("a proposal"))));
     let sites = Selection { sites: vec![vec!["x".into()]], ..Selection::default() };
-    let kernel = Kernel::Mixture(vec![(3.0, Kernel::On(sites, Box::new(own))), (1.0, Kernel::PRIOR)]);
+    let kernel = Kernel::Mixture(vec![(3.0, Kernel::On(sites, Box::new(proposal))), (1.0, Kernel::PRIOR)]);
     let d = distance(PROGRAMS[0].1, &kernel);
     assert!(d < LIMIT, "{d}");
 }

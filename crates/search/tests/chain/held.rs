@@ -1,9 +1,9 @@
-//! The claim: every method follows the law given the held choices, and no run loses one of them.
+//! Every method follows the law given the held choices, and no run loses a held choice.
 //!
-//! The oracle knows nothing of holding: it lists all runs of the free program by a script of values, keeps those that have
-//! the held values at the held addresses, and sums up what is left. Enumeration must agree to 1e-9. Methods that draw are
-//! compared with fixed seeds: estimates of (evidence times share), unbiased, by their standard error, and chains by that of
-//! 60 stretches. Beyond 6 a share lies once in 8 million; some 900 are looked at.
+//! The oracle knows nothing of holding: it lists all runs of the free program by a script of values, selects those with
+//! the held values at the held addresses, and sums up the rest. Enumeration must agree to 1e-9. Estimates of methods that draw,
+//! with fixed seeds, are compared by their standard errors: (evidence times share) is unbiased, and a chain has the error of
+//! 60 stretches. A share is beyond 6 once in 8 million; there are some 900.
 
 use super::board::furthest;
 use super::programs::{leaf, task};
@@ -32,7 +32,7 @@ use niwaki_vm::value::{Value, identical, repr};
 use serde_json::json;
 use std::collections::HashMap;
 
-/// Beside the programs of regrowth that return what tells their runs apart: functions as values, and observations.
+/// Beside the programs of regrowth whose values distinguish their runs: functions as values, and observations.
 const CLOSURES: &str = r#"(module
     (fn "few" (params $p) (set $x (sample (dist bernoulli $p))) (return (cond $x 1 0)))
     (fn "many" (params $p) (set $x (sample (dist binomial 3 $p))) (set $y (sample (dist bernoulli 0.5)))
@@ -43,13 +43,15 @@ const CLOSURES: &str = r#"(module
       (return $s)) (entry "m"))"#;
 
 fn programs() -> Vec<(&'static str, &'static str)> {
-    let told = |(_, text): &(&str, &str)| !text.contains("(return (tuple)))") && !text.contains("geometric");
-    let mut all: Vec<_> = PROGRAMS.into_iter().filter(told).filter(|p| !p.1.contains("emit")).collect();
+    let is_distinct =
+        |(_, text): &(&str, &str)| !text.contains("(return (tuple)))") && !text.contains("geometric");
+    let mut all: Vec<_> =
+        PROGRAMS.into_iter().filter(is_distinct).filter(|p| !p.1.contains("emit")).collect();
     all.push(("functions as values", CLOSURES));
     all
 }
 
-/// Gives choices the values that a script names, and from its end on the first one.
+/// Gives choices the values of a script, and after its end the first value.
 #[derive(Default)]
 struct Scripted {
     script: Vec<usize>,
@@ -61,10 +63,10 @@ impl Chooser for &mut Scripted {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, _: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let mut draws = dist.enumerate().expect("few values");
         draws.retain(|draw| dist.log_density(draw) > f64::NEG_INFINITY);
-        let which = self.script.get(self.widths.len()).copied().unwrap_or(0);
+        let index = self.script.get(self.widths.len()).copied().unwrap_or(0);
         self.widths.push(draws.len());
-        let log = dist.log_density(&draws[which]);
-        let value = Value::from(draws.swap_remove(which));
+        let log = dist.log_density(&draws[index]);
+        let value = Value::from(draws.swap_remove(index));
         self.met.push((at.path(), value.clone()));
         Ok(Some(Chosen { value, log_prior: log, log_drawn: log }))
     }
@@ -96,7 +98,7 @@ fn listed(task: &Task) -> Vec<Listed> {
     }
 }
 
-/// Whether a choice of this value is what is held: 1 and 0 are true and false, as they are where values are observed.
+/// Whether a choice has the held value: 1 and 0 are true and false, as in observations.
 fn equal(a: &Value, b: &Value) -> bool {
     let number = |value: &Value| match value {
         Value::Bool(b) => Value::Int(i64::from(*b)),
@@ -117,31 +119,31 @@ fn conditioned(runs: &[Listed], held: &[(String, Value)]) -> HashMap<String, f64
     sums.into_iter().map(|(value, logs)| (value, log_sum_exp(logs.into_iter()))).collect()
 }
 
-/// Locks of a program: of some of its runs a few choices each, by a fixed seed.
+/// Locks of a program: a few choices of some runs, by a fixed seed.
 fn locks(runs: &[Listed], count: usize) -> Vec<Vec<(String, Value)>> {
     let mut random = Stream::new(5, 0, 0, 0);
-    let mut found = vec![];
-    while found.len() < count {
+    let mut locks = vec![];
+    while locks.len() < count {
         let choices = &runs[(random.uniform() * runs.len() as f64) as usize].0;
         let held: Vec<_> = choices.iter().filter(|_| random.uniform() < 0.3).cloned().collect();
         if !held.is_empty() && held.len() < choices.len() {
-            found.push(held);
+            locks.push(held);
         }
     }
-    found
+    locks
 }
 
 #[test]
-fn enumeration_gives_the_law_given_what_is_held() {
+fn enumeration_gives_the_law_given_held_choices() {
     for (name, text) in programs() {
         let task = task(text);
         let runs = listed(&task);
         for held in locks(&runs, 40) {
             let exact = conditioned(&runs, &held);
             let locked = hold(&task, held.clone()).expect("a lock");
-            let found = enumerate(&locked, 1_000_000, &mut |_| true).expect("possible runs");
-            assert_eq!(found.outcomes.len(), exact.len(), "{name}: {held:?}");
-            for (value, log) in found.outcomes {
+            let result = enumerate(&locked, 1_000_000, &mut |_| true).expect("possible runs");
+            assert_eq!(result.outcomes.len(), exact.len(), "{name}: {held:?}");
+            for (value, log) in result.outcomes {
                 let expected = exact[&repr(&value).expect("a value")];
                 assert!((log - expected).abs() < 1e-9, "{name}, {held:?}: {log} for {expected}");
             }
@@ -158,13 +160,13 @@ fn worst(exact: &HashMap<String, f64>, estimates: &[(f64, Vec<(String, f64)>)]) 
         let (mut sum, mut squares) = (0.0, 0.0);
         for (log_mean, runs) in estimates {
             let total: f64 = runs.iter().map(|(_, w)| w).sum();
-            let own: f64 = runs.iter().filter(|(v, _)| v == value).map(|(_, w)| w).sum();
-            let x = if total > 0.0 { (log_mean - log_evidence).exp() * own / total } else { 0.0 };
+            let weight_of_value: f64 = runs.iter().filter(|(v, _)| v == value).map(|(_, w)| w).sum();
+            let x = if total > 0.0 { (log_mean - log_evidence).exp() * weight_of_value / total } else { 0.0 };
             (sum, squares) = (sum + x, squares + x * x);
         }
         let (mean, p) = (sum / n, (log - log_evidence).exp());
         let error = ((squares / n - mean * mean) / n).sqrt().max(1e-6);
-        // Of a value that was rarely met the error is not known.
+        // The error of a rare value is unknown.
         if p * n > 10.0 {
             largest = largest.max((mean - p).abs() / error);
         }
@@ -172,7 +174,7 @@ fn worst(exact: &HashMap<String, f64>, estimates: &[(f64, Vec<(String, f64)>)]) 
     largest
 }
 
-/// Runs with their weights, of which each value is told apart.
+/// Runs with their weights, by the text of the value.
 fn weighed<'a>(runs: impl Iterator<Item = (&'a Value, f64)>) -> Vec<(String, f64)> {
     runs.map(|(value, log)| (repr(value).expect("a value"), log.exp())).collect()
 }
@@ -192,7 +194,7 @@ fn locked() -> Vec<(String, Task, HashMap<String, f64>)> {
 }
 
 #[test]
-fn populations_give_the_law_given_what_is_held() {
+fn populations_give_the_law_given_held_choices() {
     const SEEDS: u64 = 1500;
     let plain = |order, resampling| Settings { particles: 8, order, resampling, ..Settings::default() };
     let moved = |kernel| Rejuvenation { kernel, moves: 2, at: Moment::End, final_chains: None };
@@ -216,9 +218,9 @@ fn populations_give_the_law_given_what_is_held() {
             let mut estimates = vec![];
             for seed in 0..SEEDS {
                 match smc(&task, &Settings { seed, ..settings.clone() }, &mut |_| true) {
-                    Ok(found) => estimates.push((
-                        found.log_evidence.expect("an estimate"),
-                        weighed(found.particles.iter().map(|p| (&p.value, p.log_weight))),
+                    Ok(result) => estimates.push((
+                        result.log_evidence.expect("an estimate"),
+                        weighed(result.particles.iter().map(|p| (&p.value, p.log_weight))),
                     )),
                     Err(failure) if failure.is_impossible() => estimates.push((f64::NEG_INFINITY, vec![])),
                     Err(other) => panic!("{other}"),
@@ -230,7 +232,7 @@ fn populations_give_the_law_given_what_is_held() {
     }
 }
 
-/// A call that hands a future on is left before the future begins, which is when the held choice in it may still come.
+/// A call that passes on a future is left before the future begins, and the future may still make the held choice.
 #[test]
 fn a_future_may_begin_after_its_call_is_left() {
     let text = r#"(module
@@ -247,20 +249,23 @@ fn a_future_may_begin_after_its_call_is_left() {
     let mut estimates = vec![];
     for seed in 0..1500 {
         let settings = Settings { particles: 8, seed, ..Settings::default() };
-        let found = smc(&locked, &settings, &mut |_| true).expect("particles");
-        assert!(found.particles.iter().all(|one| one.cause.is_none()), "none has lost it");
-        let log_evidence = found.log_evidence.expect("an estimate");
-        estimates.push((log_evidence, weighed(found.particles.iter().map(|p| (&p.value, p.log_weight)))));
+        let result = smc(&locked, &settings, &mut |_| true).expect("particles");
+        assert!(
+            result.particles.iter().all(|particle| particle.cause.is_none()),
+            "a particle lost the held choice"
+        );
+        let log_evidence = result.log_evidence.expect("an estimate");
+        estimates.push((log_evidence, weighed(result.particles.iter().map(|p| (&p.value, p.log_weight)))));
     }
     let z = worst(&exact, &estimates);
     assert!(z < 6.0, "z = {z}");
 }
 
 #[test]
-fn direct_draws_give_the_law_given_what_is_held() {
+fn direct_draws_give_the_law_given_held_choices() {
     for (name, task, exact) in locked() {
-        let found = importance(&task, None, 20_000, 1, &mut |_| true).expect("possible runs");
-        let estimates: Vec<_> = found
+        let result = importance(&task, None, 20_000, 1, &mut |_| true).expect("possible runs");
+        let estimates: Vec<_> = result
             .runs
             .iter()
             .map(|run| (run.log_weight, weighed(std::iter::once((&run.value, 0.0)))))
@@ -268,17 +273,17 @@ fn direct_draws_give_the_law_given_what_is_held() {
         let z = worst(&exact, &estimates);
         assert!(z < 6.0, "{name}, importance: z = {z}");
         let drawn = rejection(&task, 2000, 0.0, 10_000_000, 1, &mut |_| true);
-        // A score above zero is refused: in one program factors are not bounded by it.
+        // A score above zero is refused, since factors of one program are not bounded by it.
         let Ok(drawn) = drawn else { continue };
         let log_evidence = log_sum_exp(exact.values().copied());
-        let one = |run: &Run| (log_evidence, weighed(std::iter::once((&run.value, 0.0))));
-        let z = worst(&exact, &drawn.runs.iter().map(one).collect::<Vec<_>>());
+        let estimate = |run: &Run| (log_evidence, weighed(std::iter::once((&run.value, 0.0))));
+        let z = worst(&exact, &drawn.runs.iter().map(estimate).collect::<Vec<_>>());
         assert!(z < 6.0, "{name}, rejection: z = {z}");
     }
 }
 
 #[test]
-fn chains_of_whole_runs_give_the_law_given_what_is_held() {
+fn chains_of_whole_runs_give_the_law_given_held_choices() {
     const STRETCH: usize = 100;
     let settings = Settings { particles: 6, seed: 3, ..Settings::default() };
     let gibbs = Settings { resampling: Resampling::Multinomial, ..settings.clone() };
@@ -300,7 +305,7 @@ fn chains_of_whole_runs_give_the_law_given_what_is_held() {
     }
 }
 
-/// As [`worst`], where each estimate is a mean of many draws: no value is too rare.
+/// As [`worst`], for estimates that are means of many draws: no value is too rare.
 fn worst_of_stretches(exact: &HashMap<String, f64>, estimates: &[(f64, Vec<(String, f64)>)]) -> f64 {
     let log_evidence = log_sum_exp(exact.values().copied());
     let common = exact.iter().filter(|(_, log)| (*log - log_evidence).exp() > 0.02);
@@ -349,11 +354,11 @@ fn kernels() -> Vec<(&'static str, Kernel)> {
 }
 
 #[test]
-fn chains_give_the_law_given_what_is_held() {
+fn chains_give_the_law_given_held_choices() {
     for (name, task, _) in locked().into_iter().step_by(2) {
         for (kind, kernel) in kernels().into_iter().skip(1) {
             let settings = ChainSettings { seed: 7, kernel, thin: 0, ..ChainSettings::default() };
-            // Enumeration of the same task is held to the oracle above.
+            // The oracle above confirms enumeration of the same task.
             let z = furthest(&task, &task, &settings);
             assert!(z < 6.0, "{name}, {kind}: z = {z}");
         }
@@ -380,7 +385,7 @@ fn values(task: &Task, run: &Run) -> HashMap<String, Value> {
 }
 
 #[test]
-fn what_is_held_is_in_every_run_to_the_bit() {
+fn held_values_are_in_every_run_to_the_bit() {
     let text = r#"(module (fn "leg" (params $i) (set $long (sample (dist gaussian 1.0 0.3)))
           (if (sample (dist bernoulli 0.5)) (then (set $foot (sample (dist uniform 0.0 $long))) (return $foot)))
           (return $long))
@@ -396,10 +401,10 @@ fn what_is_held_is_in_every_run_to_the_bit() {
     let locked = hold(&task, held.clone()).expect("a lock");
     let has = |run: &Run| {
         let values = values(&locked, run);
-        held.iter().all(|(path, value)| values.get(path).is_some_and(|own| identical(own, value)))
+        held.iter().all(|(path, value)| values.get(path).is_some_and(|actual| identical(actual, value)))
     };
-    let found = smc(&locked, &Settings::default(), &mut |_| true).expect("particles");
-    let mut alive = found.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
+    let result = smc(&locked, &Settings::default(), &mut |_| true).expect("particles");
+    let mut alive = result.particles.into_iter().filter(|p| p.log_weight > f64::NEG_INFINITY);
     assert!(alive.all(|run| has(&run)));
     for (kind, kernel) in kernels() {
         let settings = ChainSettings { kernel, ..ChainSettings::default() };
@@ -412,11 +417,11 @@ fn what_is_held_is_in_every_run_to_the_bit() {
 }
 
 #[test]
-fn what_cannot_be_held_is_named() {
+fn impossible_locks_are_named() {
     let task = task(CLOSURES);
     let fault = hold(&task, vec![("d".into(), Value::Bool(true))]).err().expect("no such choice");
     assert_eq!(fault.code, "no-address");
-    // `y` is of the function that `c` does not choose.
+    // `y` belongs to the function that `c` does not choose.
     let runs = listed(&task);
     let y =
         runs.iter().flat_map(|run| &run.0).find(|(path, _)| path.ends_with("/y")).expect("a choice").clone();
@@ -435,7 +440,7 @@ fn what_cannot_be_held_is_named() {
     assert!(text.contains("outside of its support"), "{text}");
 }
 
-/// The law of the values given everything outside of a part: of runs that choose the same outside of it, and nothing else.
+/// The law of the values given the choices outside of a part, from runs with equal choices outside.
 fn given_the_rest(runs: &[Listed], choices: &[(String, Value)], part: &str) -> HashMap<String, f64> {
     let is_outside = |(path, _): &&(String, Value)| !path.starts_with(&format!("{part}/"));
     let outside: Vec<_> = choices.iter().filter(is_outside).cloned().collect();
@@ -443,10 +448,10 @@ fn given_the_rest(runs: &[Listed], choices: &[(String, Value)], part: &str) -> H
     conditioned(&runs.iter().filter(same_number).cloned().collect::<Vec<_>>(), &outside)
 }
 
-/// A part whose shape is free, with a choice held that only one of its shapes has: no particle loses it. What the part
-/// returns tells its shapes apart or not.
+/// A part whose shape is free, with a held choice that only one of its shapes has: no particle loses it. The value of the
+/// part may distinguish its shapes.
 #[test]
-fn a_part_grown_afresh_keeps_what_is_held() {
+fn a_part_grown_afresh_keeps_held_choices() {
     const PARTICLES: usize = 3000;
     for returned in ["$r", "0"] {
         let text = r#"(module
@@ -467,20 +472,24 @@ fn a_part_grown_afresh_keeps_what_is_held() {
         let known = replay(&locked, Source::Paths(&paths), Missing::Refuse).expect("a run").choices;
         let known = known.into_iter().map(|choice| (choice.address, choice.value)).collect();
         let with = Afresh { part, particles: PARTICLES, power: 1.0, seed: 9 };
-        let found = afresh(&locked, &known, &with).expect("runs with the foot");
-        assert!(found.iter().all(|run| equal(&values(&locked, run)[&foot.0], &foot.1)));
+        let grown = afresh(&locked, &known, &with).expect("runs with the foot");
+        assert!(grown.iter().all(|run| equal(&values(&locked, run)[&foot.0], &foot.1)));
         let has_foot = |run: &&Listed| run.0.iter().any(|(path, v)| *path == foot.0 && equal(v, &foot.1));
         let with_foot: Vec<_> = runs.iter().filter(has_foot).cloned().collect();
         let exact = given_the_rest(&with_foot, choices, part);
-        let all = weighed(found.iter().map(|run| (&run.value, run.log_weight)));
+        let all = weighed(grown.iter().map(|run| (&run.value, run.log_weight)));
         let total: f64 = all.iter().map(|(_, weight)| weight).sum();
         assert!(all.iter().all(|(value, _)| exact.contains_key(value)));
         let log_evidence = log_sum_exp(exact.values().copied());
         for (value, log) in &exact {
             let p = (log - log_evidence).exp();
-            let own: f64 = all.iter().filter(|(v, _)| v == value).map(|(_, weight)| weight).sum();
+            let weight_of_value: f64 = all.iter().filter(|(v, _)| v == value).map(|(_, weight)| weight).sum();
             let error = (p * (1.0 - p) / (PARTICLES as f64 / 3.0)).sqrt().max(1e-9);
-            assert!(((own / total - p) / error).abs() < 6.0, "{value}: {} for {p}", own / total);
+            assert!(
+                ((weight_of_value / total - p) / error).abs() < 6.0,
+                "{value}: {} for {p}",
+                weight_of_value / total
+            );
         }
     }
 }
@@ -505,15 +514,16 @@ fn a_part_grown_afresh_follows_the_law_given_the_rest() {
                 let exact = given_the_rest(&runs, choices, part);
                 let with = Afresh { part, particles: PARTICLES, power: 1.0, seed: 9 };
                 // A name without a stroke is that of any call with this last component.
-                let Ok(found) = afresh(&task, &known, &with) else { continue };
+                let Ok(grown) = afresh(&task, &known, &with) else { continue };
                 let log_evidence = log_sum_exp(exact.values().copied());
-                let all = weighed(found.iter().map(|run| (&run.value, run.log_weight)));
+                let all = weighed(grown.iter().map(|run| (&run.value, run.log_weight)));
                 let total: f64 = all.iter().map(|(_, weight)| weight).sum();
                 for (value, log) in &exact {
                     let p = (log - log_evidence).exp();
-                    let own: f64 = all.iter().filter(|(v, _)| v == value).map(|(_, weight)| weight).sum();
+                    let weight_of_value: f64 =
+                        all.iter().filter(|(v, _)| v == value).map(|(_, weight)| weight).sum();
                     let error = (p * (1.0 - p) / (PARTICLES as f64 / 3.0)).sqrt().max(1e-9);
-                    let z = (own / total - p) / error;
+                    let z = (weight_of_value / total - p) / error;
                     looked += usize::from(p < 1.0 - 1e-9);
                     assert!(z.abs() < 6.0, "{name}, {part} of {choices:?}: {value} has z = {z}");
                 }

@@ -1,7 +1,6 @@
-//! The claim: an invalid run (a distribution's parameters are out of range, a shape cannot be, a host function fails) is one of
-//! probability zero, to every search. The posterior is that of enumeration or of quadrature, the four strategies agree to the bit
-//! and in what they count, and a rollback leaves nothing. A fault of every run is raised, and other faults are always raised.
-//!
+//! An invalid run (a distribution's parameters are out of range, a shape is impossible, a host function fails) has
+//! probability zero for every search. The posterior equals that of enumeration or of quadrature. The four strategies agree to the
+//! bit and in their counts, and a rollback leaves nothing. A fault of every run is raised, and other faults are always raised.
 //! Kernels start from an exact draw (by rejection) and make twelve proposals, so the result is again an exact draw, and
 //! the draws of different seeds are independent: counts are binomial, and means have the standard error of the posterior.
 //! A z beyond 5 happens once in 1.7 million; about 400 are looked at.
@@ -37,7 +36,7 @@ const LIMIT: f64 = 5.0;
 /// A function of two choices.
 type Function = fn(f64, f64) -> f64;
 
-/// Invalid at four sites: in a call that comes and goes, in one that has no choices, in a branch, at an observation.
+/// Four invalid sites: in a call that comes and goes, in a call without choices, in a branch, at an observation.
 const COUNTS: &str = r#"(module
   (fn "leaf" (params $k) (set $x (sample (dist binomial (sub $k 2) 0.5))) (do (factor (mul 0.3 $x))) (return $x))
   (fn "coin" (params $n) (return (dist bernoulli (div (sub 5 $n) 4.0))))
@@ -49,8 +48,8 @@ const COUNTS: &str = r#"(module
     (do (observe (dist gaussian 0.0 (sub (add $b 1) (div $n 3.0))) 0.5))
     (return (tuple $n $a $b))) (entry "m"))"#;
 
-/// An element that is read below, where the run goes on with the value that was read before: a run in program order has
-/// both values, and is valid where they agree.
+/// An element that is read below, while the run continues with the value from before. A run in program order has
+/// both values, and is valid if they agree.
 const ELEMENTS: &str = r#"(module
   (fn "seen" (params $xs) (do (factor (mul -0.1 (index $xs 0)))) (return (index $xs 0)))
   (fn "m" (params)
@@ -62,7 +61,7 @@ const ELEMENTS: &str = r#"(module
     (set $c (sample (dist bernoulli (div $a 2.0))))
     (return (tuple $a $c $d))) (entry "m"))"#;
 
-/// The same with a condition.
+/// Elements as in `ELEMENTS`, with a condition.
 const CONDITION: &str = r#"(module
   (fn "seen" (params $xs) (do (factor (mul -0.1 (index $xs 0)))) (return (index $xs 0)))
   (fn "m" (params)
@@ -73,7 +72,7 @@ const CONDITION: &str = r#"(module
     (set $c (sample (dist bernoulli (div $a 2.0))))
     (return (tuple $a $c))) (entry "m"))"#;
 
-/// Where a parameter is a number that an element of a list is, two sites may be invalid in one run.
+/// Two sites that may be invalid in one run, since a parameter is also an element of a list.
 const READERS: &str = r#"(module
   (fn "one" (params $xs $i) (return (sample (dist bernoulli (div (index $xs $i) 3.0)))))
   (fn "m" (params)
@@ -84,7 +83,7 @@ const READERS: &str = r#"(module
     (set $m (sample (dist discrete_uniform (index $xs 0) (add (index $xs 2) 1))))
     (return (tuple $n $m))) (entry "m"))"#;
 
-/// Shapes that cannot be: in a future, and in iterations that come and go.
+/// Impossible shapes, in a future, and in iterations that come and go.
 const SHAPES: &str = r#"(module
   (fn "leaf" (params $k) (set $x (sample (dist bernoulli 0.4)))
     (do (emit (disc (tuple 0.0 0.0 0.0) (sub $k 0.5)))) (return $x))
@@ -144,7 +143,7 @@ fn exact_draw(task: &Task, seed: u64, bound: f64) -> HashMap<u128, Value> {
     by_address(&draw.runs[0].log.entries())
 }
 
-/// Z-scores of the counts of all outcomes; an outcome that is none has an infinite one.
+/// Z-scores of the counts of all outcomes; infinite for an impossible outcome.
 fn counted(task: &Task, values: &[String]) -> f64 {
     let exact = enumerate(task, 100_000, &mut |_| true).expect("finitely many runs");
     let n = values.len() as f64;
@@ -216,7 +215,7 @@ fn direct_methods_agree_with_enumeration() {
         let (mean, square) = weights.iter().fold((0.0, 0.0), |(m, s), w| (m + w / n, s + w * w / n));
         let z = (mean - exact.log_evidence.exp()) / ((square - mean * mean) / n).sqrt();
         assert!(z.abs() < LIMIT, "{name}: {z}");
-        // The counted runs are those without weight, except by conditions.
+        // The counted runs have no weight, except by conditions.
         let fresh = task.uncounted();
         let again = importance(&fresh, None, 20_000, 4, &mut |_| true).unwrap();
         let invalid = again.runs.iter().filter(|s| s.invalid.is_some()).count() as u64;
@@ -225,7 +224,7 @@ fn direct_methods_agree_with_enumeration() {
     }
 }
 
-/// Bounds that cross where `x` falls below 0.5, and a probability above 1 where `y` is far from it.
+/// Bounds that cross if `x` is below 0.5, and a probability above 1 if `y` is far from it.
 const BORDER: &str = r#"(module (fn "m" (params)
     (set $x (sample (dist uniform 0.0 1.0)))
     (set $y (sample (dist uniform 0.5 $x)))
@@ -239,7 +238,7 @@ fn border(x: f64, y: f64) -> f64 {
     if p <= 1.0 { p * normal(0.7 - y, 0.3) } else { 0.0 }
 }
 
-/// The same bounds, and a choice that comes and goes: its deviation is negative from 0.9 on.
+/// The bounds of `BORDER`, and a choice that comes and goes: its deviation is negative from 0.9 on.
 const COMING: &str = r#"(module (fn "m" (params)
     (set $x (sample (dist uniform 0.0 1.0)))
     (set $w 0.0)
@@ -261,7 +260,7 @@ fn normal(d: f64, sd: f64) -> f64 {
     (-0.5 * d * d / (sd * sd)).exp() / (sd * std::f64::consts::TAU.sqrt())
 }
 
-/// What is compared: means of x, y and their product.
+/// The statistics: means of x, y and their product.
 const MEANS: [Function; 3] = [|x, _| x, |_, y| y, |x, y| x * y];
 
 /// Means and deviations by quadrature, under a density of the score: over `(y - 0.5) / (x - 0.5)` that of the choices is flat.
@@ -285,8 +284,8 @@ fn quadrature(score: Function) -> [(f64, f64); 3] {
 fn worst(draws: &[(f64, f64)], score: Function) -> f64 {
     let n = draws.len() as f64;
     let z = |(f, (mean, sd)): (Function, (f64, f64))| {
-        let found = draws.iter().map(|(x, y)| f(*x, *y)).sum::<f64>() / n;
-        ((found - mean) / (sd / n.sqrt())).abs()
+        let mean_of_draws = draws.iter().map(|(x, y)| f(*x, *y)).sum::<f64>() / n;
+        ((mean_of_draws - mean) / (sd / n.sqrt())).abs()
     };
     MEANS.into_iter().zip(quadrature(score)).map(z).fold(0.0, f64::max)
 }
@@ -346,11 +345,11 @@ fn exact_values(task: &Task, seed: u64) -> (f64, f64) {
 fn chains_of_the_gradient_end_their_trajectories_there_too() {
     let task = task(BORDER);
     for length in [FIXED, TURNING] {
-        let own = hamiltonian::Settings { length, step_size: Some(0.4), ..hamiltonian::Settings::nuts() };
+        let base = hamiltonian::Settings { length, step_size: Some(0.4), ..hamiltonian::Settings::nuts() };
         let draw = |seed| {
             let target = live(&task, &exact_draw(&task, seed + (1 << 32), 0.3)).expect("a density");
             let start = target.recorded().start.clone();
-            let mut chain = hamiltonian::Chain::new(target, &start, &own, seed, 0).expect("a start");
+            let mut chain = hamiltonian::Chain::new(target, &start, &base, seed, 0).expect("a start");
             (0..6).for_each(|_| drop(chain.advance()));
             let x = chain.phase.x.clone();
             chain.target.value_and_gradient(&x, &mut [0.0; 2]).expect("a point of the density");
@@ -401,11 +400,11 @@ fn a_trajectory_ends_where_a_shape_cannot_be() {
     };
     let real = |value: &Value| if let Value::Real(x) = value { *x } else { panic!("{value:?}") };
     for length in [FIXED, TURNING] {
-        let own = hamiltonian::Settings { length, step_size: Some(0.4), ..hamiltonian::Settings::nuts() };
+        let base = hamiltonian::Settings { length, step_size: Some(0.4), ..hamiltonian::Settings::nuts() };
         let alone = |seed| {
             let target = live(&task, &exact_draw(&task, seed + (1 << 32), 0.0)).expect("a density");
             let start = target.recorded().start.clone();
-            let mut chain = hamiltonian::Chain::new(target, &start, &own, seed, 0).expect("a start");
+            let mut chain = hamiltonian::Chain::new(target, &start, &base, seed, 0).expect("a start");
             (0..6).for_each(|_| drop(chain.advance()));
             chain.target.recorded().numbers(&chain.phase.x)[0]
         };
@@ -433,15 +432,15 @@ fn a_trajectory_ends_where_a_shape_cannot_be() {
 /// The result of every search for a program.
 fn every_search(text: &str) -> Vec<Result<(), Failure>> {
     let task = task(text);
-    let own = niwaki_particles::Settings { particles: 20, ..niwaki_particles::Settings::default() };
+    let base = niwaki_particles::Settings { particles: 20, ..niwaki_particles::Settings::default() };
     let chain = || -> Result<Chain, Failure> { Chain::start(&task, &settings(), 0, None) };
     let plan = Plan { settings: &hamiltonian::Settings::nuts(), seed: 1, chains: 2, tries: 20, known: None };
     vec![
         chain().and_then(|mut chain| chain.advance(&task, 200, &mut |_, _| true)),
-        smc(&task, &own, &mut |_| true).map(drop),
-        populations(&task, &own, &[20, 20], &mut |_| true).map(drop),
-        particle_gibbs(&task, &own, Ancestors::Sampled, 3, None, &mut |_| true).map(drop),
-        pimh(&task, &own, 3, &mut |_| true).map(drop),
+        smc(&task, &base, &mut |_| true).map(drop),
+        populations(&task, &base, &[20, 20], &mut |_| true).map(drop),
+        particle_gibbs(&task, &base, Ancestors::Sampled, 3, None, &mut |_| true).map(drop),
+        pimh(&task, &base, 3, &mut |_| true).map(drop),
         importance(&task, None, 50, 1, &mut |_| true).map(drop),
         rejection(&task, 5, 0.0, 50, 1, &mut |_| true).map(drop),
         enumerate(&task, 1000, &mut |_| true).map(drop),
@@ -450,12 +449,12 @@ fn every_search(text: &str) -> Vec<Result<(), Failure>> {
 }
 
 #[test]
-fn what_every_run_meets_is_raised_as_it_stands_in_the_model() {
+fn faults_of_every_run_are_raised_unchanged() {
     let always = r#"(module (fn "leaf" (params $s) (return (sample (dist gaussian 0.0 $s))))
         (fn "m" (params) (set $a (sample (dist bernoulli 0.5)))
           (return (call "leaf" (cond $a -1.0 -2.0)))) (entry "m"))"#;
-    for (number, found) in every_search(always).into_iter().enumerate() {
-        let Err(Failure::Run(met)) = found else { panic!("{number}: {found:?}") };
+    for (number, result) in every_search(always).into_iter().enumerate() {
+        let Err(Failure::Run(met)) = result else { panic!("{number}: {result:?}") };
         assert_eq!((met.fault.code, met.stack.len()), ("bad-parameter", 2), "{number}");
         assert!(met.fault.message.contains("`sd` of gaussian is -"), "{number}: {met}");
     }
@@ -464,8 +463,8 @@ fn what_every_run_meets_is_raised_as_it_stands_in_the_model() {
     let host = r#"(module (fn "m" (params) (set $x (sample (dist uniform 1.0 2.0)))
         (return (host 0 5))) (entry "m"))"#;
     for (text, code) in [(shape, "bad-shape"), (host, "host-function")] {
-        for (number, found) in every_search(text).into_iter().enumerate() {
-            match found {
+        for (number, result) in every_search(text).into_iter().enumerate() {
+            match result {
                 // The choice cannot be enumerated.
                 Err(_) if number == 7 => {}
                 Err(Failure::Run(met)) => assert_eq!((met.fault.code, met.is_invalid()), (code, true)),
@@ -473,13 +472,13 @@ fn what_every_run_meets_is_raised_as_it_stands_in_the_model() {
             }
         }
     }
-    // Of several reasons, all are named.
+    // A message names all of several reasons.
     let both = r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.5)))
         (if $a (then (do (condition false)))) (return (sample (dist poisson -1.0)))) (entry "m"))"#;
-    let found = every_search(both);
-    let Err(Failure::NoStart { causes, .. }) = &found[0] else { panic!("{found:?}") };
+    let results = every_search(both);
+    let Err(Failure::NoStart { causes, .. }) = &results[0] else { panic!("{results:?}") };
     assert_eq!(causes.len(), 2, "{causes:?}");
-    let Err(Failure::Impossible { causes, .. }) = &found[1] else { panic!("{found:?}") };
+    let Err(Failure::Impossible { causes, .. }) = &results[1] else { panic!("{results:?}") };
     assert!(causes.iter().any(|(cause, n)| cause == "`poisson` at line 0" && *n > 0), "{causes:?}");
 }
 
@@ -501,8 +500,8 @@ fn other_faults_are_raised_always() {
         let text = format!(
             r#"(module (fn "m" (params) (set $a (sample (dist bernoulli 0.5))) {body} (return $b)) (entry "m"))"#
         );
-        for (number, found) in every_search(&text).into_iter().enumerate() {
-            match found {
+        for (number, result) in every_search(&text).into_iter().enumerate() {
+            match result {
                 Err(Failure::Run(met)) => assert_eq!((met.fault.code, &met.fault.invalid), (code, &None)),
                 // Enumeration and gradients have errors of their own.
                 Err(Failure::Setting(_)) if number >= 7 => {}

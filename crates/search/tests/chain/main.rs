@@ -1,5 +1,5 @@
-//! The claim: for every kernel the four strategies give the same chain to the bit, a rollback leaves nothing behind, and
-//! the sums are those of a run from the start; on programs that create, remove and re-enter calls in every combination.
+//! For every kernel the four strategies give equal chains to the bit, a rollback leaves nothing behind, and
+//! the sums equal those of a run from the start; on programs that create, remove and re-enter calls in every combination.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod board;
@@ -27,7 +27,7 @@ use programs::{PROGRAMS, leaf, task};
 use serde_json::json;
 use std::sync::Arc;
 
-/// One of every kind that the program may have, and all of them together.
+/// A kernel of every kind that suits the program, and all of them together.
 fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let drift = || leaf("drift", json!({"step": 0.7, "target": 0.44}));
     let neighbour = || leaf("neighbour", json!({"reach": 2}));
@@ -51,7 +51,7 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
         regrown = vec![("regrow", regrow(0.3, "size")), ("regrow by choice", regrow(1.0, "choice"))];
     }
     let all = Kernel::Cycle(parts);
-    let mut found = vec![
+    let mut kernels = vec![
         ("prior", Kernel::PRIOR),
         ("drift", drift()),
         ("neighbour", neighbour()),
@@ -64,23 +64,23 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
         ("annealed", Kernel::Anneal { start: 0.25, end: 2.0, steps: 200, kernel: Box::new(all.clone()) }),
         ("all", all),
     ];
-    found.extend(regrown);
-    found
+    kernels.extend(regrown);
+    kernels
 }
 
 /// Choices of a first state: the last part of the address, and the value.
 fn choices(task: &Task) -> Vec<(String, Value)> {
     let chain: Chain = Chain::start(task, &settings(), 0, None).expect("a chain");
-    let mut found = vec![];
+    let mut choices = vec![];
     chain.state.trace.visit(&task.program, |place, item| {
         if let Item::Choice(value, _) = item {
-            found.push((place.path().rsplit('/').next().expect("a part").to_string(), value.clone()));
+            choices.push((place.path().rsplit('/').next().expect("a part").to_string(), value.clone()));
         }
     });
-    found
+    choices
 }
 
-/// A user's proposals, by what a choice holds in a first state: a real number, a whole one, a boolean.
+/// A user's proposals for the kinds of choices in a first state: real numbers, whole numbers, booleans.
 fn own_proposals(task: &Task) -> Kernel {
     let mut sites: [Vec<String>; 3] = Default::default();
     for (site, value) in choices(task) {
@@ -96,13 +96,15 @@ fn own_proposals(task: &Task) -> Kernel {
         "poisson (add 0.5 (mul 0.5 (mul $old $old)))",
         "bernoulli (cond $old 0.3 0.8)",
     ];
-    let own = sites.into_iter().zip(dists).filter(|(sites, _)| !sites.is_empty()).map(|(sites, dist)| {
-        let text = format!(r#"(module (fn "near" (params $old) (return (dist {dist}))) (entry "near"))"#);
-        let user =
-            Kernel::Leaf(Proposer::Proposal(Arc::new(User::new(programs::task(&text)).expect("a proposal"))));
-        Kernel::On(Selection { sites: vec![sites], ..Selection::default() }, Box::new(user))
-    });
-    Kernel::Cycle(std::iter::once(Kernel::PRIOR).chain(own).collect())
+    let proposals =
+        sites.into_iter().zip(dists).filter(|(sites, _)| !sites.is_empty()).map(|(sites, dist)| {
+            let text = format!(r#"(module (fn "near" (params $old) (return (dist {dist}))) (entry "near"))"#);
+            let user = Kernel::Leaf(Proposer::Proposal(Arc::new(
+                User::new(programs::task(&text)).expect("a proposal"),
+            )));
+            Kernel::On(Selection { sites: vec![sites], ..Selection::default() }, Box::new(user))
+        });
+    Kernel::Cycle(std::iter::once(Kernel::PRIOR).chain(proposals).collect())
 }
 
 #[test]
@@ -136,7 +138,7 @@ fn four_strategies_make_the_same_ladder() {
     assert!(exchanges > 1000, "{exchanges} exchanges only");
 }
 
-/// A scene is scored as it is: the sketches follow what is kept and what is undone, with every kernel.
+/// A scene is scored as it is: with every kernel, the sketches follow moves that are kept and moves that are undone.
 #[test]
 fn four_strategies_score_the_same_scene() {
     let (_, text) = PROGRAMS.iter().find(|(name, _)| *name == "futures and shapes").expect("a program");

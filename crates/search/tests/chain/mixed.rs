@@ -137,7 +137,7 @@ fn four_strategies_make_the_same_mixed_chain() {
 }
 
 #[test]
-fn what_became_of_trajectories_is_counted() {
+fn ends_of_trajectories_are_counted() {
     let task = module(BRANCHES);
     let settings = Settings { seed: 2, kernel: mixed(hmc(0.5)), warmup: 400, thin: 0, ..Settings::default() };
     let mut chain = Chain::start(&task, &settings, 0, None).expect("a chain");
@@ -145,7 +145,7 @@ fn what_became_of_trajectories_is_counted() {
     let (counts, step, (structures, recordings)) = chain.trajectories().next().expect("a leaf");
     assert_eq!((counts.transitions, counts.settled), (2000, 1800));
     assert!(counts.moved > 800 && counts.unwritten == 0, "{counts:?}");
-    // Beyond the bound at which `more` begins there are other choices.
+    // Beyond the bound at which `more` begins, the run has other choices.
     assert!(counts.broken.refused[hamiltonian::Cause::Guard as usize] > 0, "{counts:?}");
     let accept = counts.accept / counts.settled as f64;
     assert!((0.6..0.95).contains(&accept) && step > 0.0, "{accept}");

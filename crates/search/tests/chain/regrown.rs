@@ -1,6 +1,6 @@
-//! The claim: regrowth leaves the posterior as it is, in all its forms, alone and composed, on small discrete programs that
-//! change their structure. (The list of deliberate errors has the terms that it could forget, each with the row here that
-//! rejects it.)
+//! Regrowth leaves the posterior as it is, in all its forms, alone and composed, on small discrete programs that
+//! change their structure. (The list of deliberate errors has the terms that regrowth could forget, each with the row here that
+//! rejects the error.)
 //!
 //! Exact draws from the posterior (from the prior, accepted by their score, which is never above zero) make a few moves
 //! each; the results are independent exact draws again, whatever the kernel's mixing. Shares of each value are compared with
@@ -135,7 +135,7 @@ fn on(pattern: &str, kernel: Kernel) -> Kernel {
     Kernel::On(Selection { sites: vec![vec![pattern.into()]], ..Selection::default() }, Box::new(kernel))
 }
 
-/// Every form; the last one is for the choices at one site, that of the first choice of a run.
+/// Every form of regrowth; the last form is for the choices at one site, that of the first choice of a run.
 fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     let chain: Chain = Chain::start(task, &Settings::default(), 0, None).expect("a chain");
     let first = chain.state.trace.path(&task.program, 0);
@@ -161,8 +161,8 @@ fn kernels(task: &Task) -> Vec<(&'static str, Kernel)> {
     ]
 }
 
-/// How draws of a program are told apart: by its value, where it returns one and there is no scene, else by the number and
-/// the sum of its choices.
+/// The text that distinguishes draws of a program: the value if there is one and no scene, else the number and
+/// the sum of the choices.
 fn outcome(task: &Task, run: &Run) -> String {
     let value = repr(&run.value).expect("a value");
     if value != "()" && task.sketches.is_empty() {
@@ -191,8 +191,8 @@ fn draws(task: &Task, seed: u64) -> impl Iterator<Item = (u64, Run)> {
     )
 }
 
-/// The shares of each outcome, and how much wider the variance of their differences is: exact ones, or of twenty times as
-/// many draws, where the program's value does not tell it.
+/// The shares of each outcome, and the factor of the variance of their differences: exact shares, or shares of twenty times as
+/// many draws if the program's value does not distinguish them.
 struct Law {
     shares: HashMap<String, f64>,
     wider: f64,
@@ -202,8 +202,8 @@ impl Law {
     fn of(task: &Task, starts: usize) -> Law {
         let mut shares = HashMap::new();
         let enumerated = enumerate(task, 1_000_000, &mut |_| true).ok();
-        let told = enumerated.filter(|all| all.outcomes.len() > 1 && task.sketches.is_empty());
-        let Some(all) = told else {
+        let distinct = enumerated.filter(|all| all.outcomes.len() > 1 && task.sketches.is_empty());
+        let Some(all) = distinct else {
             let n = 20 * starts;
             for (_, run) in draws(task, 1234).take(n) {
                 *shares.entry(outcome(task, &run)).or_default() += 1.0 / n as f64;
@@ -261,7 +261,7 @@ fn starts(task: &Task, seed: u64) -> impl Iterator<Item = (u64, Known)> {
 
 /// The rows of one program that are further off than chance allows, after `moves` moves from each of `count` draws.
 fn rejected(name: &str, count: usize, moves: u64) -> Vec<String> {
-    let (_, text) = PROGRAMS.iter().find(|(own, _)| *own == name).expect("a program");
+    let (_, text) = PROGRAMS.iter().find(|(program, _)| *program == name).expect("a program");
     let domain = Aabb { low: vec3(-0.2, -0.4, -0.2), high: vec3(0.2, 0.4, 0.2) };
     let mut task = task(text);
     if text.contains("emit") {
@@ -335,7 +335,7 @@ fn keeps_the_law_where_nothing_can_turn() {
     leaves_the_posterior_as_it_is("choices without another value");
 }
 
-/// What a longer chain cannot tell, bias from slow mixing: a million exact draws, one move of two particles each.
+/// Long chains cannot tell bias from slow mixing; here a million exact draws make one move of two particles each.
 #[test]
 #[ignore = "a million starts; `make soak`"]
 fn keeps_the_law_of_a_million_draws() {
@@ -345,7 +345,7 @@ fn keeps_the_law_of_a_million_draws() {
         "futures that wait for each other",
         "a loop that ends by chance",
     ] {
-        let (_, text) = PROGRAMS.iter().find(|(own, _)| *own == name).expect("a program");
+        let (_, text) = PROGRAMS.iter().find(|(program, _)| *program == name).expect("a program");
         let task = task(text);
         let law = Law::of(&task, COUNT);
         for turn in [0.0, 1.0] {
@@ -357,7 +357,7 @@ fn keeps_the_law_of_a_million_draws() {
     }
 }
 
-/// Programs whose runs are apart for `pick="choice"`, and programs whose runs are not.
+/// Programs whose runs are disconnected for `pick="choice"`, and programs whose runs are connected.
 const APART: [(&str, bool, &str); 7] = [
     (
         "loops that end at a choice",
@@ -415,7 +415,8 @@ fn runs_are_apart_where_chains_that_pick_choices_do_not_come_to_them() {
         let task = task(text);
         assert_eq!(is_apart(&task, 7), apart, "{name}");
         let exact = enumerate(&task, 10_000, &mut |_| true).expect("finitely many runs");
-        let likely = exact.outcomes.iter().filter(|one| (one.1 - exact.log_evidence).exp() > 0.02).count();
+        let likely =
+            exact.outcomes.iter().filter(|outcome| (outcome.1 - exact.log_evidence).exp() > 0.02).count();
         let settings = Settings { kernel: regrow(4, 0.5, json!("choice")), ..Settings::default() };
         let mut chain: Chain = Chain::start(&task, &settings, 0, None).expect("a chain");
         let mut met = HashSet::new();
@@ -424,8 +425,8 @@ fn runs_are_apart_where_chains_that_pick_choices_do_not_come_to_them() {
             met.insert(repr(&chain.state.trace.result()).expect("text"));
         }
         // Of the outcomes that are likelier than 2 %, a chain that reaches all misses one in e^-60 of the cases.
-        let reached = exact.outcomes.iter().filter(|one| {
-            (one.1 - exact.log_evidence).exp() > 0.02 && met.contains(&repr(&one.0).expect("text"))
+        let reached = exact.outcomes.iter().filter(|outcome| {
+            (outcome.1 - exact.log_evidence).exp() > 0.02 && met.contains(&repr(&outcome.0).expect("text"))
         });
         assert_eq!(reached.count() < likely, apart, "{name}: {met:?}");
     }

@@ -1,6 +1,6 @@
-//! The claim: a chain that is stored, and made again of its data in another process, goes on as if it had not ended: its
-//! data at the end is the same text, so choices and their numbers, scores, samples, the best state, what was learnt and
-//! what was counted are the same to the bit. For every kernel, ladders and trajectories, after any number of proposals, on
+//! A chain that is stored and restored in another process continues as if it had not ended. Its data at the end is
+//! the same text, so choices and their numbers, scores, samples, the best state, learnt scales and counts are equal to the
+//! bit. For every kernel, ladders and trajectories, after any number of proposals, on
 //! programs that create and remove choices.
 
 use super::mixed::{BRANCHES, MIXTURE, hmc, nuts};
@@ -18,7 +18,7 @@ use std::collections::HashMap;
 
 const STEPS: u64 = 240;
 
-/// Makes proposals, and stores the chain; from its data, where there is some.
+/// Makes proposals, from stored data if there is some, and stores the chain.
 fn proposed(
     task: &Task,
     settings: &Settings,
@@ -34,7 +34,7 @@ fn proposed(
     checkpoint.collect().0
 }
 
-/// The data at the end, whole and in pieces. Graphs are recorded again in each piece, and that is counted.
+/// The data at the end, of a whole chain and of one in pieces. Graphs are recorded again in each piece, which is counted.
 fn ends(task: &Task, settings: &Settings, pieces: &[u64]) -> [String; 2] {
     let whole = proposed(task, settings, HashMap::new(), STEPS);
     let mut left = HashMap::new();
@@ -58,7 +58,7 @@ fn ends(task: &Task, settings: &Settings, pieces: &[u64]) -> [String; 2] {
 /// Pieces of 1 to 90 proposals.
 const PIECES: [u64; 7] = [1, 7, 30, 2, 90, 47, 63];
 
-fn own(kernel: Kernel) -> Settings {
+fn settings_of(kernel: Kernel) -> Settings {
     Settings { kernel, warmup: 120, thin: 7, ..settings() }
 }
 
@@ -68,7 +68,7 @@ fn chains_go_on_with_the_same_bits() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         for (kind, kernel) in kernels(&task) {
-            let [whole, pieces] = ends(&task, &own(kernel), &PIECES);
+            let [whole, pieces] = ends(&task, &settings_of(kernel), &PIECES);
             assert!(whole == pieces, "{name}, {kind}:\n{whole}\n{pieces}");
         }
     }
@@ -80,7 +80,7 @@ fn ladders_go_on_with_the_same_bits() {
         let task = task(text);
         for (kind, kernel) in kernels(&task) {
             if matches!(kind, "drift" | "all" | "annealed" | "weights by depth") {
-                let settings = Settings { powers: vec![1.0, 0.3, 0.0], every: 4, ..own(kernel) };
+                let settings = Settings { powers: vec![1.0, 0.3, 0.0], every: 4, ..settings_of(kernel) };
                 let [whole, pieces] = ends(&task, &settings, &PIECES);
                 assert!(whole == pieces, "{name}, {kind}:\n{whole}\n{pieces}");
             }
@@ -93,7 +93,7 @@ fn trajectories_go_on_with_the_same_bits() {
     for (name, text) in [("a mixture", MIXTURE), ("branches", BRANCHES)] {
         let (task, ..) = super::calibration::both(text, 1.0);
         for (kind, leaf) in [("hmc", hmc(0.4)), ("nuts", nuts(0.4))] {
-            let settings = own(Kernel::Cycle(vec![leaf, Kernel::PRIOR]));
+            let settings = settings_of(Kernel::Cycle(vec![leaf, Kernel::PRIOR]));
             let [whole, pieces] = ends(&task, &settings, &PIECES);
             assert!(whole == pieces, "{name}, {kind}:\n{whole}\n{pieces}");
             assert!(whole.contains("Travels"));
@@ -101,7 +101,7 @@ fn trajectories_go_on_with_the_same_bits() {
     }
 }
 
-/// What an `improve` of some rounds tells, and its best choices; it is stopped after so many looks, and stored in each round.
+/// The report of an `improve` and its best choices; it is stopped after `looks` looks, and stored in each round.
 fn improved(task: &Task, left: HashMap<u64, String>, looks: u64) -> (Option<String>, HashMap<u64, String>) {
     let task = task.uncounted();
     let text = r#"{"method": "improve", "particles": 20, "regrow": 5, "power": 4.0, "rounds": 12,
@@ -110,16 +110,17 @@ fn improved(task: &Task, left: HashMap<u64, String>, looks: u64) -> (Option<Stri
     let checkpoint = Checkpoint::of(left);
     let outputs = Outputs { checkpoint: Some(&checkpoint), ..Outputs::default() };
     let mut looked = 0;
-    let found = method.search(&task, &Inputs { seed: 3, outputs, ..Inputs::default() }, &mut |_, _, _| {
+    let result = method.search(&task, &Inputs { seed: 3, outputs, ..Inputs::default() }, &mut |_, _, _| {
         checkpoint.ask();
         looked += 1;
         looked <= looks
     });
-    let found = found.expect("a search");
-    let Info::Improved(info) = found.info else { panic!("of improve") };
-    let rounds: Vec<_> = info.rounds.iter().map(|one| (one.kind, one.work, one.parts, one.best)).collect();
-    let told = format!("{rounds:?} {:?} {:?}", found.runs[0].log, found.runs[0].value);
-    ((!found.interrupted).then_some(told), checkpoint.collect().0)
+    let result = result.expect("a search");
+    let Info::Improved(info) = result.info else { panic!("of improve") };
+    let rounds: Vec<_> =
+        info.rounds.iter().map(|round| (round.kind, round.work, round.parts, round.best)).collect();
+    let report = format!("{rounds:?} {:?} {:?}", result.runs[0].log, result.runs[0].value);
+    ((!result.interrupted).then_some(report), checkpoint.collect().0)
 }
 
 #[test]
@@ -129,30 +130,30 @@ fn improve_goes_on_with_the_same_bits() {
         let sketches = vec![no_overshoot(domain, 2.0).expect("a sketch")];
         let task = Task { sketches, ..task(text) };
         let (whole, _) = improved(&task, HashMap::new(), u64::MAX);
-        let (mut left, mut stops, mut told) = (HashMap::new(), 0, None);
-        while told.is_none() {
+        let (mut left, mut stops, mut report) = (HashMap::new(), 0, None);
+        while report.is_none() {
             let (ended, stored) = improved(&task, left.clone(), 15 * (1 + stops));
-            told = ended;
-            // A part that was not stored again is that of before.
+            report = ended;
+            // A part that was not stored again keeps its earlier data.
             left.extend(stored);
             stops += 1;
         }
         assert!(stops > 2, "{stops} pieces");
-        assert_eq!(whole, told);
+        assert_eq!(whole, report);
     }
 }
 
-/// What is not of this chain is refused, and nothing else happens.
+/// Data of another chain is refused, without any effect.
 #[test]
 fn the_data_of_another_chain_is_refused() {
-    let (one, other) = (task(PROGRAMS[0].1), task(PROGRAMS[1].1));
-    let left = proposed(&one, &own(Kernel::PRIOR), HashMap::new(), 30);
+    let (first, other) = (task(PROGRAMS[0].1), task(PROGRAMS[1].1));
+    let left = proposed(&first, &settings_of(Kernel::PRIOR), HashMap::new(), 30);
     let refused = |task: &Task, settings: &Settings| {
         let checkpoint = Checkpoint::of(left.clone());
         Chains::start_from(task, settings, 1, None, Some(&checkpoint)).is_err()
     };
-    assert!(!refused(&one, &own(Kernel::PRIOR)));
-    assert!(refused(&other, &own(Kernel::PRIOR)));
-    assert!(refused(&one, &own(Kernel::Cycle(vec![Kernel::PRIOR, Kernel::PRIOR]))));
-    assert!(refused(&one, &Settings { powers: vec![1.0, 0.5], ..own(Kernel::PRIOR) }));
+    assert!(!refused(&first, &settings_of(Kernel::PRIOR)));
+    assert!(refused(&other, &settings_of(Kernel::PRIOR)));
+    assert!(refused(&first, &settings_of(Kernel::Cycle(vec![Kernel::PRIOR, Kernel::PRIOR]))));
+    assert!(refused(&first, &Settings { powers: vec![1.0, 0.5], ..settings_of(Kernel::PRIOR) }));
 }

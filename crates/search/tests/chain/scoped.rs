@@ -18,7 +18,7 @@ use niwaki_vm::core::parse::parse;
 use niwaki_vm::passes::{Scope, compile_with_scope};
 use std::sync::Arc;
 
-/// What it is, the program, a pattern and the proposal for the choices that match it.
+/// The description, the program, a pattern and the proposal for the choices that match it.
 const PROGRAMS: [(&str, &str, &str, &str); 6] = [
     (
         "a pure value that only the proposal reads, and one of two arms",
@@ -101,8 +101,8 @@ fn case(text: &str, pattern: &str, function: &str) -> (Task, Kernel) {
     let program = compile_with_scope(&parse(text).expect("core form"), vec![], Scope::Names(&names))
         .expect("a program");
     let on = Selection { sites: vec![vec![pattern.into()]], ..Selection::default() };
-    let own = Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(Arc::new(user)))));
-    (Task::new(Arc::new(program)), Kernel::Cycle(vec![Kernel::PRIOR, own.clone(), own]))
+    let scoped = Kernel::On(on, Box::new(Kernel::Leaf(Proposer::Proposal(Arc::new(user)))));
+    (Task::new(Arc::new(program)), Kernel::Cycle(vec![Kernel::PRIOR, scoped.clone(), scoped]))
 }
 
 fn settings(kernel: Kernel) -> Settings {
@@ -123,7 +123,7 @@ fn a_proposal_with_variables_in_scope_gives_the_exact_answer() {
 }
 
 #[test]
-fn four_strategies_agree_on_it() {
+fn four_strategies_agree_with_proposals_in_scope() {
     for (name, text, pattern, function) in PROGRAMS {
         let (kept, kernel) = case(text, pattern, function);
         let (difference, compared) = compare(&kept, &settings(kernel), 2000, 30).expect("a chain");

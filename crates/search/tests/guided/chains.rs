@@ -29,11 +29,11 @@ use std::sync::Arc;
 fn draws(task: &Task, count: usize) -> Vec<Vec<Entry>> {
     let scores = (0..2000).map(|stream| forward(task, 2, stream, false).expect("a run").log_score);
     let bound = scores.fold(f64::NEG_INFINITY, f64::max) + 0.5;
-    let found = rejection(task, count, bound, u64::MAX, 1, &mut |_| true).expect("draws");
-    found.runs.iter().map(|run| run.log.entries()).collect()
+    let accepted = rejection(task, count, bound, u64::MAX, 1, &mut |_| true).expect("draws");
+    accepted.runs.iter().map(|run| run.log.entries()).collect()
 }
 
-/// The values after so many moves from each of them.
+/// The values after `moves` moves from each start.
 fn moved(task: &Task, kernel: &Kernel, starts: &[Vec<Entry>], moves: u64) -> Vec<String> {
     let after = |(number, start): (u64, &Vec<Entry>)| {
         let settings = Settings { seed: 8, kernel: kernel.clone(), thin: 0, ..Settings::default() };
@@ -86,7 +86,7 @@ fn guided_regrowth_keeps_the_posterior() {
     }
 }
 
-/// The discs of the part are compared where the third disc is, which moves with what the part returns.
+/// The discs of the part are compared with the place of the third disc, which moves with the value of the part.
 #[test]
 fn regrowth_without_a_guide_keeps_the_posterior_of_parts_that_move_others() {
     let text = r#"(module (fn "pick" (params)
@@ -142,13 +142,13 @@ fn guided_sweeps_keep_the_posterior() {
                 (2, Ancestors::Sampled, Resampling::Multinomial),
                 (1, Ancestors::Sampled, Resampling::Tempered),
             ] {
-                let own = niwaki_particles::Settings {
+                let base = niwaki_particles::Settings {
                     resampling,
                     ..settings(&task, number, WILD, 3, order.clone())
                 };
                 let after = |(seed, start): (u64, &Vec<Entry>)| {
-                    let own = niwaki_particles::Settings { seed, ..own.clone() };
-                    let chain = particle_gibbs(&task, &own, ancestors, 2, Some(start), &mut |_| true);
+                    let base = niwaki_particles::Settings { seed, ..base.clone() };
+                    let chain = particle_gibbs(&task, &base, ancestors, 2, Some(start), &mut |_| true);
                     repr(&chain.expect("a chain").states.last().expect("a state").value).expect("a value")
                 };
                 let values: Vec<String> = on_one_thread(|| (0..).zip(&starts).map(after).collect());
@@ -164,24 +164,21 @@ fn guided_sweeps_keep_the_posterior() {
 fn guided_populations_keep_the_posterior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let own = settings(&task, 1, MILD, 4, Order::Stochastic);
-        let last = |seed| match pimh(
-            &task,
-            &niwaki_particles::Settings { seed, ..own.clone() },
-            40,
-            &mut |_| true,
-        ) {
-            Ok(chain) => Some(repr(&chain.states.last().expect("a state").value).expect("a value")),
-            Err(failure) if failure.is_impossible() => None,
-            Err(other) => panic!("{other}"),
-        };
+        let base = settings(&task, 1, MILD, 4, Order::Stochastic);
+        let last =
+            |seed| match pimh(&task, &niwaki_particles::Settings { seed, ..base.clone() }, 40, &mut |_| true)
+            {
+                Ok(chain) => Some(repr(&chain.states.last().expect("a state").value).expect("a value")),
+                Err(failure) if failure.is_impossible() => None,
+                Err(other) => panic!("{other}"),
+            };
         let values: Vec<String> = on_one_thread(|| (0..600).filter_map(last).collect());
         let far = Law::of(&task).wrong_counts(&values);
         assert!(far.is_empty(), "{name}: {far:?}");
     }
 }
 
-/// As data a kernel names its guide by number.
+/// A kernel as data names its guide by number.
 #[test]
 fn a_kernel_as_data_names_its_guide() {
     let task = task(PROGRAMS[0].1);
@@ -201,7 +198,7 @@ fn a_kernel_as_data_names_its_guide() {
     }
 }
 
-/// A search for the best draws its populations and its parts by a guide, and finds the best run there is.
+/// A search for the best draws its populations and its parts by a guide, and finds the best possible run.
 #[test]
 fn a_guided_search_finds_the_best() {
     let task = task(PROGRAMS[0].1);
@@ -214,8 +211,8 @@ fn a_guided_search_finds_the_best() {
                 "diverse": null, "proposal": {proposal}}}"#
         );
         let inputs = Inputs { seed: 4, attached: &attached, ..Inputs::default() };
-        let found = Method::read(&text).expect("a method").search(&task, &inputs, &mut |_, _, _| true);
-        found.expect("a search").runs.swap_remove(0)
+        let results = Method::read(&text).expect("a method").search(&task, &inputs, &mut |_, _, _| true);
+        results.expect("a search").runs.swap_remove(0)
     };
     let guided = search(r#"{"name": "guided", "function": 0}"#);
     assert!(guided.log_score >= best, "{} of {best}", guided.log_score);

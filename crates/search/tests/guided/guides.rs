@@ -1,5 +1,5 @@
-//! Guides that no training made: what traces show decides what they see, and their weights are random and large, so that
-//! they are far from the prior and turn on everything that they see.
+//! Guides without training. Traces determine their inputs; their weights are random and large, so that
+//! they are far from the prior and depend on all inputs.
 
 use niwaki_guide::{Net, NetForm, write};
 use niwaki_math::Stream;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// The share of the prior: large, so that no weight is so rare and so great that averages are not normal.
 const SHARE: f64 = 0.25;
-/// Deviations of what is added to each weight: for single particles, which must meet every value often enough to be
+/// Deviations of the changes of weights: for single particles, which must meet every value often enough to be
 /// counted, and for chains.
 pub const MILD: f64 = 0.5;
 pub const WILD: f64 = 1.0;
@@ -26,13 +26,13 @@ fn making() -> Making {
     serde_json::from_value(settings).expect("settings")
 }
 
-/// The bytes of a guide with random weights; its inputs are used as they are.
+/// The bytes of a guide with random weights; its inputs are not standardised.
 fn shaken(mut bytes: Vec<u8>, seed: u64, spread: f64) -> Vec<u8> {
     let length = u64::from_le_bytes(bytes[..8].try_into().expect("eight")) as usize;
     let (head, data) = bytes.split_at_mut(8 + length);
     let header: Value = serde_json::from_slice(&head[8..]).expect("a header");
     let place =
-        |name: &str, which: usize| header[name]["data_offsets"][which].as_u64().expect("a place") as usize;
+        |name: &str, index: usize| header[name]["data_offsets"][index].as_u64().expect("a place") as usize;
     let mut stream = Stream::new(seed, 0, 0, 0);
     for weight in data[place("weights", 0)..place("weights", 1)].chunks_exact_mut(4) {
         let old = f32::from_le_bytes(weight.try_into().expect("four"));

@@ -16,17 +16,17 @@ const POINTS: usize = 320;
 /// Values of a count.
 const COUNTS: usize = 20;
 
-/// The value of a program, and what is known of it.
+/// The evidence and the distribution of a program's value.
 pub struct Law {
     pub log_evidence: f64,
-    /// Of each value that is not rare; the others together have no name.
+    /// The shares of values that are not rare.
     pub shares: Vec<(String, f64)>,
 }
 
 /// A value of a choice by number, with the log of its probability.
 type Visited<'a> = Box<dyn Fn(usize) -> (Value, f64) + 'a>;
 
-/// How many values of a choice are visited, and each of them.
+/// The number of values of a choice to visit, and the function that gives them.
 fn values(dist: &Dist) -> (usize, Visited<'_>) {
     if let Some(draws) = dist.enumerate() {
         let all = draws.into_iter().map(|draw| (Value::from(draw.clone()), dist.log_density(&draw)));
@@ -41,11 +41,11 @@ fn values(dist: &Dist) -> (usize, Visited<'_>) {
         _ => return (COUNTS, Box::new(|at| (Value::Int(at as i64), dist.log_density_of_int(at as i64)))),
     };
     let step = (high - low) / POINTS as f64;
-    let one = move |at: usize| {
+    let value = move |at: usize| {
         let x = low + (at as f64 + 0.5) * step;
         (Value::Real(x), dist.log_density_of_real(x) + step.ln())
     };
-    (POINTS, Box::new(one))
+    (POINTS, Box::new(value))
 }
 
 /// Gives the choices of a run the values with these numbers, and stops at the next one.
@@ -71,7 +71,7 @@ impl Chooser for &mut Visiting<'_> {
 }
 
 impl Law {
-    /// Of a task.
+    /// The law of a task.
     pub fn of(task: &Task) -> Law {
         let mut masses: BTreeMap<String, f64> = BTreeMap::new();
         let mut work = vec![vec![]];
@@ -97,37 +97,37 @@ impl Law {
         Law { log_evidence: evidence.ln(), shares: shares.filter(|(_, share)| *share > 0.01).collect() }
     }
 
-    /// The values, of `count` draws, whose shares are further off than chance allows.
+    /// The values whose shares among the draws are further off than chance allows.
     pub fn wrong_counts(&self, drawn: &[String]) -> Vec<String> {
         let n = drawn.len() as f64;
         let far = self.shares.iter().filter_map(|(name, p)| {
-            let share = drawn.iter().filter(|own| *own == name).count() as f64 / n;
+            let share = drawn.iter().filter(|value| *value == name).count() as f64 / n;
             let z = (share - p) / (p * (1.0 - p) / n).sqrt();
             (z.abs() > LIMIT).then(|| format!("{name}: z = {z:.1}"))
         });
         far.collect()
     }
 
-    /// The quantities whose estimates are further off than chance allows: of the evidence, and of each value's part of
-    /// it. Of each of `runs` independent runs: its log evidence, and its values with log weights.
+    /// The quantities whose estimates are further off than chance allows: the evidence, and each value's part of
+    /// it. Each of the independent `runs` has its log evidence, and its values with log weights.
     pub fn wrong_estimates(&self, runs: impl Iterator<Item = (f64, Vec<(String, f64)>)>) -> Vec<String> {
-        let mut found = vec![vec![]; self.shares.len() + 1];
+        let mut estimates = vec![vec![]; self.shares.len() + 1];
         for (log_evidence, values) in runs {
             let evidence = (log_evidence - self.log_evidence).exp();
             let total: f64 = values.iter().map(|(_, log)| log.exp()).sum();
-            found[0].push(evidence);
-            for (own, (name, _)) in found[1..].iter_mut().zip(&self.shares) {
+            estimates[0].push(evidence);
+            for (estimates_of_value, (name, _)) in estimates[1..].iter_mut().zip(&self.shares) {
                 let part: f64 =
                     values.iter().filter(|(value, _)| value == name).map(|(_, log)| log.exp()).sum();
-                own.push(if total > 0.0 { evidence * part / total } else { 0.0 });
+                estimates_of_value.push(if total > 0.0 { evidence * part / total } else { 0.0 });
             }
         }
         let names =
             std::iter::once(("evidence", 1.0)).chain(self.shares.iter().map(|(n, p)| (n.as_str(), *p)));
-        let far = names.zip(found).filter_map(|((name, expected), found)| {
-            let n = found.len() as f64;
-            let mean = found.iter().sum::<f64>() / n;
-            let variance = found.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n;
+        let far = names.zip(estimates).filter_map(|((name, expected), estimates)| {
+            let n = estimates.len() as f64;
+            let mean = estimates.iter().sum::<f64>() / n;
+            let variance = estimates.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n;
             let z = (mean - expected) / (variance / n).sqrt().max(1e-12);
             (z.abs() > LIMIT).then(|| format!("{name}: z = {z:.1}"))
         });

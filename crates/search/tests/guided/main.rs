@@ -1,10 +1,10 @@
-//! The claim: with any guide, every method gives the same evidence and the same posterior as without one, with guides of random
-//! weights that are far from the prior, on programs with discrete and continuous choices, with and without a sketch to
-//! look at.
+//! With any guide, every method gives the evidence and the posterior of the method without a guide. The guides have random
+//! weights far from the prior; the programs have discrete and continuous choices, with and without a sketch that guides
+//! see.
 //!
 //! Answers come from enumeration and quadrature ([`law`]). Estimates are averaged, values counted; a quantity
-//! is compared with the exact one by its distance in standard errors. Beyond 5 it lies once in 1.7 million, some 700
-//! are looked at, so a re-seeded suite fails once in 2,400 runs.
+//! is compared with the exact one by its distance in standard errors. It is beyond 5 once in 1.7 million; there are some
+//! 700 quantities, so a re-seeded suite fails once in 2,400 runs.
 
 mod chains;
 mod guides;
@@ -13,10 +13,10 @@ mod populations;
 mod programs;
 mod strategies;
 
-/// Standard errors from the exact answer that chance does not reach.
+/// Largest distance from the exact answer in standard errors; chance does not reach it.
 const LIMIT: f64 = 5.0;
 
-/// For many small searches, which gain nothing from more threads; the same bits.
+/// Runs many small searches, which gain nothing from more threads, on one thread; the bits are equal.
 fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool").install(work)
 }

@@ -14,14 +14,14 @@ use niwaki_run::resampling::Resampling;
 use niwaki_vm::value::repr;
 use std::sync::Arc;
 
-/// The proposal that is a guide.
+/// The proposal of a guide.
 pub fn by(task: &Task, number: u64, spread: f64) -> Arc<Proposal> {
     Arc::new(Kernel::guided(random(task, number, spread)).proposal().expect("a proposal"))
 }
 
-/// What is wrong with the estimates of populations with these settings.
+/// The wrong estimates of populations with these settings.
 fn wrong(task: &Task, law: &Law, settings: &Settings, seeds: u64) -> Vec<String> {
-    let one = |seed| match smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true) {
+    let population = |seed| match smc(task, &Settings { seed, ..settings.clone() }, &mut |_| true) {
         Ok(run) => {
             let values = run.particles.iter().map(|p| (repr(&p.value).expect("a value"), p.log_weight));
             (run.log_evidence.expect("an estimate"), values.collect())
@@ -29,10 +29,10 @@ fn wrong(task: &Task, law: &Law, settings: &Settings, seeds: u64) -> Vec<String>
         Err(failure) if failure.is_impossible() => (f64::NEG_INFINITY, vec![]),
         Err(other) => panic!("{other}"),
     };
-    on_one_thread(|| law.wrong_estimates((0..seeds).map(one)))
+    on_one_thread(|| law.wrong_estimates((0..seeds).map(population)))
 }
 
-/// Guides that change nothing would be no test: how far the weights of their runs are from those of the prior's.
+/// Guides that change nothing would be no test: the weights of their runs must differ from those of the prior's runs.
 #[test]
 fn the_guides_are_far_from_the_prior() {
     for (name, text) in PROGRAMS {
@@ -61,17 +61,17 @@ fn evidence_and_posterior_do_not_depend_on_the_guide() {
             ] {
                 let proposal = Some(by(&task, number, MILD));
                 let order = order.clone();
-                let own = Settings { particles, order, resampling, proposal, ..Settings::default() };
-                let far = wrong(&task, &law, &own, seeds);
-                assert!(far.is_empty(), "{name}, {:?}, {particles} particles: {far:?}", own.order);
+                let base = Settings { particles, order, resampling, proposal, ..Settings::default() };
+                let far = wrong(&task, &law, &base, seeds);
+                assert!(far.is_empty(), "{name}, {:?}, {particles} particles: {far:?}", base.order);
             }
         }
     }
 }
 
-/// Weights that wait for a resampling, and particles that are moved by kernels of which some are guides.
+/// Weights that wait for a resampling, and particles that kernels move, some of them guides.
 #[test]
-fn nor_do_they_beside_other_settings() {
+fn other_settings_keep_evidence_and_posterior() {
     for (name, text) in PROGRAMS {
         let task = task(text);
         let law = Law::of(&task);
@@ -79,27 +79,27 @@ fn nor_do_they_beside_other_settings() {
         let kernel =
             Kernel::Mixture(vec![(1.0, Kernel::PRIOR), (1.0, Kernel::guided(random(&task, 4, MILD)))]);
         let moved = Rejuvenation { kernel, moves: 2, at: Moment::Every(1), final_chains: None };
-        for own in [
+        for variant in [
             Settings { when: When::EffectiveBelow(0.5), ..plain.clone() },
             Settings { rejuvenate: Some(moved), ..plain.clone() },
         ] {
-            let far = wrong(&task, &law, &own, 1200);
+            let far = wrong(&task, &law, &variant, 1200);
             assert!(far.is_empty(), "{name}: {far:?}");
         }
     }
 }
 
-/// The same seed gives the same bits on any number of threads: a particle is drawn by what it sees, whoever ran before it.
+/// Equal seeds give equal bits on any number of threads: a particle's draws depend on its inputs alone.
 #[test]
 fn threads_change_nothing() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let own =
+        let base =
             Settings { particles: 100, seed: 3, proposal: Some(by(&task, 1, MILD)), ..Settings::default() };
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
             pool.install(|| {
-                smc(&task, &own, &mut |_| true).expect("a run").log_evidence.expect("an estimate").to_bits()
+                smc(&task, &base, &mut |_| true).expect("a run").log_evidence.expect("an estimate").to_bits()
             })
         };
         assert_eq!([run(1), run(1)], [run(2), run(5)], "{name}");
@@ -110,10 +110,10 @@ fn threads_change_nothing() {
 fn importance_sampling_weighs_what_a_guide_draws() {
     for (name, text) in PROGRAMS {
         let task = task(text);
-        let found = importance(&task, Some(&by(&task, 1, MILD)), 12_000, 3, &mut |_| true).expect("runs");
-        let one =
+        let result = importance(&task, Some(&by(&task, 1, MILD)), 12_000, 3, &mut |_| true).expect("runs");
+        let weighted_value =
             |run: &niwaki_run::run::Run| (run.log_weight, vec![(repr(&run.value).expect("a value"), 0.0)]);
-        let far = Law::of(&task).wrong_estimates(found.runs.iter().map(one));
+        let far = Law::of(&task).wrong_estimates(result.runs.iter().map(weighted_value));
         assert!(far.is_empty(), "{name}: {far:?}");
     }
 }

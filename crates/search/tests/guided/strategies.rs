@@ -49,12 +49,12 @@ fn four_strategies_make_the_same_guided_chain() {
 
 /// Programs that create, remove and re-enter calls in every combination.
 #[test]
-fn so_they_do_on_the_programs_of_the_machine() {
+fn four_strategies_agree_on_the_programs_of_the_machine() {
     for (name, text) in of_the_machine::PROGRAMS {
-        let own = task(text);
-        agree(name, &Task { sketches: vec![], ..own.clone() });
+        let guided = task(text);
+        agree(name, &Task { sketches: vec![], ..guided.clone() });
         if text.contains("emit") {
-            agree(name, &Task { sketches: vec![page(0.6)], ..own });
+            agree(name, &Task { sketches: vec![page(0.6)], ..guided });
         }
     }
 }

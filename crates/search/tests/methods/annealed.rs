@@ -18,7 +18,7 @@ use std::sync::Arc;
 const HALF: &str = r#"(module (fn "m" (params) (set $x (sample (dist categorical (list 0.5 0.3 0.2))))
     (do (condition (gt $x 0))) (do (factor (cond (eq $x 2) 3.0 0.0))) (return $x)) (entry "m"))"#;
 
-/// A second choice where the first one is heads, and a third where both are.
+/// A second choice if the first is heads, and a third if both are.
 const GROWING: &str = r#"(module (fn "m" (params)
     (if (sample (dist bernoulli 0.3))
         (then (set $n (sample (dist discrete_uniform 0 2))) (do (factor (mul $n 1.5)))
@@ -44,13 +44,14 @@ fn worst(text: &str, powers: &[f64]) -> f64 {
     truths.insert("all".into(), exact.log_evidence.exp());
     let mut sums: HashMap<String, (f64, f64)> = HashMap::new();
     for seed in 0..SEARCHES {
-        let found = annealed(&task, &settings(powers, seed), &|_| true).expect("a search");
-        let mut own: HashMap<String, f64> = HashMap::new();
-        for run in &found.runs {
-            *own.entry(repr(&run.value).expect("a text")).or_default() += 0.5 * run.log_weight.exp();
+        let result = annealed(&task, &settings(powers, seed), &|_| true).expect("a search");
+        let mut evidence_by_value: HashMap<String, f64> = HashMap::new();
+        for run in &result.runs {
+            *evidence_by_value.entry(repr(&run.value).expect("a text")).or_default() +=
+                0.5 * run.log_weight.exp();
         }
-        own.insert("all".into(), found.log_evidence.expect("an evidence").exp());
-        for (name, x) in own {
+        evidence_by_value.insert("all".into(), result.log_evidence.expect("an evidence").exp());
+        for (name, x) in evidence_by_value {
             let (sum, squares) = sums.entry(name).or_default();
             *sum += x;
             *squares += x * x;
@@ -90,8 +91,8 @@ fn a_ladder_makes_weights_equal() {
             .effective
     };
     let of = |rungs| effective(&Powers::Rungs(rungs).ladder());
-    let found = [1, 6, 60].map(of);
-    assert!(found.is_sorted_by(|a, b| a < b), "{found:?}");
+    let effective = [1, 6, 60].map(of);
+    assert!(effective.is_sorted_by(|a, b| a < b), "{effective:?}");
 }
 
 #[test]
@@ -100,23 +101,23 @@ fn a_ladder_rises_to_one() {
 }
 
 #[test]
-fn what_was_stopped_has_no_evidence() {
+fn stopped_searches_have_no_evidence() {
     let calls = std::sync::atomic::AtomicUsize::new(0);
     let watch = |_: f64| calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 40;
     let settings = Settings { particles: 1000, ..settings(&[0.5, 1.0], 1) };
-    let found = annealed(&task(HALF), &settings, &watch).expect("a part");
-    assert!(found.interrupted && found.log_evidence.is_none() && (1..1000).contains(&found.runs.len()));
+    let result = annealed(&task(HALF), &settings, &watch).expect("a part");
+    assert!(result.interrupted && result.log_evidence.is_none() && (1..1000).contains(&result.runs.len()));
     let none = annealed(&task(HALF), &settings, &|_| false);
     assert!(none.is_err());
 }
 
 #[test]
-fn threads_do_not_matter() {
+fn numbers_of_threads_change_no_bit() {
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         let settings = Settings { particles: 50, ..settings(&[0.1, 0.5, 1.0], 9) };
-        let found = pool.install(|| annealed(&task(GROWING), &settings, &|_| true).expect("a search"));
-        (found.log_evidence.map(f64::to_bits), format!("{:?}", found.runs))
+        let result = pool.install(|| annealed(&task(GROWING), &settings, &|_| true).expect("a search"));
+        (result.log_evidence.map(f64::to_bits), format!("{:?}", result.runs))
     };
     assert_eq!(run(1), run(3));
 }

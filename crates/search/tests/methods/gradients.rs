@@ -1,5 +1,5 @@
-//! Recorded programs: the density over coordinates is the program's own log joint times the Jacobian of the
-//! transforms, its gradient is that of central differences, and where a guard fails the program is recorded again.
+//! Recorded programs: the density over coordinates is the program's log joint times the Jacobian of the
+//! transforms, its gradient agrees with central differences, and if a guard fails the program is recorded again.
 
 use niwaki_grad::{Live, Native, Recorded, Refused};
 use niwaki_propose::gradient::positions::{Lifted, Placer};
@@ -29,7 +29,7 @@ fn log_joint(task: &Task, choices: HashMap<u128, Value>) -> f64 {
     trace.sums.0.plus(&trace.sums.1).value()
 }
 
-/// The real numbers of a choice's value, all but the last share of a simplex.
+/// The real numbers of a choice's value, except the last share of a simplex.
 fn numbers(value: &Value, simplex: bool) -> Vec<f64> {
     let mut all: Vec<f64> = match value {
         Value::Real(x) => vec![*x],
@@ -46,8 +46,9 @@ fn numbers(value: &Value, simplex: bool) -> Vec<f64> {
 
 fn flat(recorded: &Recorded, x: &[f64]) -> Vec<f64> {
     let values = recorded.values(x);
-    let one = |c: &niwaki_grad::Continuous| numbers(&values[&c.address], c.transform.name() == "simplex");
-    recorded.choices.iter().flat_map(one).collect()
+    let numbers_of =
+        |c: &niwaki_grad::Continuous| numbers(&values[&c.address], c.transform.name() == "simplex");
+    recorded.choices.iter().flat_map(numbers_of).collect()
 }
 
 /// The derivative at 0, by differences of the fourth order.
@@ -80,7 +81,7 @@ fn log_jacobian(recorded: &Recorded, x: &[f64]) -> f64 {
     log
 }
 
-/// Checks one program around a forward run: value, Jacobian, gradient, machine code. How many points were inside.
+/// Checks a program around a forward run: value, Jacobian, gradient, machine code. Returns the number of points inside.
 fn check(body: &str, seed: u64) -> usize {
     let task = task(body);
     let recorded = record(&task, &choices(&task, seed)).unwrap_or_else(|failure| panic!("{body}: {failure}"));
@@ -98,7 +99,7 @@ fn check(body: &str, seed: u64) -> usize {
     let size = g.iter().fold(1e-2, |m: f64, x| m.max(x.abs()));
     for (k, derivative) in g.iter().enumerate() {
         let difference = slope(&|t| density.interpret(&moved(&x, k, t), &mut vec![0.0; n]), 1e-3);
-        // A step that leaves the guards is no test.
+        // A step that leaves the guards tests nothing.
         let close = difference.is_nan() || (difference - derivative).abs() < 1e-6 * size;
         assert!(close, "{body}, seed {seed}: {} by differences {difference}", derivative);
     }
@@ -217,21 +218,22 @@ fn where_a_guard_fails_the_program_is_recorded_again() {
 }
 
 #[test]
-fn a_run_on_the_same_path_needs_no_recording_of_its_own() {
+fn runs_on_a_known_path_need_no_recording() {
     let coin = task(&format!("(set $c (sample (dist bernoulli 0.5))) {CORNER}"));
     let first = live(&coin, &choices(&coin, 1)).expect("a density");
     let mut shared = 0;
     for seed in 2..40 {
-        let (other, own) = (choices(&coin, seed), record(&coin, &choices(&coin, seed)).expect("a density"));
-        let alike = own.structure == first.recorded().structure
-            && own.density.guards() == first.recorded().density.guards();
+        let (other, separate) =
+            (choices(&coin, seed), record(&coin, &choices(&coin, seed)).expect("a density"));
+        let alike = separate.structure == first.recorded().structure
+            && separate.density.guards() == first.recorded().density.guards();
         match first.beside(&other) {
-            Some((mut found, x)) => {
-                assert!(alike && found.recordings() == 0, "{seed}");
+            Some((mut beside, x)) => {
+                assert!(alike && beside.recordings() == 0, "{seed}");
                 let (mut g, mut expected) = (vec![0.0; 2], vec![0.0; 2]);
-                let value = found.value_and_gradient(&x, &mut g).expect("inside");
+                let value = beside.value_and_gradient(&x, &mut g).expect("inside");
                 let near = |a: f64, b: f64| (a - b).abs() < 1e-12 * (1.0 + b.abs());
-                assert!(near(value, own.density.interpret(&own.start, &mut expected)));
+                assert!(near(value, separate.density.interpret(&separate.start, &mut expected)));
                 assert!(g.iter().zip(&expected).all(|(a, b)| near(*a, *b)));
                 shared += 1;
             }
@@ -256,7 +258,7 @@ fn where_the_choices_change_the_point_is_refused() {
 }
 
 #[test]
-fn what_cannot_be_followed_says_why_with_the_line() {
+fn densities_without_gradient_fail_with_the_line() {
     let code = |body: &str| {
         let task = task(body);
         match record(&task, &choices(&task, 1)) {
@@ -275,7 +277,7 @@ fn what_cannot_be_followed_says_why_with_the_line() {
 }
 
 #[test]
-fn a_density_goes_on_the_same_when_its_machine_code_is_ready() {
+fn densities_are_equal_with_and_without_machine_code() {
     let task = task(CORNER);
     let mut live = live(&task, &choices(&task, 1)).expect("a density");
     let mut g = vec![0.0; 2];
@@ -289,8 +291,8 @@ fn a_density_goes_on_the_same_when_its_machine_code_is_ready() {
     assert!((before - after).abs() < 1e-13 && slope.iter().zip(&g).all(|(a, b)| (a - b).abs() < 1e-13));
 }
 
-/// Where a point of each shape is, by one choice of the program: the derivative by the recorded graph is that of
-/// central differences of the recorded place, and the place is that of the shape.
+/// The place of a point of each shape depends on a choice of the program: its derivative by the recorded graph agrees with
+/// central differences of the recorded place, and the place with that of the shape.
 #[test]
 fn derivatives_of_positions_are_central_differences() {
     let task = task(
@@ -324,9 +326,12 @@ fn derivatives_of_positions_are_central_differences() {
                     known.insert(movable.address, Value::Real(movable.value + by));
                     place(&known, part)[axis]
                 };
-                let found = slope(&at, 1e-4);
-                let given = slopes[axis * count + k];
-                assert!((found - given).abs() < 1e-9, "part {part}, axis {axis}: {given} and not {found}");
+                let difference = slope(&at, 1e-4);
+                let recorded = slopes[axis * count + k];
+                assert!(
+                    (difference - recorded).abs() < 1e-9,
+                    "part {part}, axis {axis}: {recorded} and not {difference}"
+                );
             }
         }
     }
@@ -334,12 +339,12 @@ fn derivatives_of_positions_are_central_differences() {
     let (a, r) = (positions.movables[0].value, positions.movables[1].value);
     let frame = positions.frame(0, 0).expect("it moves");
     let exact = [r * a.cos(), r * a.sin(), 1.0, a.cos(), a.sin(), 0.0, -r * a.sin(), r * a.cos(), 0.0];
-    for (given, exact) in frame.iter().zip(exact) {
-        assert!((given - exact).abs() < 1e-12, "{given} and not {exact}");
+    for (number, exact) in frame.iter().zip(exact) {
+        assert!((number - exact).abs() < 1e-12, "{number} and not {exact}");
     }
 }
 
-/// A number of the program that may move takes a choice with it that is drawn around it.
+/// If a number of the program moves, a choice that is drawn around it moves too.
 #[test]
 fn a_choice_keeps_its_place_in_a_distribution_that_moves() {
     let text = r#"(module (fn "m" (params $mean)

@@ -1,4 +1,4 @@
-//! The probabilities of an `infer` by enumeration, recorded: those of the plain run to the bit, with their derivatives.
+//! The probabilities of an `infer` by enumeration, recorded: equal to those of the plain run to the bit, with derivatives.
 //!
 //! An inner coin has the prior 0.3 and heads score `x`, so that `p = 0.3 e^x / (0.3 e^x + 0.7)` and `dp/dx = p (1 - p)`. Mutant in
 //! `tests/mutants`: a normaliser that does not vary, for which `dp/dx = p`. Log densities lie on a grid of 2^-32, so

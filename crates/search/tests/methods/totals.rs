@@ -1,4 +1,4 @@
-//! The claim: totals are exact for terms of any size. The totals of a chain equal those of a run from the start with its
+//! Totals are exact for terms of any size. The totals of a chain equal those of a run from the start with its
 //! choices. Terms that cancel do not change a chain or particles.
 
 use niwaki_agreement::compare;
@@ -56,7 +56,7 @@ fn a_chain_forgets_no_nat_of_a_start_far_away() {
             let best = chain.best.get(&chain.state, &task).expect("the best state");
             let (log_prior, score) = replayed(&task, &best.log);
             assert_eq!((best.log_prior, best.log_score), (log_prior.value(), score.value()));
-            // The best of what it carried is the same state's.
+            // The best state of a single state is that state.
             assert_eq!(chain.best.score(), score.value(), "{strategy:?}");
             assert!(best.log_score > 0.0);
         }
@@ -134,15 +134,15 @@ fn terms_that_cancel_leave_the_same_particles() {
             seed: 4,
             ..niwaki_particles::Settings::default()
         };
-        let found = smc(&task, &settings, &mut |_| true).expect("particles");
-        for p in &found.particles {
+        let result = smc(&task, &settings, &mut |_| true).expect("particles");
+        for p in &result.particles {
             let (log_prior, log_score) = replayed(&task, &p.log);
             assert_eq!((p.log_prior, p.log_score), (log_prior.value(), log_score.value()));
         }
         let of = |p: &niwaki_run::run::Run| {
             format!("{:?} {:?} {:?} {}", p.value, p.log_prior, p.log_score, p.log_weight)
         };
-        found.particles.iter().map(of).collect::<Vec<_>>()
+        result.particles.iter().map(of).collect::<Vec<_>>()
     };
     let drift = leaf("drift", json!({"step": 0.7, "target": 0.44}));
     for rejuvenate in

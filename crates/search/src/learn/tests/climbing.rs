@@ -1,5 +1,5 @@
-//! The claims: on a program whose runs can be listed the mean of the estimated gradients is the gradient of the exact bound, for
-//! one run and for several; a climb closes the gap to the log evidence where the guide can express the posterior; threads and
+//! The mean of the estimated gradients is the gradient of the exact bound, for one run and for several, on a program whose
+//! runs can be listed. A climb closes the gap to the log evidence if the guide can express the posterior. Threads and
 //! checkpoints change no bit; impossible runs and numbers that are not finite do no harm.
 
 use crate::learn::climb::{Case, Climbed, Use, climb, draw, signed};
@@ -26,7 +26,7 @@ const TWO_WAYS: &str = r#"(module (fn "m" (params)
     (then (set $b (sample (dist categorical (list 0.2 0.5 0.3)))) (do (factor (cond (eq $b 2) 1.0 -0.5))))
     (else (set $c (sample (dist bernoulli 0.7))) (do (factor (cond $c 0.9 -0.2)))))
   (return 0)) (entry "m"))"#;
-/// Two coins of which one must fall, and the second more likely without the first.
+/// Two coins, at least one of which must fall; the second is more likely without the first.
 const ONE_FALLS: &str = r#"(module (fn "m" (params)
   (set $a (sample (dist bernoulli 0.5)))
   (set $b (sample (dist bernoulli (cond $a 0.2 0.6))))
@@ -58,35 +58,35 @@ fn net(guide: &Guide) -> &Net {
     }
 }
 
-/// Every run of a program: what a guide would see, its log prior and its log score, nats.
+/// Every run of a program: a guide's rows, the log prior and the log score, nats.
 fn every_run(task: &Task, guide: &Guide) -> Vec<(Rows, f64, f64)> {
     let blank = Arc::new(Guide { form: guide.form.clone(), net: guide.net.clone() });
-    let mut found = HashMap::new();
+    let mut distinct = HashMap::new();
     for stream in 0..500 {
         let run = forward(task, 77, stream, false).unwrap();
-        found.insert((run.log_prior + run.log_score).to_bits(), run);
+        distinct.insert((run.log_prior + run.log_score).to_bits(), run);
     }
-    let one = |run: &niwaki_run::run::Run| {
+    let listed = |run: &niwaki_run::run::Run| {
         let example = Example { task: task.clone(), entries: run.log.entries(), held_out: false };
         (rows(&[&example], &blank, net(guide).form()).unwrap(), run.log_prior, run.log_score)
     };
-    let runs: Vec<_> = found.values().filter(|run| run.cause.is_none()).map(one).collect();
+    let runs: Vec<_> = distinct.values().filter(|run| run.cause.is_none()).map(listed).collect();
     let total = log_sum_exp(runs.iter().map(|run| run.1));
-    assert!(found.len() > runs.len() || total.abs() < 1e-9, "not every run was met: {total}");
+    assert!(distinct.len() > runs.len() || total.abs() < 1e-9, "the list lacks a run: {total}");
     runs
 }
 
-/// Of every run: its probability by the guide, and `log p - log q`, nats.
+/// The probability of every run by the guide, and `log p - log q`, nats.
 fn densities(runs: &[(Rows, f64, f64)], net: &Net, share: f64) -> Vec<(f64, f64)> {
     let exact: Net<f64> = net.convert();
-    let one = |(rows, log_prior, log_score): &(Rows, f64, f64)| {
+    let density = |(rows, log_prior, log_score): &(Rows, f64, f64)| {
         let less = loss(&exact, rows, share) * rows.len() as f64;
         ((log_prior - less).exp(), log_score + less)
     };
-    runs.iter().map(one).collect()
+    runs.iter().map(density).collect()
 }
 
-/// The bound of so many runs, nats, by listing all of them.
+/// The bound of this number of runs, nats, by a list of all of them.
 fn exact_bound(all: &[(f64, f64)], runs: usize) -> f64 {
     let mut sum = 0.0;
     let mut pick = vec![0; runs];
@@ -110,8 +110,8 @@ fn moved(net: &Net, weight: usize, step: f32) -> (Net, f64) {
     (read(&bytes).unwrap().0, f64::from(old + step) - f64::from(old))
 }
 
-/// The mean of 40,000 estimates against differences of the exact bound. All weights together beyond 5.4 standard errors, of
-/// 200 means: once in 10,000 seeds.
+/// The mean of 40,000 estimates against differences of the exact bound. A false alarm, an error of all weights together beyond
+/// 5.4 standard errors of 200 means, happens once in 10,000 seeds.
 fn the_mean_estimate_is_the_gradient(objective: Objective, name: &str, runs: usize) {
     let task = task(TWO_WAYS);
     // A guide that is somewhere between the prior and the posterior.
@@ -171,28 +171,28 @@ fn the_gradient_of_particles_is_that_of_their_exact_bound() {
 fn a_climb_reaches_the_evidence() {
     for objective in ["bound", "particles"] {
         let with = making(objective, &json!({}));
-        let found = climbed(TWO_WAYS, &with, None);
-        let all = every_run(&task(TWO_WAYS), &found.guide);
+        let result = climbed(TWO_WAYS, &with, None);
+        let all = every_run(&task(TWO_WAYS), &result.guide);
         let evidence = log_sum_exp(all.iter().map(|(_, prior, score)| prior + score));
         let runs = if objective == "particles" { with.runs } else { 1 };
-        let reached = exact_bound(&densities(&all, net(&found.guide), with.share), runs);
+        let reached = exact_bound(&densities(&all, net(&result.guide), with.share), runs);
         let prior: f64 = all.iter().map(|(_, prior, score)| prior.exp() * score).sum();
         // The prior has a gap of 0.19 nats; that of eight runs about an eighth of it.
         assert!(evidence - prior > 0.15 && evidence - reached < 0.01, "{objective}: {reached} of {evidence}");
-        assert!(found.diverged.is_none() && found.lost.iter().all(|lost| *lost == [0, 0]));
-        assert!(found.history.last().unwrap().best.0 < found.history[0].held_out);
+        assert!(result.diverged.is_none() && result.lost.iter().all(|lost| *lost == [0, 0]));
+        assert!(result.history.last().unwrap().best.0 < result.history[0].held_out);
     }
 }
 
 #[test]
 fn impossible_runs_are_counted_and_avoided() {
     for objective in ["bound", "particles"] {
-        let found = climbed(ONE_FALLS, &making(objective, &json!({})), None);
-        let all = every_run(&task(ONE_FALLS), &found.guide);
-        let possible: f64 = densities(&all, net(&found.guide), 0.02).iter().map(|run| run.0).sum();
+        let result = climbed(ONE_FALLS, &making(objective, &json!({})), None);
+        let all = every_run(&task(ONE_FALLS), &result.guide);
+        let possible: f64 = densities(&all, net(&result.guide), 0.02).iter().map(|run| run.0).sum();
         // Without a guide 0.5; the share of the prior alone leaves about 0.98. Of several runs one must be possible, no more.
         assert!(possible > 0.95 || objective == "particles", "{objective}: {possible}");
-        assert!(found.lost[1][0] > 20 && found.lost[1][1] == 0 && found.diverged.is_none());
+        assert!(result.lost[1][0] > 20 && result.lost[1][1] == 0 && result.diverged.is_none());
     }
 }
 
@@ -228,10 +228,10 @@ fn threads_and_checkpoints_change_no_bit() {
 #[test]
 fn numbers_that_are_not_finite_keep_the_best_before() {
     let start = climbed(TWO_WAYS, &making("bound", &json!({"steps": 20})), None).guide;
-    let found = climbed(TWO_WAYS, &making("bound", &json!({"rate": 1e38})), Some(&start));
-    assert!(found.diverged.is_some());
+    let result = climbed(TWO_WAYS, &making("bound", &json!({"rate": 1e38})), Some(&start));
+    assert!(result.diverged.is_some());
     let task = task(TWO_WAYS);
-    let all = every_run(&task, &found.guide);
-    assert!(densities(&all, net(&found.guide), 0.02).iter().all(|run| run.1.is_finite()));
-    assert!(BoundGuide::new(Arc::new(found.guide), &task).unwrap().lost.is_empty());
+    let all = every_run(&task, &result.guide);
+    assert!(densities(&all, net(&result.guide), 0.02).iter().all(|run| run.1.is_finite()));
+    assert!(BoundGuide::new(Arc::new(result.guide), &task).unwrap().lost.is_empty());
 }

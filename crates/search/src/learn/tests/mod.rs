@@ -1,4 +1,4 @@
-//! The claim: what `lessons` records for a choice of a trace equals, to the bit, what a guide saw when it drew that choice:
+//! The rows of `lessons` for a choice of a trace equal, to the bit, the inputs of a guide when it drew that choice:
 //! for particles that share their past, that became copies of others, and whose futures ran in any order. In a chain a guide
 //! reads the same variables, lists of cells included.
 
@@ -57,7 +57,7 @@ pub(crate) fn limbs() -> Task {
     Task { sketches: vec![sketch], ..Task::new(Arc::new(program)) }
 }
 
-/// Runs of the prior, to learn from.
+/// Runs of the prior, as examples.
 fn examples(task: &Task) -> Vec<Example> {
     let run = |stream| Some(forward(task, 3, stream, true).ok()?.log.entries());
     let example = |stream| Some(Example { task: task.clone(), entries: run(stream)?, held_out: false });
@@ -72,7 +72,7 @@ fn making() -> Making {
     .unwrap()
 }
 
-/// A guide before training: it draws as the prior does, whatever it sees.
+/// A guide before training: for any input it draws like the prior.
 pub(crate) fn blank(task: &Task) -> Arc<BoundGuide> {
     let form = survey(&examples(task), &making()).unwrap();
     let heads = form.sites.iter().map(|site| site.head).collect();
@@ -94,10 +94,10 @@ fn inputs(sight: &Sight) -> Inputs {
     (window.iter().map(|x| x.to_bits()).collect(), features.iter().map(|(n, x)| (*n, x.to_bits())).collect())
 }
 
-/// A choice by address and value: continuous values are those of one draw alone.
+/// A choice by address and value: each continuous value belongs to a single draw.
 type Drawn = HashMap<(u128, String), Inputs>;
 
-/// Draws by a guide, and notes what it sees.
+/// Draws by a guide, and stores its inputs.
 struct Noting<'a> {
     proposal: &'a Proposal,
     particle: StreamKey,
@@ -108,8 +108,8 @@ struct Noting<'a> {
 impl Chooser for Noting<'_> {
     fn choose(&mut self, at: &At<'_, f64>, dist: &Dist, seen: Context<'_>) -> Result<Option<Chosen>, Fault> {
         let (stream, otherwise) = (self.particle, Prior(self.particle));
-        let own = ByProposal { proposal: self.proposal, stream, sight: &mut *self.sight, otherwise };
-        let chosen = { own }.choose(at, dist, seen)?;
+        let chooser = ByProposal { proposal: self.proposal, stream, sight: &mut *self.sight, otherwise };
+        let chosen = { chooser }.choose(at, dist, seen)?;
         if let Some(chosen) = &chosen {
             self.drawn.insert((seen.address, repr(&chosen.value)?), inputs(self.sight));
         }
@@ -118,7 +118,7 @@ impl Chooser for Noting<'_> {
 }
 
 #[test]
-fn rows_are_what_the_guide_saw() {
+fn rows_equal_the_inputs_of_the_guide() {
     let task = limbs();
     let guide = blank(&task);
     let proposal = Kernel::guided(guide.clone()).proposal().unwrap();
@@ -129,14 +129,14 @@ fn rows_are_what_the_guide_saw() {
     record.sketches.expect_windows();
     let mut all: Vec<Particle> =
         (0..12).map(|lineage| Particle::start(start.clone(), record.fork(), lineage, 7)).collect();
-    // One sight for all of them, as a thread has.
+    // All particles share a sight, as on one thread.
     let (mut drawn, mut sight, mut lineage) = (Drawn::new(), Sight::default(), 12);
     while all.iter().any(Particle::is_running) {
-        for one in &mut all {
+        for particle_to_run in &mut all {
             sight.forget();
-            let particle = one.stream;
+            let particle = particle_to_run.stream;
             let chooser = Noting { proposal: &proposal, particle, sight: &mut sight, drawn: &mut drawn };
-            one.advance(&mut machine, &task, 7, chooser).unwrap();
+            particle_to_run.advance(&mut machine, &task, 7, chooser).unwrap();
         }
         // The worst become copies of the best.
         all.sort_by(|a, b| b.record.log_score().total_cmp(&a.record.log_score()));
@@ -147,8 +147,8 @@ fn rows_are_what_the_guide_saw() {
         }
     }
     let mut compared = 0;
-    for one in &all {
-        let example = Example { task: task.clone(), entries: one.record.log.entries(), held_out: false };
+    for particle in &all {
+        let example = Example { task: task.clone(), entries: particle.record.log.entries(), held_out: false };
         let mut sight = Sight::default();
         follow(&example, &mut |at, dist, seen, value: &Value| {
             guide.look(at, dist, seen, &mut sight, 0).expect("a site that it draws");
@@ -163,7 +163,7 @@ fn rows_are_what_the_guide_saw() {
     assert!(compared > 100, "{compared} choices only");
 }
 
-/// Proposes the value that is there, and notes what a guide reads.
+/// Proposes the old value, and stores the inputs of a guide.
 struct Reading<'a> {
     guide: &'a BoundGuide,
     /// The last part on the call path.

@@ -1,5 +1,5 @@
-//! The claim: a guide that has learned to look ahead, or whose line is absurd, leaves evidence and posterior right; it
-//! foresees by what it will see at the next choices, and learns from rises that are right.
+//! A guide that has learnt to look ahead, or whose line is absurd, leaves evidence and posterior right. It
+//! foresees by its inputs at the next choices, and learns from right rises.
 //!
 //! Limits are those of the parent module; about 150 quantities are looked at.
 
@@ -60,8 +60,8 @@ fn tasks() -> impl Iterator<Item = (&'static str, Task)> {
     plain.chain([("strokes on a page", strokes())])
 }
 
-/// A particle that has not begun, of a run at whose scene a guide may look.
-fn begun(task: &Task, order: &Order, lineage: u64, seed: u64) -> Particle {
+/// A particle before its first step, of a run whose scene a guide may see.
+fn fresh(task: &Task, order: &Order, lineage: u64, seed: u64) -> Particle {
     let mut state = task.start(&task.machine(), *order == Order::DepthFirst).unwrap();
     state.note_parts();
     let mut record = Record::start(&task.sketches);
@@ -69,9 +69,9 @@ fn begun(task: &Task, order: &Order, lineage: u64, seed: u64) -> Particle {
     Particle { past: Past::start(order), ..Particle::start(state, record, lineage, seed) }
 }
 
-/// The same, at its first barrier.
+/// A particle at its first barrier.
 fn at_a_barrier(task: &Task, order: &Order, lineage: u64, seed: u64) -> Particle {
-    let mut particle = begun(task, order, lineage, seed);
+    let mut particle = fresh(task, order, lineage, seed);
     let chooser = Prior(particle.stream);
     particle.advance(&mut task.machine(), task, seed, chooser).unwrap();
     particle
@@ -94,7 +94,7 @@ fn with_line(guide: &Arc<BoundGuide>, task: &Task, ahead: AheadForm) -> Arc<Boun
     Arc::new(BoundGuide::new(Arc::new(Guide { form, net: net.clone() }), task).unwrap())
 }
 
-/// A guide with a line that has been learned, and one with a line that makes no sense.
+/// A guide with a learnt line, and one with a line that makes no sense.
 fn guides(task: &Task) -> [Arc<BoundGuide>; 2] {
     let guide = blank(task);
     let line = learned(task, &guide, &plan(60, 1)).guide.form.ahead.unwrap();
@@ -118,8 +118,8 @@ fn evidence_and_posterior_are_right_when_a_guide_looks_ahead() {
                 (4, Order::Stochastic, Resampling::Tempered, When::Always),
                 (8, Order::DepthFirst, Resampling::Multinomial, low),
             ] {
-                let own = Settings { particles, when, ..settings(order.clone(), resampling) };
-                let scores = z_scores(&task, &looking(&guide, own), 0..2500);
+                let base = Settings { particles, when, ..settings(order.clone(), resampling) };
+                let scores = z_scores(&task, &looking(&guide, base), 0..2500);
                 let line = &guide.guide().form.ahead;
                 assert!(worst(&scores) < LIMIT, "{name}, {order:?}, {line:?}: {scores:?}");
             }
@@ -132,8 +132,8 @@ fn particle_gibbs_keeps_the_posterior_when_a_guide_looks_ahead() {
     for (name, task) in tasks().step_by(2) {
         let starts = exact_draws(&task, 3000);
         for guide in guides(&task) {
-            let own = Settings { particles: 3, ..settings(Order::Stochastic, Resampling::Tempered) };
-            let values = values_after(&task, &starts, &looking(&guide, own), Ancestors::Sampled, 2);
+            let base = Settings { particles: 3, ..settings(Order::Stochastic, Resampling::Tempered) };
+            let values = values_after(&task, &starts, &looking(&guide, base), Ancestors::Sampled, 2);
             let scores = counted(&task, &values);
             assert!(worst(&scores) < LIMIT, "{name}: {scores:?}");
         }
@@ -155,23 +155,23 @@ impl Chooser for Noting<'_> {
         seen: Context<'_>,
     ) -> std::result::Result<Option<Chosen>, Fault> {
         let Network::Shared(net) = &self.guide.guide().net else { panic!("another network") };
-        let mut own = Sight::default();
-        let site = self.guide.look(at, dist, seen, &mut own, 0).expect("a site that it draws");
+        let mut sight = Sight::default();
+        let site = self.guide.look(at, dist, seen, &mut sight, 0).expect("a site that it draws");
         let mut layer = vec![0.0; net.form().hidden[1]];
-        own.hidden(net, site, &mut layer);
+        sight.hidden(net, site, &mut layer);
         self.layers.push(layer);
         self.by.choose(at, dist, seen)
     }
 }
 
 #[test]
-fn it_foresees_by_what_it_will_see_at_the_next_choice() {
+fn guides_foresee_by_the_inputs_of_the_next_choice() {
     let task = limbs();
     let guide = blank(&task);
     let proposal = Kernel::guided(guide.clone()).proposal().unwrap();
     let (mut machine, mut sight, mut compared) = (task.machine(), Sight::default(), 0);
     for lineage in 0..6 {
-        let mut p = begun(&task, &Order::DepthFirst, lineage, 3);
+        let mut p = fresh(&task, &Order::DepthFirst, lineage, 3);
         let mut before: Option<Vec<f64>> = None;
         while p.is_running() {
             let (stream, otherwise) = (p.stream, Prior(p.stream));
@@ -198,7 +198,7 @@ fn it_foresees_by_what_it_will_see_at_the_next_choice() {
 
 #[test]
 fn futures_are_foreseen_together() {
-    // At the barrier after they were created: two come to a choice, one to a barrier, and one waits for a choice's future.
+    // At the barrier after their creation, two futures come to a choice, one to a barrier, and one waits for a choice's future.
     let task = kept(
         r#"(module (fn "a" (params) (set $x (sample (dist bernoulli 0.5))) (do (factor 0.1)) (return $x))
             (fn "b" (params) (do (factor 0.2)) (return 1)) (fn "c" (params $h) (return (force $h)))
@@ -207,16 +207,16 @@ fn futures_are_foreseen_together() {
     );
     let guide = blank(&task);
     let start = task.start(&task.machine(), false).unwrap();
-    let mut one = Particle::start(start, niwaki_run::record::Record::start(&[]), 0, 1);
-    let prior = Prior(one.stream);
-    one.advance_by(&mut task.machine(), &task, |_, _| Some(0), prior).unwrap();
-    let run = Paused { task: &task, record: &one.record, state: &one.state };
+    let mut particle = Particle::start(start, niwaki_run::record::Record::start(&[]), 0, 1);
+    let prior = Prior(particle.stream);
+    particle.advance_by(&mut task.machine(), &task, |_, _| Some(0), prior).unwrap();
+    let run = Paused { task: &task, record: &particle.record, state: &particle.state };
     assert_eq!(run.state.runnable().len(), 4);
     let mut sight = Sight::default();
     let seen = guide.prospect(run, &mut task.machine(), &mut sight, 0);
     assert_eq!(seen[..6], [2.0, 1.0, -2.0, 4.0, -4.0, -2.0]);
     // The run itself has not moved.
-    assert_eq!((one.state.runnable().len(), one.record.log.entries().len()), (4, 0));
+    assert_eq!((particle.state.runnable().len(), particle.record.log.entries().len()), (4, 0));
 }
 
 #[test]
@@ -228,23 +228,25 @@ fn the_rise_is_from_the_score_now_to_the_foreseen_one() {
     assert_eq!(line.rise(&[0.0, 9.0], 2.0), 16.0 - 2.0);
 }
 
-/// What was seen for the forecast is what the guide draws by; a forecast without strength changes no choice.
+/// The inputs for the forecast are those of the draws; a forecast without strength changes no choice.
 #[test]
 fn a_glance_changes_no_draw() {
     for task in [strokes(), limbs()] {
         let guide = trained(&task);
         let line = AheadForm { constant: 1.0, weights: vec![0.1; inputs(&guide)], range: (-2.0, 2.0) };
         let guide = with_line(&guide, &task, line);
-        let own = Settings { particles: 40, seed: 9, ..settings(Order::Stochastic, Resampling::Tempered) };
-        let own = looking(&guide, own);
-        let weak = own.look_ahead.clone().map(|ahead| LookAhead { strength: 1e-300, ..ahead });
+        let settings_ahead =
+            Settings { particles: 40, seed: 9, ..settings(Order::Stochastic, Resampling::Tempered) };
+        let settings_ahead = looking(&guide, settings_ahead);
+        let weak = settings_ahead.look_ahead.clone().map(|ahead| LookAhead { strength: 1e-300, ..ahead });
         let choices = |look_ahead: Option<LookAhead>| {
-            let found = smc(&task, &Settings { look_ahead, ..own.clone() }, &mut |_| true).unwrap();
-            let logs = found.particles.iter().map(|p| p.log.entries());
+            let result =
+                smc(&task, &Settings { look_ahead, ..settings_ahead.clone() }, &mut |_| true).unwrap();
+            let logs = result.particles.iter().map(|p| p.log.entries());
             logs.map(|log| log.iter().map(written).collect::<Vec<_>>()).collect::<Vec<_>>()
         };
         assert_eq!(choices(weak), choices(None));
-        assert_ne!(choices(own.look_ahead.clone()), choices(None));
+        assert_ne!(choices(settings_ahead.look_ahead.clone()), choices(None));
     }
 }
 
@@ -254,7 +256,7 @@ fn inputs(guide: &BoundGuide) -> usize {
 }
 
 #[test]
-fn only_a_guide_that_has_learned_it_looks_ahead() {
+fn guides_without_a_line_do_not_look_ahead() {
     let task = strokes();
     let [taught, _] = guides(&task);
     let plain = Kernel::guided(blank(&task));
@@ -262,7 +264,7 @@ fn only_a_guide_that_has_learned_it_looks_ahead() {
     let both = Kernel::Cycle(vec![plain, Kernel::guided(taught.clone())]);
     let forecast = format!("{:?}", both.proposal().unwrap().forecast().unwrap());
     assert_eq!(forecast, format!("{:?}", Foresight { guide: taught.clone(), owner: 1 }));
-    // Training on changes the network, which the line was for.
+    // Further training changes the network, for which the line was fitted.
     assert_eq!(taught.guide().form.to_train().ahead, None);
 }
 
@@ -277,23 +279,24 @@ const COIN: &str = r#"(module (fn "m" (params)
 #[test]
 fn a_rise_is_an_estimate_without_bias() {
     let task = kept(COIN);
-    let own = Settings { seed: 1, ..settings(Order::DepthFirst, Resampling::Systematic) };
-    let mut one = at_a_barrier(&task, &own.order, 0, own.seed);
-    assert!((one.record.log_score() - 0.4).abs() < 1e-9);
+    let settings_of_rise = Settings { seed: 1, ..settings(Order::DepthFirst, Resampling::Systematic) };
+    let mut particle = at_a_barrier(&task, &settings_of_rise.order, 0, settings_of_rise.seed);
+    assert!((particle.record.log_score() - 0.4).abs() < 1e-9);
     let truth = 0.3 * 0.7_f64.exp() + 0.7 * (-1.1_f64).exp();
     let n = 4000;
-    let found: Vec<f64> =
-        (0..n).map(|number| rise(&task, &own, 3, &mut one, number).unwrap().exp() - truth).collect();
-    let mean = found.iter().sum::<f64>() / n as f64;
-    let error = (found.iter().map(|x| (x - mean).powi(2)).sum::<f64>()).sqrt() / n as f64;
+    let errors: Vec<f64> = (0..n)
+        .map(|number| rise(&task, &settings_of_rise, 3, &mut particle, number).unwrap().exp() - truth)
+        .collect();
+    let mean = errors.iter().sum::<f64>() / n as f64;
+    let error = (errors.iter().map(|x| (x - mean).powi(2)).sum::<f64>()).sqrt() / n as f64;
     assert!(error > 1e-3 && mean.abs() < 5.0 * error, "{mean} {error}");
-    // One that cannot go on gains nothing, ever.
+    // A particle that cannot continue never gains anything.
     let doomed = kept(
         r#"(module (fn "m" (params) (do (factor 0.4)) (set $a (sample (dist bernoulli 0.3)))
             (do (condition (and $a (not $a)))) (return $a)) (entry "m"))"#,
     );
-    let mut one = at_a_barrier(&doomed, &own.order, 0, own.seed);
-    assert_eq!(rise(&doomed, &own, 3, &mut one, 0).unwrap(), f64::NEG_INFINITY);
+    let mut particle = at_a_barrier(&doomed, &settings_of_rise.order, 0, settings_of_rise.seed);
+    assert_eq!(rise(&doomed, &settings_of_rise, 3, &mut particle, 0).unwrap(), f64::NEG_INFINITY);
 }
 
 /// Eight barriers, of which the last is reached by ended particles only: seven are as likely. Each count is binomial; a z
@@ -307,9 +310,9 @@ fn each_barrier_is_as_likely_to_be_kept() {
     let mut counts = [0.0; 7];
     let n = 3000.0;
     for seed in 0..3000 {
-        let own = Settings { seed, ..settings(Order::DepthFirst, Resampling::Systematic) };
-        for one in paused(&task, &own, 2).unwrap() {
-            let at = (one.record.log_score() / 0.1).round() as usize;
+        let base = Settings { seed, ..settings(Order::DepthFirst, Resampling::Systematic) };
+        for particle in paused(&task, &base, 2).unwrap() {
+            let at = (particle.record.log_score() / 0.1).round() as usize;
             counts[at - 1] += 1.0;
         }
     }
@@ -320,12 +323,12 @@ fn each_barrier_is_as_likely_to_be_kept() {
 }
 
 #[test]
-fn it_learns_what_is_still_to_come() {
+fn guides_learn_the_gain_of_paused_runs() {
     let task = strokes();
-    let found = learned(&task, &blank(&task), &plan(400, 2));
-    assert!(found.rises.iter().sum::<usize>() > 600 && found.rises[1] > 200, "{:?}", found.rises);
-    assert_eq!((found.failed, found.died), (0, 0));
-    assert!(found.error[1] < 0.8 * found.deviation, "{:?} {}", found.error, found.deviation);
+    let result = learned(&task, &blank(&task), &plan(400, 2));
+    assert!(result.rises.iter().sum::<usize>() > 600 && result.rises[1] > 200, "{:?}", result.rises);
+    assert_eq!((result.failed, result.died), (0, 0));
+    assert!(result.error[1] < 0.8 * result.deviation, "{:?} {}", result.error, result.deviation);
 }
 
 /// A line in the score alone says the same whether it looks or not.
