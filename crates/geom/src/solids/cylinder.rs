@@ -33,9 +33,9 @@ pub struct Cylinder {
 /// A cylinder with two radii.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct TaperedCylinder {
-    /// At the -y end.
+    /// Radius at the -y end.
     pub radius: f64,
-    /// At the +y end.
+    /// Radius at the +y end.
     pub top_radius: f64,
     /// Along y.
     pub length: f64,
