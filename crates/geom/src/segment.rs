@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tube_is_what_it_was_made_of_to_the_bit() {
+    fn a_tube_keeps_its_frames_to_the_bit() {
         let x = vec3(1.0, -0.0, 0.0);
         let start = frame(vec3(1.0, 2.0, 3.0), UP, x, 0.5);
         let (straight, turned) = (frame(UP, UP, x, 0.4), frame(UP, UP, vec3(1.0, 0.0, 0.0), 0.4));
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn another_branch_through_a_welded_one_is_seen() {
+    fn a_branch_through_a_welded_branch_intersects_it() {
         let (_, branch) = fork(0.5);
         let across =
             Shape::cylinder(vec3(2.0, 2.0, 0.0), 0.2, 4.0, vec3(0.0, 0.0, 1.0), None, &Look::default());

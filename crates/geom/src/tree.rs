@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn it_answers_as_a_list_would() {
+    fn a_tree_agrees_with_a_list() {
         let mut tree = BoxTree::default();
         let mut list: Vec<u64> = Vec::new();
         for k in 0..300 {

@@ -195,7 +195,7 @@ fn copy(shape: &Shape) -> Shape {
 }
 
 #[test]
-fn who_comes_first_does_not_matter_even_at_the_tolerance() {
+fn the_order_does_not_matter_even_at_the_tolerance() {
     let mut dice = Dice::new(4);
     let mut overlapping = 0;
     for _ in 0..2000 {

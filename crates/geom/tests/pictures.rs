@@ -314,7 +314,7 @@ fn scores_do_not_depend_on_the_order_and_removing_undoes_adding() {
 }
 
 #[test]
-fn copies_share_the_tiles_that_neither_changes() {
+fn copies_share_unchanged_tiles() {
     let mut dice = Dice::new(9);
     let picture = disc_picture(&mut dice);
     let mut trunk = PictureMatch::new("match", picture.clone(), 0.02);
@@ -341,7 +341,7 @@ fn first_on(on: usize, greys: Option<Vec<u8>>, multiplier: f64) -> Result<Pictur
 }
 
 #[test]
-fn the_empty_scene_is_scored_as_what_it_is() {
+fn the_empty_scene_is_a_picture_with_all_pixels_off() {
     // The published images: a skyline with 0.2978 of its pixels on, a ship's front with 0.0885.
     for (on, expected) in [(2978, -107.9), (885, -6.8)] {
         let spec = match_image(Arc::new(first_on(on, None, 10.0).unwrap()), 0.02).unwrap();

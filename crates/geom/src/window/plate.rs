@@ -106,7 +106,8 @@ impl Plate {
                 }
             }
         }
-        let mut pairs: Vec<(u32, u32)> = (0..).zip(&rays_of_pixels).map(|(pixel, ray)| (*ray, pixel)).collect();
+        let mut pairs: Vec<(u32, u32)> =
+            (0..).zip(&rays_of_pixels).map(|(pixel, ray)| (*ray, pixel)).collect();
         pairs.retain(|(ray, _)| *ray != NONE);
         self.full = pairs.len() == rays_of_pixels.len();
         pairs.sort_unstable();
