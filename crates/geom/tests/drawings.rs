@@ -19,7 +19,7 @@ use std::sync::Arc;
 struct Known {
     shape: Shape,
     outside: Box<dyn Fn([f64; 2]) -> f64>,
-    /// What a distance of one scene unit is at most.
+    /// The upper bound of a distance of one scene unit.
     unit: f64,
 }
 

@@ -188,7 +188,7 @@ fn boxes_that_touch_in_any_direction_do_not_overlap() {
     }
 }
 
-/// The same coarse mesh as a mesh shape.
+/// A mesh shape of the coarse mesh of a shape.
 fn copy(shape: &Shape) -> Shape {
     let mesh = Arc::new(shape.world_mesh().clone());
     Shape::mesh(&mesh, Vec3::ZERO, 1.0, &Look::default()).unwrap()

@@ -1,5 +1,5 @@
-//! What a store holds does not matter: geometry that is computed again is the same to the bit, and so are the answers. A store
-//! has its limit, whatever is put into it, and holds nothing of shapes that are gone.
+//! No result depends on the content of a store: geometry that is computed again has the same bits. A store keeps its limit,
+//! and has nothing of dropped shapes.
 #![allow(clippy::unwrap_used)] // A test fails where it panics.
 
 mod scenes;

@@ -24,9 +24,9 @@ const BEVEL: f64 = 0.12;
 pub struct Cylinder {
     /// Distance of the vertices from the axis.
     pub radius: f64,
-    /// Along y.
+    /// Length along y.
     pub length: f64,
-    /// Of the polygon.
+    /// Number of sides of the polygon.
     pub sides: usize,
 }
 
@@ -37,9 +37,9 @@ pub struct TaperedCylinder {
     pub radius: f64,
     /// Radius at the +y end.
     pub top_radius: f64,
-    /// Along y.
+    /// Length along y.
     pub length: f64,
-    /// Of the polygon.
+    /// Number of sides of the polygon.
     pub sides: usize,
 }
 
